@@ -1,0 +1,72 @@
+// Boxes: along the world axes, and parallelepipeds as the image of the unit cube.
+#pragma once
+
+#include "csg/roots.hpp"
+
+namespace graycube::csg {
+
+inline Vec3 box_lo(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
+inline Vec3 box_hi(const Primitive& p) { return {p.v[3], p.v[4], p.v[5]}; }
+
+inline Interval box_interval(const Vec3& lo, const Vec3& hi, const Vec3& o, const Vec3& d) {
+  Interval i;
+  for (int a = 0; a < 3; ++a) clip_to_slab(i, lo[a], hi[a], o[a], d[a]);
+  return i;
+}
+
+/// The outward axis direction of the face whose parameter is t; the first axis wins at an edge.
+inline Vec3 box_face(const Vec3& lo, const Vec3& hi, const Vec3& o, const Vec3& d, double t) {
+  for (int a = 0; a < 3; ++a) {
+    Vec3 n;
+    n[a] = 1;
+    if (is_on_plane(hi[a], o[a], d[a], t)) return n;
+    if (is_on_plane(lo[a], o[a], d[a], t)) return -n;
+  }
+  return {};
+}
+
+inline Spans box_spans(const Primitive& p, const Ray& ray) {
+  return spans_of(box_interval(box_lo(p), box_hi(p), ray.origin, ray.direction));
+}
+inline bool box_contains(const Primitive& p, const Vec3& q) {
+  return Aabb{box_lo(p), box_hi(p)}.contains(q);
+}
+inline Vec3 box_normal(const Primitive& p, const Ray& ray, double t) {
+  return box_face(box_lo(p), box_hi(p), ray.origin, ray.direction, t);
+}
+inline CellSide classify_box(const Primitive& p, const Aabb& cell) {
+  const Vec3 lo = box_lo(p);
+  const Vec3 hi = box_hi(p);
+  bool inside = true;
+  for (int a = 0; a < 3; ++a) {
+    if (cell.hi[a] < lo[a] || cell.lo[a] > hi[a]) return CellSide::kOutside;
+    inside = inside && cell.lo[a] > lo[a] && cell.hi[a] < hi[a];
+  }
+  return inside ? CellSide::kInside : CellSide::kCrosses;
+}
+
+inline constexpr Vec3 kCubeLo{0, 0, 0};
+inline constexpr Vec3 kCubeHi{1, 1, 1};
+
+inline Spans parallelepiped_spans(const Primitive& p, const Ray& ray) {
+  return spans_of(box_interval(kCubeLo, kCubeHi, p.to_local.point(ray.origin),
+                               p.to_local.vector(ray.direction)));
+}
+inline bool parallelepiped_contains(const Primitive& p, const Vec3& q) {
+  return Aabb{kCubeLo, kCubeHi}.contains(p.to_local.point(q));
+}
+inline Vec3 parallelepiped_normal(const Primitive& p, const Ray& ray, double t) {
+  const Vec3 local = box_face(kCubeLo, kCubeHi, p.to_local.point(ray.origin),
+                              p.to_local.vector(ray.direction), t);
+  return normalized(p.to_local.transposed_vector(local));
+}
+inline CellSide classify_parallelepiped(const Primitive& p, const Aabb& cell) {
+  const auto misses = [](const Aabb& l) { return !l.overlaps({kCubeLo, kCubeHi}); };
+  const auto holds = [&](const Vec3& q) {
+    const Vec3 l = p.to_local.point(q);
+    return l.x > 0 && l.x < 1 && l.y > 0 && l.y < 1 && l.z > 0 && l.z < 1;
+  };
+  return classify_bounded(p, cell, misses, holds);
+}
+
+}  // namespace graycube::csg

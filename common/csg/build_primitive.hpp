@@ -1,0 +1,31 @@
+// Makes primitives from the shapes of a scene file under an affine map. A shape that stays simple stays
+// simple: a sphere under a similarity is a sphere, a box turned by 90° is still along the axes.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "csg/primitive.hpp"
+
+namespace graycube {
+
+/// All take the map from the shape's coordinates to the world (invertible) and valid shape parameters
+/// (read_scene's limits); `material` is left 0.
+Primitive build_sphere(const Affine& to_world, const Vec3& center, double radius);
+/// The image of the unit sphere under linearly independent axes, moved to `center`.
+Primitive build_ellipsoid(const Affine& to_world, const Vec3& center,
+                          const std::array<Vec3, 3>& axes);
+Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi);
+Primitive build_cylinder(const Affine& to_world, const Vec3& base, const Vec3& top, double radius);
+/// One of the radii may be zero; equal radii give a cylinder.
+Primitive build_cone(const Affine& to_world, const Vec3& base, double base_radius, const Vec3& top,
+                     double top_radius);
+Primitive build_torus(const Affine& to_world, const Vec3& center, const Vec3& axis, double major,
+                      double minor);
+Primitive build_half_space(const Affine& to_world, const Plane& plane);
+/// Appends the faces, in world coordinates and with unit normals, to `planes`.
+Primitive build_polyhedron(const Affine& to_world, std::span<const Plane> faces,
+                           std::vector<Plane>& planes);
+
+}  // namespace graycube

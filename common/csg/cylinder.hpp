@@ -1,0 +1,116 @@
+// Capped cylinders and cones under any affine map. The lateral surface is solved in the primitive's frame;
+// the caps are planes of the world, so that a cap flush with another face has the same parameter.
+#pragma once
+
+#include "csg/half_space.hpp"
+#include "csg/roots.hpp"
+
+namespace graycube::csg {
+
+inline Vec3 cap_normal(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
+
+inline void clip_to_caps(Interval& i, const Primitive& p, const Ray& ray) {
+  const Vec3 n = cap_normal(p);
+  clip_to_slab(i, p.v[3], p.v[4], dot(n, ray.origin), dot(n, ray.direction));
+}
+
+/// The cap that a parameter belongs to, as an outward normal; zero when it is the lateral surface's.
+inline Vec3 cap_at(const Primitive& p, const Ray& ray, double t) {
+  const Vec3 n = cap_normal(p);
+  const double o = dot(n, ray.origin);
+  const double d = dot(n, ray.direction);
+  if (is_on_plane(p.v[4], o, d, t)) return n;
+  if (is_on_plane(p.v[3], o, d, t)) return -n;
+  return {};
+}
+
+inline bool is_between_caps(const Primitive& p, const Vec3& q) {
+  const double h = dot(cap_normal(p), q);
+  return h >= p.v[3] && h <= p.v[4];
+}
+
+/// True when no point of the cell lies between the caps.
+inline bool misses_caps(const Primitive& p, const Aabb& cell) {
+  const Vec3 n = cap_normal(p);
+  return least_along(n, cell) > p.v[4] || greatest_along(n, cell) < p.v[3];
+}
+
+/// Where x² + y² ≤ 1.
+inline Interval tube_interval(const Vec3& o, const Vec3& d) {
+  const double dd = d.x * d.x + d.y * d.y;
+  const double nearest = -(o.x * d.x + o.y * d.y) / dd;
+  if (!std::isfinite(nearest)) {  // parallel to the axis
+    if (o.x * o.x + o.y * o.y > 1) return {kInf, -kInf};
+    return {};
+  }
+  const double x = o.x + nearest * d.x;
+  const double y = o.y + nearest * d.y;
+  const double h2 = 1 - (x * x + y * y);
+  if (!(h2 >= 0)) return {kInf, -kInf};
+  const double half = std::sqrt(h2 / dd);
+  return {nearest - half, nearest + half};
+}
+
+inline Spans cylinder_spans(const Primitive& p, const Ray& ray) {
+  Interval i = tube_interval(p.to_local.point(ray.origin), p.to_local.vector(ray.direction));
+  clip_to_caps(i, p, ray);
+  return spans_of(i);
+}
+inline bool cylinder_contains(const Primitive& p, const Vec3& q) {
+  const Vec3 l = p.to_local.point(q);
+  return l.x * l.x + l.y * l.y <= 1 && is_between_caps(p, q);
+}
+inline Vec3 cylinder_normal(const Primitive& p, const Ray& ray, double t) {
+  const Vec3 cap = cap_at(p, ray, t);
+  if (cap != Vec3{}) return cap;
+  const Vec3 l = p.to_local.point(ray.at(t));
+  return normalized(p.to_local.transposed_vector({l.x, l.y, 0}));
+}
+inline CellSide classify_cylinder(const Primitive& p, const Aabb& cell) {
+  if (misses_caps(p, cell)) return CellSide::kOutside;
+  const auto misses = [](const Aabb& l) {
+    const double x = distance_to_zero(l.lo.x, l.hi.x);
+    const double y = distance_to_zero(l.lo.y, l.hi.y);
+    return x * x + y * y > 1;
+  };
+  return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cylinder_contains(p, q); });
+}
+
+/// w(z) = 1 + k z: the cone's radius at local height z; k in [−1, 0].
+inline double cone_slope(const Primitive& p) { return p.v[5]; }
+
+/// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the caps cut
+/// the other nappe off.
+Interval cone_interval(double k, const Vec3& o, const Vec3& d);
+
+inline Spans cone_spans(const Primitive& p, const Ray& ray) {
+  Interval i = cone_interval(cone_slope(p), p.to_local.point(ray.origin),
+                             p.to_local.vector(ray.direction));
+  if (i.is_empty()) return {};
+  clip_to_caps(i, p, ray);
+  return spans_of(i);
+}
+inline bool cone_contains(const Primitive& p, const Vec3& q) {
+  const Vec3 l = p.to_local.point(q);
+  const double w = 1 + cone_slope(p) * l.z;
+  return w >= 0 && l.x * l.x + l.y * l.y <= w * w && is_between_caps(p, q);
+}
+inline Vec3 cone_normal(const Primitive& p, const Ray& ray, double t) {
+  const Vec3 cap = cap_at(p, ray, t);
+  if (cap != Vec3{}) return cap;
+  const Vec3 l = p.to_local.point(ray.at(t));
+  const double k = cone_slope(p);
+  return normalized(p.to_local.transposed_vector({l.x, l.y, -k * (1 + k * l.z)}));
+}
+inline CellSide classify_cone(const Primitive& p, const Aabb& cell) {
+  if (misses_caps(p, cell)) return CellSide::kOutside;
+  const auto misses = [&](const Aabb& l) {
+    const double x = distance_to_zero(l.lo.x, l.hi.x);
+    const double y = distance_to_zero(l.lo.y, l.hi.y);
+    const double widest = 1 + cone_slope(p) * std::fmin(1, std::fmax(0, l.lo.z));
+    return x * x + y * y > widest * widest;
+  };
+  return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cone_contains(p, q); });
+}
+
+}  // namespace graycube::csg

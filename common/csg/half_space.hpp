@@ -1,0 +1,85 @@
+// Half-spaces, and convex polyhedra as intersections of them. Normals are unit.
+#pragma once
+
+#include <span>
+
+#include "csg/roots.hpp"
+
+namespace graycube::csg {
+
+inline Plane half_space_plane(const Primitive& p) { return {{p.v[0], p.v[1], p.v[2]}, p.v[3]}; }
+
+inline std::span<const Plane> faces_of(const Primitive& p, std::span<const Plane> planes) {
+  return planes.subspan(p.first_plane, p.plane_count);
+}
+
+/// The least (or, negated, the greatest) value of normal · q over a box, which may be unbounded.
+inline double least_along(const Vec3& normal, const Aabb& box) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (normal[a] > 0) sum += normal[a] * box.lo[a];
+    if (normal[a] < 0) sum += normal[a] * box.hi[a];
+  }
+  return sum;
+}
+inline double greatest_along(const Vec3& normal, const Aabb& box) {
+  return -least_along(-normal, box);
+}
+
+inline CellSide classify_plane(const Plane& plane, const Aabb& cell) {
+  if (least_along(plane.normal, cell) > plane.offset) return CellSide::kOutside;
+  return greatest_along(plane.normal, cell) < plane.offset ? CellSide::kInside
+                                                           : CellSide::kCrosses;
+}
+
+inline Spans half_space_spans(const Primitive& p, const Ray& ray) {
+  const Plane f = half_space_plane(p);
+  Interval i;
+  clip_to_half_space(i, f.offset, dot(f.normal, ray.origin), dot(f.normal, ray.direction));
+  return spans_of(i);
+}
+inline bool half_space_contains(const Primitive& p, const Vec3& q) {
+  const Plane f = half_space_plane(p);
+  return dot(f.normal, q) <= f.offset;
+}
+
+inline Spans polyhedron_spans(std::span<const Plane> faces, const Ray& ray) {
+  Interval i;
+  for (const Plane& f : faces) {
+    clip_to_half_space(i, f.offset, dot(f.normal, ray.origin), dot(f.normal, ray.direction));
+    if (i.is_empty()) return {};
+  }
+  return spans_of(i);
+}
+inline bool polyhedron_contains(std::span<const Plane> faces, const Vec3& q) {
+  for (const Plane& f : faces) {
+    if (dot(f.normal, q) > f.offset) return false;
+  }
+  return true;
+}
+/// The first face whose parameter is t.
+inline Vec3 polyhedron_normal(std::span<const Plane> faces, const Ray& ray, double t) {
+  for (const Plane& f : faces) {
+    if (is_on_plane(f.offset, dot(f.normal, ray.origin), dot(f.normal, ray.direction), t)) {
+      return f.normal;
+    }
+  }
+  return {};
+}
+inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> faces,
+                                    const Aabb& cell) {
+  if (!cell.overlaps(p.bounds)) return CellSide::kOutside;
+  bool inside = true;
+  for (const Plane& f : faces) {
+    const CellSide side = classify_plane(f, cell);
+    if (side == CellSide::kOutside) return side;
+    inside = inside && side == CellSide::kInside;
+  }
+  return inside ? CellSide::kInside : CellSide::kCrosses;
+}
+
+/// Bounds of the intersection of the half-spaces; infinite on sides where it is unbounded or its vertices
+/// lie farther out than 1e6 times the largest offset. Empty when the intersection is.
+Aabb polyhedron_bounds(std::span<const Plane> faces);
+
+}  // namespace graycube::csg

@@ -1,0 +1,81 @@
+// A primitive: one leaf of a CSG tree, in world coordinates, ready to be intersected. Solving, bounding and
+// classifying each kind lives in one file per kind; this is what they share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "geometry/aabb.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/ray.hpp"
+
+namespace graycube {
+
+enum class PrimitiveKind : std::uint8_t {
+  kSphere,          // v[0..2] centre, v[3] radius
+  kEllipsoid,       // to_local maps it to the unit sphere
+  kBox,             // v[0..2] lower corner, v[3..5] upper corner, world axes
+  kParallelepiped,  // to_local maps it to the cube [0, 1]³
+  kCylinder,        // to_local: x² + y² ≤ 1; world cap planes in v: normal 0..2, lower 3, upper 4 offset
+  kCone,            // as kCylinder with x² + y² ≤ (1 + v[5] z)², z the height above the larger end, 0 … 1
+  kTorus,           // to_local: major radius 1 about z, minor radius v[0]
+  kHalfSpace,       // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
+  kPolyhedron,      // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
+};
+inline constexpr int kPrimitiveKinds = 9;
+
+struct Plane {
+  Vec3 normal;
+  double offset = 0;
+
+  friend bool operator==(const Plane&, const Plane&) = default;
+};
+
+struct Primitive {
+  PrimitiveKind kind = PrimitiveKind::kSphere;
+  std::uint32_t material = 0;
+  std::uint32_t first_plane = 0;
+  std::uint32_t plane_count = 0;
+  std::array<double, 6> v{};
+  /// World → local; unused by kinds that work in world coordinates.
+  Affine to_local;
+  /// Encloses the solid; infinite where it is unbounded.
+  Aabb bounds;
+
+  friend bool operator==(const Primitive&, const Primitive&) = default;
+};
+
+/// Where a line is inside a primitive: disjoint intervals [enter, leave] in order, ends included,
+/// ±infinity where the primitive is unbounded. Tangency gives an interval of length zero or none.
+struct Spans {
+  static constexpr int kMax = 2;
+  struct Interval {
+    double enter, leave;
+  };
+  int count = 0;
+  std::array<Interval, kMax> interval;
+
+  void add(double enter, double leave) {
+    interval[static_cast<std::size_t>(count++)] = {enter, leave};
+  }
+};
+
+/// The whole line's intervals, negative parameters too, never clipped. −0 is given as +0.
+Spans spans_along(const Primitive& primitive, std::span<const Plane> planes, const Ray& ray);
+
+/// Closed-set membership of a point, up to rounding.
+bool contains(const Primitive& primitive, std::span<const Plane> planes, const Vec3& point);
+
+/// The unit normal pointing out of the primitive at parameter `t` of `ray`, where t is one of the ends that
+/// spans_along gave for the same ray: the face is the one whose root is t.
+Vec3 outward_normal(const Primitive& primitive, std::span<const Plane> planes, const Ray& ray, double t);
+
+enum class CellSide : std::uint8_t { kOutside, kInside, kCrosses };
+
+/// Where a cell lies: wholly outside the primitive, wholly inside, or perhaps crossed by its surface.
+/// Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ already; touching
+/// counts as crossing. Cells may be unbounded.
+CellSide classify(const Primitive& primitive, std::span<const Plane> planes, const Aabb& cell);
+
+}  // namespace graycube

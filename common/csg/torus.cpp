@@ -1,0 +1,162 @@
+#include "csg/torus.hpp"
+
+#include <array>
+
+namespace graycube::csg {
+namespace {
+
+/// f(s) = (s² + 2Bs + A)² − 4 (e s² + 2hs + k) along the line q + s u, |u| = 1: negative inside. Kept in
+/// this form, since the expanded quartic has lost the digits by the time it is evaluated.
+struct TorusLine {
+  double B, A, e, h, k;
+
+  double f(double s) const {
+    const double g = s * (s + 2 * B) + A;
+    return g * g - 4 * (s * (e * s + 2 * h) + k);
+  }
+  double df(double s) const {
+    const double g = s * (s + 2 * B) + A;
+    return 4 * g * (s + B) - 8 * (e * s + h);
+  }
+  double ddf(double s) const {
+    const double g = s * (s + 2 * B) + A;
+    return 4 * g + 8 * (s + B) * (s + B) - 8 * e;
+  }
+};
+
+/// More than enough: each round at least halves the bracket or converges quadratically.
+constexpr int kMaxRounds = 100;
+
+/// The root of `f` in [lo, hi], where f(lo) and f(hi) have opposite signs: Newton, kept in a shrinking
+/// bracket, until the last bit settles.
+template <typename F, typename Derivative>
+double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi) {
+  const bool rises = f(lo) < 0;
+  double s = 0.5 * (lo + hi);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const double value = f(s);
+    if (value == 0) return s;
+    if ((value < 0) == rises) {
+      lo = s;
+    } else {
+      hi = s;
+    }
+    double next = s - value / derivative(s);
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (next == s || !(lo < next && next < hi)) return next;
+    s = next;
+  }
+  return s;
+}
+
+/// Sorted points of [lo, hi] that cut it into pieces on which a function is monotonic, ends included.
+template <int N>
+struct Knots {
+  std::array<double, N> at{};
+  int count = 0;
+  void add(double s) {
+    if (count == 0 || s > at[static_cast<std::size_t>(count - 1)]) at[static_cast<std::size_t>(count++)] = s;
+  }
+};
+
+/// The zeros of f″, a quadratic: 12 s² + 24 B s + 4A + 8B² − 8e.
+void add_inflections(const TorusLine& line, double lo, double hi, Knots<4>& knots) {
+  const double discriminant = line.B * line.B - (line.A + 2 * line.B * line.B - 2 * line.e) / 3;
+  if (discriminant <= 0) return;
+  const double root = std::sqrt(discriminant);
+  for (const double s : {-line.B - root, -line.B + root}) {
+    if (s > lo && s < hi) knots.add(s);
+  }
+}
+
+Knots<5> extremes(const TorusLine& line, double lo, double hi) {
+  Knots<4> inflections;
+  inflections.add(lo);
+  add_inflections(line, lo, hi, inflections);
+  inflections.add(hi);
+  Knots<5> r;
+  r.add(lo);
+  for (int i = 0; i + 1 < inflections.count; ++i) {
+    const double a = inflections.at[static_cast<std::size_t>(i)];
+    const double b = inflections.at[static_cast<std::size_t>(i + 1)];
+    if ((line.df(a) < 0) == (line.df(b) < 0)) continue;
+    r.add(bracketed_root([&](double s) { return line.df(s); },
+                         [&](double s) { return line.ddf(s); }, a, b));
+  }
+  r.add(hi);
+  return r;
+}
+
+}  // namespace
+
+Spans torus_spans(const Primitive& p, const Ray& ray) {
+  const Vec3 o = p.to_local.point(ray.origin);
+  const Vec3 d = p.to_local.vector(ray.direction);
+  const double minor = torus_minor(p);
+  const double speed = length(d);
+  const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
+  const double nearest = -dot(o, u);
+  const Vec3 q = o + nearest * u;
+  const double reach2 = (1 + minor) * (1 + minor) - dot(q, q);
+  if (!(reach2 > 0)) return {};
+  const TorusLine line{dot(q, u), dot(q, q) + 1 - minor * minor, u.x * u.x + u.y * u.y,
+                       q.x * u.x + q.y * u.y, q.x * q.x + q.y * q.y};
+  // A little beyond the bounding sphere, so that both ends lie outside the torus.
+  const double reach = std::sqrt(reach2) * (1 + 1e-6) + 1e-6;
+  const Knots<5> knots = extremes(line, -reach, reach);
+  Spans spans;
+  double enter = 0;
+  bool inside = false;
+  for (int i = 0; i + 1 < knots.count; ++i) {
+    const double a = knots.at[static_cast<std::size_t>(i)];
+    const double b = knots.at[static_cast<std::size_t>(i + 1)];
+    const bool inside_at_b = line.f(b) < 0;
+    if (inside_at_b == inside) continue;
+    const double s = bracketed_root([&](double x) { return line.f(x); },
+                                    [&](double x) { return line.df(x); }, a, b);
+    const double t = (nearest + s) / speed;
+    if (inside) {
+      spans.add(enter + 0.0, t + 0.0);
+    } else {
+      enter = t;
+    }
+    inside = inside_at_b;
+  }
+  return spans;
+}
+
+bool torus_contains(const Primitive& p, const Vec3& q) {
+  const Vec3 l = p.to_local.point(q);
+  const double from_ring = std::sqrt(l.x * l.x + l.y * l.y) - 1;
+  return from_ring * from_ring + l.z * l.z <= torus_minor(p) * torus_minor(p);
+}
+
+Vec3 torus_normal(const Primitive& p, const Vec3& q) {
+  const Vec3 l = p.to_local.point(q);
+  const double rho = std::sqrt(l.x * l.x + l.y * l.y);
+  const double shrink = rho > 0 ? 1 - 1 / rho : 0;
+  return normalized(p.to_local.transposed_vector({l.x * shrink, l.y * shrink, l.z}));
+}
+
+CellSide classify_torus(const Primitive& p, const Aabb& cell) {
+  const Aabb near = intersection_of(cell, p.bounds);
+  if (near.is_empty()) return CellSide::kOutside;
+  const Aabb l = mapped_bounds(p.to_local, near);
+  const auto farther = [](double lo, double hi) { return std::fmax(std::fabs(lo), std::fabs(hi)); };
+  const double x = distance_to_zero(l.lo.x, l.hi.x);
+  const double y = distance_to_zero(l.lo.y, l.hi.y);
+  const double z = distance_to_zero(l.lo.z, l.hi.z);
+  const double far_x = farther(l.lo.x, l.hi.x);
+  const double far_y = farther(l.lo.y, l.hi.y);
+  const double far_z = farther(l.lo.z, l.hi.z);
+  const double least = std::sqrt(x * x + y * y) - 1;
+  const double most = std::sqrt(far_x * far_x + far_y * far_y) - 1;
+  const double ring = distance_to_zero(least, most);
+  const double minor2 = torus_minor(p) * torus_minor(p);
+  if (ring * ring + z * z > minor2) return CellSide::kOutside;
+  const double farthest = std::fmax(std::fabs(least), std::fabs(most));
+  if (near == cell && farthest * farthest + far_z * far_z < minor2) return CellSide::kInside;
+  return CellSide::kCrosses;
+}
+
+}  // namespace graycube::csg

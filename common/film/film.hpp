@@ -1,0 +1,47 @@
+// The accumulator behind a picture: 128-bit sums of fixed-point light.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "film/fixed_point.hpp"
+
+namespace graycube {
+
+/// Larger pictures are neither made nor read.
+inline constexpr std::uint32_t kMaxPictureSide = 1u << 16;
+inline constexpr std::uint64_t kMaxPicturePixels = 1ull << 26;
+
+/// A finished picture: linear 32-bit floats, row-major from the top left, three per pixel.
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<float> rgb;
+
+  friend bool operator==(const Picture&, const Picture&) = default;
+};
+
+class Film {
+ public:
+  /// `rays_per_pixel` is S × S, at least 1; every pixel's sum is divided by it at the end. Sides
+  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 48 bytes each.
+  Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel);
+
+  std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
+  /// Adds light to pixel number y · width + x; the number must be in range.
+  void add(std::uint32_t pixel, const FixedRgb& light);
+  /// Forgets what a pixel has received (its tile will be traced again).
+  void clear(std::uint32_t pixel);
+  /// The mean over each pixel's rays, rounded to float once.
+  Picture develop() const;
+
+ private:
+  __extension__ typedef __int128 Sum;
+  struct Pixel {
+    Sum r = 0, g = 0, b = 0;
+  };
+
+  std::uint32_t width_, height_, rays_per_pixel_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,140 @@
+#include "scene/compile_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "csg/build_primitive.hpp"
+#include "csg/tree.hpp"
+#include "geometry/check.hpp"
+
+namespace graycube {
+namespace {
+
+template <typename... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+
+class Compiler {
+ public:
+  explicit Compiler(const Scene& scene) : scene_(scene) {}
+
+  Model run() {
+    model_.settings = scene_.settings;
+    for (const NamedMaterial& m : scene_.materials) model_.materials.push_back(m.material);
+    for (const SceneObject& object : scene_.objects) add_object(object);
+    model_.delta = delta();
+    return std::move(model_);
+  }
+
+ private:
+  /// What a node inherits from those above it.
+  struct Context {
+    Affine to_world;
+    MaterialIndex material = kInheritMaterial;
+    bool inverted = false;
+  };
+
+  void add_object(const SceneObject& object) {
+    Object out;
+    out.id = static_cast<std::uint32_t>(model_.objects.size());
+    out.first_node = static_cast<std::uint32_t>(model_.nodes.size());
+    emit(object.csg, {.to_world = {}, .material = object.material, .inverted = false});
+    out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
+    const std::span<const TreeNode> tree{model_.nodes.data() + out.first_node, out.node_count};
+    out.bounds = bounds_of(tree, model_.primitives);
+    model_.objects.push_back(out);
+  }
+
+  void emit(const CsgNode& node, Context context) {
+    if (node.transform) context.to_world = compose(context.to_world, *node.transform);
+    if (node.material != kInheritMaterial) context.material = node.material;
+    std::visit(
+        Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
+                   [&](const ReferenceNode& n) { emit(scene_.shapes[n.shape].node, context); },
+                   [&](const auto& shape) { emit_leaf(build(context.to_world, shape), context); }},
+        node.value);
+  }
+
+  void emit_operation(const OperationNode& n, const Context& context) {
+    if (n.operation == Operation::kComplement) {
+      Context inverted = context;
+      inverted.inverted = !context.inverted;
+      emit(n.children.front(), inverted);
+      return;
+    }
+    // De Morgan: inversion swaps ∧ and ∨ and goes on to the leaves.
+    const bool is_and = (n.operation != Operation::kUnion) != context.inverted;
+    const auto kind = is_and ? TreeNode::Kind::kAnd : TreeNode::Kind::kOr;
+    const std::size_t start = model_.nodes.size();
+    if (n.children.size() > 1) model_.nodes.push_back({kind, 0, 1});
+    for (std::size_t i = 0; i < n.children.size(); ++i) {
+      Context child = context;
+      if (n.operation == Operation::kDifference && i > 0) child.inverted = !context.inverted;
+      const std::size_t at = model_.nodes.size();
+      emit(n.children[i], child);
+      if (n.children.size() > 1 && model_.nodes[at].kind == kind) {
+        model_.nodes.erase(model_.nodes.begin() + static_cast<std::ptrdiff_t>(at));
+      }
+    }
+    if (n.children.size() > 1) {
+      model_.nodes[start].size = static_cast<std::uint32_t>(model_.nodes.size() - start);
+    }
+  }
+
+  void emit_leaf(Primitive primitive, const Context& context) {
+    GRAYCUBE_CHECK(context.material != kInheritMaterial, "a leaf without a material");
+    primitive.material = context.material;
+    const auto kind = context.inverted ? TreeNode::Kind::kInvertedLeaf : TreeNode::Kind::kLeaf;
+    model_.nodes.push_back({kind, static_cast<std::uint32_t>(model_.primitives.size()), 1});
+    model_.primitives.push_back(primitive);
+  }
+
+  static Primitive build(const Affine& m, const SphereShape& s) {
+    return build_sphere(m, s.center, s.radius);
+  }
+  static Primitive build(const Affine& m, const BoxShape& s) { return build_box(m, s.min, s.max); }
+  static Primitive build(const Affine& m, const CylinderShape& s) {
+    return build_cylinder(m, s.base, s.top, s.radius);
+  }
+  static Primitive build(const Affine& m, const ConeShape& s) {
+    return build_cone(m, s.base, s.base_radius, s.top, s.top_radius);
+  }
+  static Primitive build(const Affine& m, const TorusShape& s) {
+    return build_torus(m, s.center, s.axis, s.major, s.minor);
+  }
+  static Primitive build(const Affine& m, const HalfSpaceShape& s) {
+    return build_half_space(m, {s.normal, s.offset});
+  }
+  static Primitive build(const Affine& m, const EllipsoidShape& s) {
+    return build_ellipsoid(m, s.center, s.axes);
+  }
+  Primitive build(const Affine& m, const PolyhedronShape& s) {
+    std::vector<Plane> faces;
+    for (const HalfSpaceShape& f : s.planes) faces.push_back({f.normal, f.offset});
+    return build_polyhedron(m, faces, model_.planes);
+  }
+
+  double delta() const {
+    double largest = max_abs(scene_.settings.camera.eye);
+    for (const PointLight& l : scene_.settings.lights) {
+      largest = std::fmax(largest, max_abs(l.position));
+    }
+    for (const Primitive& p : model_.primitives) {
+      for (int a = 0; a < 3; ++a) {
+        if (std::isfinite(p.bounds.lo[a])) largest = std::fmax(largest, std::fabs(p.bounds.lo[a]));
+        if (std::isfinite(p.bounds.hi[a])) largest = std::fmax(largest, std::fabs(p.bounds.hi[a]));
+      }
+    }
+    return 1e-9 * largest;
+  }
+
+  const Scene& scene_;
+  Model model_;
+};
+
+}  // namespace
+
+Model compile_scene(const Scene& scene) { return Compiler(scene).run(); }
+
+}  // namespace graycube

@@ -1,0 +1,69 @@
+// Reads the tree that OpenSCAD writes with `openscad -o MODEL.csg MODEL.scad`: primitives,
+// matrices, Boolean operations and colours, everything else evaluated away. OpenSCAD 2021.01 is the
+// reference for what empty operands, degenerate primitives and the modifiers % # ! * mean.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace graycube {
+
+/// Limits of one file. What goes past them is an error naming the line, before memory is taken.
+inline constexpr std::size_t kMaxOpenscadBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kMaxOpenscadModules = std::size_t{1} << 20;
+/// Numbers, strings and lists among the arguments, in the whole file.
+inline constexpr std::size_t kMaxOpenscadValues = std::size_t{1} << 22;
+/// Modules inside modules, and lists inside lists.
+inline constexpr int kMaxOpenscadNesting = 512;
+inline constexpr int kMaxOpenscadListNesting = 16;
+inline constexpr std::size_t kMaxOpenscadPoints = 4096;
+inline constexpr std::size_t kMaxOpenscadFaces = 4096;
+/// Errors and warnings that are kept; one more line counts the rest.
+inline constexpr std::size_t kMaxOpenscadErrors = 100;
+inline constexpr std::size_t kMaxOpenscadWarnings = 100;
+/// Coordinates beyond this are an error; solids thinner than its inverse count as empty.
+inline constexpr double kMaxOpenscadCoordinate = 1e30;
+
+/// What a .csg file doesn't say.
+struct OpenscadOptions {
+  /// Both sides at least 1; the camera is framed for this picture.
+  ImageSize image{512, 512, 1};
+  /// The full horizontal angle, 0 < fov < 180.
+  double fov_degrees = 30;
+  /// Share of the picture's width or height left free on each side, 0 ≤ margin < 0.5.
+  double margin = 0.08;
+  std::uint32_t max_depth = 5;
+};
+
+/// `line` counts from 1; 0 stands for the whole file.
+struct OpenscadError {
+  int line = 0;
+  std::string message;
+};
+
+/// `scene` is there exactly when `errors` is empty. Errors are in the order of their lines.
+/// Warnings start with "line N: " unless they are about the whole file; they tell of solids that
+/// OpenSCAD leaves out, too.
+struct OpenscadResult {
+  std::optional<Scene> scene;
+  std::vector<OpenscadError> errors;
+  std::vector<std::string> warnings;
+};
+
+/// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction of
+/// view, framed, with two lights and a grey background. Never throws for what is in `text`,
+/// whatever it is.
+///
+/// Spheres and cylinders are exact, unless $fn asks for 8 sides or fewer: then they are the
+/// polyhedra that OpenSCAD builds. Parts outside any difference and intersection become objects of
+/// their own, unless some part is transparent: inner surfaces would show, so then the file is one
+/// object, a union.
+OpenscadResult read_openscad_csg(std::string_view text, const OpenscadOptions& options = {});
+
+}  // namespace graycube

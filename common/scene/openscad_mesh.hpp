@@ -1,0 +1,42 @@
+// Closed polygon meshes, as OpenSCAD's polyhedron() and its few-sided cylinders and spheres have
+// them, and the half-spaces of those that are convex.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace graycube {
+
+/// Faces are cycles of indices into `points`, turned either way.
+struct ScadMesh {
+  std::vector<Vec3> points;
+  std::vector<std::vector<std::uint32_t>> faces;
+};
+
+/// Exactly one of: planes (outward unit normals), a problem, flat.
+struct ConvexPlanes {
+  std::vector<HalfSpaceShape> planes;
+  /// Why the mesh isn't the surface of a convex solid; follows "polyhedron() ".
+  std::string problem;
+  /// The mesh encloses no volume.
+  bool flat = false;
+};
+
+/// The planes of a convex mesh, coplanar faces merged. Every index must be in range, every
+/// coordinate finite and at most kMaxOpenscadCoordinate. Points count as lying on a plane within
+/// the rounding of the six digits that OpenSCAD writes; which side of a face is outside is seen
+/// from the other points.
+ConvexPlanes convex_planes(const ScadMesh& mesh);
+
+/// What OpenSCAD builds for cylinder(): prisms, frusta and pyramids of `sides` ≥ 3 sides about z,
+/// the first corner at angle 0; one of the radii may be zero.
+ScadMesh faceted_cylinder(double z_low, double z_high, double r_low, double r_high, int sides);
+
+/// What OpenSCAD builds for sphere(): (sides + 1) / 2 rings of `sides` ≥ 3 corners at the polar
+/// angles 180° (i + ½) / rings, and a flat cap at each pole.
+ScadMesh faceted_sphere(double radius, int sides);
+
+}  // namespace graycube

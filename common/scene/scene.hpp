@@ -1,0 +1,126 @@
+// The scene as plain values, close to the file (design contract: README, "Scene file"). Nothing here is
+// compiled, expanded or checked for meaning beyond what `read_scene` promises.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/affine.hpp"
+#include "geometry/vec.hpp"
+#include "shading/material.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+
+/// Index into `Scene::materials`.
+using MaterialIndex = std::uint32_t;
+inline constexpr MaterialIndex kInheritMaterial = 0xFFFFFFFFu;
+
+struct CsgNode;
+
+struct SphereShape {
+  Vec3 center;
+  double radius = 0;
+  friend bool operator==(const SphereShape&, const SphereShape&) = default;
+};
+struct BoxShape {
+  Vec3 min, max;
+  friend bool operator==(const BoxShape&, const BoxShape&) = default;
+};
+struct CylinderShape {
+  Vec3 base, top;
+  double radius = 0;
+  friend bool operator==(const CylinderShape&, const CylinderShape&) = default;
+};
+/// Capped; one of the radii may be zero.
+struct ConeShape {
+  Vec3 base;
+  double base_radius = 0;
+  Vec3 top;
+  double top_radius = 0;
+  friend bool operator==(const ConeShape&, const ConeShape&) = default;
+};
+/// 0 < minor < major.
+struct TorusShape {
+  Vec3 center, axis;
+  double major = 0, minor = 0;
+  friend bool operator==(const TorusShape&, const TorusShape&) = default;
+};
+/// The points with normal · p ≤ offset.
+struct HalfSpaceShape {
+  Vec3 normal;
+  double offset = 0;
+  friend bool operator==(const HalfSpaceShape&, const HalfSpaceShape&) = default;
+};
+/// The image of the unit sphere under the three axes, moved to `center`.
+struct EllipsoidShape {
+  Vec3 center;
+  std::array<Vec3, 3> axes;
+  friend bool operator==(const EllipsoidShape&, const EllipsoidShape&) = default;
+};
+/// The points with normal · p ≤ offset for every plane: convex, perhaps unbounded.
+struct PolyhedronShape {
+  std::vector<HalfSpaceShape> planes;
+  friend bool operator==(const PolyhedronShape&, const PolyhedronShape&) = default;
+};
+
+enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
+/// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
+struct OperationNode {
+  Operation operation = Operation::kUnion;
+  std::vector<CsgNode> children;
+  friend bool operator==(const OperationNode&, const OperationNode&);
+};
+/// A use of `Scene::shapes[shape]`.
+struct ReferenceNode {
+  std::uint32_t shape = 0;
+  friend bool operator==(const ReferenceNode&, const ReferenceNode&) = default;
+};
+
+struct CsgNode {
+  std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape, TorusShape,
+               HalfSpaceShape, EllipsoidShape, PolyhedronShape>
+      value;
+  /// The node's whole `transform` list, composed; applied to everything below.
+  std::optional<Affine> transform;
+  /// The nearest one up the tree wins.
+  MaterialIndex material = kInheritMaterial;
+
+  friend bool operator==(const CsgNode&, const CsgNode&) = default;
+};
+inline bool operator==(const OperationNode& a, const OperationNode& b) {
+  return a.operation == b.operation && a.children == b.children;
+}
+
+struct NamedMaterial {
+  std::string name;
+  Material material;
+  friend bool operator==(const NamedMaterial&, const NamedMaterial&) = default;
+};
+struct NamedShape {
+  std::string name;
+  CsgNode node;
+  friend bool operator==(const NamedShape&, const NamedShape&) = default;
+};
+/// An independent solid. `material` may be kInheritMaterial when every leaf has one of its own.
+struct SceneObject {
+  std::string name;
+  MaterialIndex material = kInheritMaterial;
+  CsgNode csg;
+  friend bool operator==(const SceneObject&, const SceneObject&) = default;
+};
+
+struct Scene {
+  RenderSettings settings;
+  std::vector<NamedMaterial> materials;
+  std::vector<NamedShape> shapes;
+  std::vector<SceneObject> objects;
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+}  // namespace graycube

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace graycube {
+
+struct PovScene {
+  /// Scene description language of POV-Ray 3.7. Its first lines tell the command that renders it.
+  std::string text;
+  /// What POV-Ray can't compute as Graycube does, one sentence each.
+  std::vector<std::string> warnings;
+};
+
+/// The scene for POV-Ray. On what both can represent the two compute the same light (README, "Scene file").
+/// The scene must be one that the reader could have given.
+PovScene write_pov(const Scene& scene);
+
+}  // namespace graycube

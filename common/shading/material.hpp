@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/vec.hpp"
+
+namespace graycube {
+
+enum class ShadingModel : std::uint8_t { kPhong, kTorranceSparrow, kHallGreenberg };
+
+/// Coefficients of the photometric model, all ≥ 0, transmit ≤ 1, ior > 0.
+struct Material {
+  Rgb color{1, 1, 1};
+  double ambient = 0.1;
+  double diffuse = 0.9;
+  double specular = 0;
+  double shininess = 1;
+  double reflect = 0;
+  double transmit = 0;
+  double ior = 1;
+  ShadingModel model = ShadingModel::kPhong;
+
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
+}  // namespace graycube

@@ -1,0 +1,68 @@
+// Everything of a scene that is not a solid: picture, camera, lights, limits of the photometric tree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/vec.hpp"
+
+namespace graycube {
+
+struct ImageSize {
+  std::uint32_t width = 0, height = 0;
+  /// S: every pixel takes S × S primary rays.
+  std::uint32_t samples = 1;
+
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+/// Largest width and height, and largest number of pixels (a 128-bit film of it takes 3 GiB).
+inline constexpr std::uint32_t kMaxImageSide = 16384;
+inline constexpr std::uint64_t kMaxPixels = 1ull << 26;
+inline constexpr std::uint32_t kMaxSamples = 64;
+
+enum class Projection : std::uint8_t { kPerspective, kOrthographic };
+enum class Handedness : std::uint8_t { kRight, kLeft };
+
+struct Camera {
+  Projection projection = Projection::kPerspective;
+  Vec3 eye, look_at, up;
+  /// Perspective: the full horizontal angle, in degrees, 0 < fov < 180.
+  double fov_degrees = 0;
+  /// Orthographic: the picture's width in scene units.
+  double width = 0;
+  Handedness handedness = Handedness::kRight;
+
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+enum class Falloff : std::uint8_t { kNone, kInverseSquare };
+
+struct PointLight {
+  Vec3 position;
+  Rgb color{1, 1, 1};
+  Falloff falloff = Falloff::kNone;
+
+  friend bool operator==(const PointLight&, const PointLight&) = default;
+};
+
+inline constexpr std::uint32_t kMaxDepth = 1000;
+inline constexpr std::uint32_t kMaxLights = 4096;
+/// The deepest photometric tree and the most lights whose credit fits the 320 bits of a tile's sum:
+/// what `roth` and `macro` accept.
+inline constexpr std::uint32_t kMaxCreditDepth = 120;
+inline constexpr std::uint32_t kMaxCreditLights = 64;
+
+struct RenderSettings {
+  ImageSize image;
+  Camera camera;
+  Rgb background{0, 0, 0};
+  Rgb ambient{1, 1, 1};
+  std::uint32_t max_depth = 5;
+  double min_weight = 0;
+  std::vector<PointLight> lights;
+
+  friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
+};
+
+}  // namespace graycube

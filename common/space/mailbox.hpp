@@ -1,0 +1,69 @@
+// What one evaluator remembers of the ray under way: a small direct-mapped cache of intersections, so that
+// a primitive that reaches into several leaf regions is intersected once (Arnaldi's mailbox), and scratch
+// space. One per thread; nothing in it is shared or survives a ray's meaning.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "csg/model.hpp"
+
+namespace graycube {
+
+/// Work done, for benchmarks and guards that count instead of timing.
+struct WalkCounts {
+  std::uint64_t cells_visited = 0;
+  std::uint64_t primitives_tested = 0;
+
+  void add(const WalkCounts& o) {
+    cells_visited += o.cells_visited;
+    primitives_tested += o.primitives_tested;
+  }
+};
+
+class Mailbox {
+ public:
+  /// Forgets all intersections: call before each new ray.
+  void begin_ray() {
+    if (++ray_ == 0) [[unlikely]] {
+      entries_.fill({});
+      ray_ = 1;
+    }
+  }
+
+  /// The intervals of a primitive along the ray under way.
+  const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
+    Entry& e = entries_[primitive % kEntries];
+    if (e.ray != ray_ || e.primitive != primitive) {
+      e.ray = ray_;
+      e.primitive = primitive;
+      e.spans = spans_along(model.primitives[primitive], model.planes, ray);
+      ++counts.primitives_tested;
+    }
+    return e.spans;
+  }
+
+  WalkCounts counts;
+
+  /// A crossing of one literal of a program.
+  struct Event {
+    double t;
+    std::uint32_t literal;
+  };
+  std::vector<Event> events;
+  /// One bit a literal: inside its primitive?
+  std::vector<std::uint64_t> flags_before, flags_after;
+
+ private:
+  static constexpr std::size_t kEntries = 128;
+  struct Entry {
+    std::uint32_t ray = 0;
+    std::uint32_t primitive = 0;
+    Spans spans;
+  };
+  std::array<Entry, kEntries> entries_{};
+  std::uint32_t ray_ = 0;
+};
+
+}  // namespace graycube

@@ -1,0 +1,27 @@
+// Light on its way to the picture, and the credit that comes back with it.
+#pragma once
+
+#include <cstdint>
+
+#include "coordination/credit.hpp"
+#include "film/fixed_point.hpp"
+
+namespace graycube {
+
+/// Light for one pixel; several contributions to it may have been merged into one.
+struct Contribution {
+  std::uint32_t pixel = 0;
+  FixedRgb light;
+
+  friend bool operator==(const Contribution&, const Contribution&) = default;
+};
+
+/// Credit of one tile.
+struct TileCredit {
+  std::uint32_t tile = 0;
+  Credit credit;
+
+  friend bool operator==(const TileCredit&, const TileCredit&) = default;
+};
+
+}  // namespace graycube

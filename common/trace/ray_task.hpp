@@ -1,0 +1,38 @@
+// A ray under way: what an evaluator consumes, what crosses a macro-region's boundary, what goes on the wire.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/ray.hpp"
+#include "geometry/vec.hpp"
+#include "space/macro_grid.hpp"
+
+namespace graycube {
+
+enum class RayKind : std::uint8_t { kPrimary, kShadow, kReflection, kRefraction };
+inline constexpr int kRayKinds = 4;
+
+struct RayTask {
+  /// As created; never restarted at a boundary, so that every node computes the same t.
+  Ray ray;
+  /// The parameter reached so far: crossings before it are behind the ray.
+  double t = 0;
+  /// Shadow rays: crossings at or beyond it don't count. Infinity otherwise.
+  double t_max = 0;
+  /// The product of Kr and Kt from the root of the photometric tree; for a shadow ray the light that
+  /// arrives if nothing opaque stands in the way.
+  Rgb weight;
+  /// y · width + x.
+  std::uint32_t pixel = 0;
+  RayKind kind = RayKind::kPrimary;
+  /// e: the ray holds 2^-e of its primary ray's credit.
+  std::uint8_t credit_exponent = 0;
+  /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
+  std::uint16_t depth = 0;
+  /// The macro-region that the ray is in at t.
+  RegionIndex region;
+
+  friend bool operator==(const RayTask&, const RayTask&) = default;
+};
+
+}  // namespace graycube

@@ -1,0 +1,32 @@
+// What travels over a link: one frame, or two where a control message has a binary payload behind it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graycube {
+
+using Bytes = std::vector<std::byte>;
+
+struct Message {
+  Bytes frame;
+  Bytes payload;
+
+  static Message of_text(std::string_view text, Bytes payload = {}) {
+    Message m;
+    const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+    m.frame.assign(bytes.begin(), bytes.end());
+    m.payload = std::move(payload);
+    return m;
+  }
+  static Message of_batch(Bytes batch) { return {std::move(batch), {}}; }
+
+  std::string_view text() const {
+    return {reinterpret_cast<const char*>(frame.data()), frame.size()};
+  }
+};
+
+}  // namespace graycube

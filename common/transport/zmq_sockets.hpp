@@ -1,0 +1,102 @@
+// ZeroMQ, and the only place that knows it. High-water marks are 0: flow is controlled by credits of our own
+// (a ROUTER silently drops past its mark).
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "transport/message.hpp"
+
+namespace graycube {
+
+/// A socket could not be made, bound or connected; what() says which endpoint and why.
+struct TransportError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Longest message accepted from a peer, both frames together.
+inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 31;
+
+/// One per process; sockets must not outlive it.
+class ZmqContext {
+ public:
+  ZmqContext();
+  ~ZmqContext();
+  ZmqContext(const ZmqContext&) = delete;
+  ZmqContext& operator=(const ZmqContext&) = delete;
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A file descriptor that another thread makes readable.
+class Wakeup {
+ public:
+  Wakeup();
+  ~Wakeup();
+  Wakeup(const Wakeup&) = delete;
+  Wakeup& operator=(const Wakeup&) = delete;
+  /// Any thread.
+  void signal();
+  void clear();
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// The connecting end (DEALER).
+class Connection {
+ public:
+  /// Connecting itself never fails: messages wait until the peer is there.
+  Connection(ZmqContext& context, const std::string& endpoint);
+  ~Connection();
+  Connection(Connection&&) noexcept;
+  /// Never blocks; messages queue while the peer isn't there.
+  void send(const Message& message);
+  /// Nothing when no message is waiting.
+  std::optional<Message> receive();
+  /// As receive, waiting for up to `timeout`.
+  std::optional<Message> receive(std::chrono::milliseconds timeout);
+  void* raw();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The listening end (ROUTER).
+class Inbox {
+ public:
+  /// Throws TransportError when the endpoint can't be bound, also when somebody answers there already.
+  Inbox(ZmqContext& context, const std::string& endpoint);
+  ~Inbox();
+  struct Received {
+    std::string peer;
+    Message message;
+  };
+  std::optional<Received> receive();
+  /// To a peer that has sent something before; dropped when it has gone.
+  void send(const std::string& peer, const Message& message);
+  /// The endpoint bound, with the port that was picked.
+  const std::string& endpoint() const;
+  void* raw();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Waits until one of the sockets (raw()) or descriptors is readable, or the time is up. An interrupting
+/// signal ends the wait early.
+void wait_readable(std::span<void* const> sockets, std::span<const int> descriptors,
+                   std::chrono::milliseconds timeout);
+
+}  // namespace graycube

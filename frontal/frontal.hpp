@@ -1,0 +1,160 @@
+// The frontal's brain: a state machine over nodes, clients and a queue of jobs. Messages, deaths, the time
+// and results of preparation go in; messages, and requests to start or end nodes, come out. main.cpp wires
+// sockets, processes and clocks on; the simulation others.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "frontal/job_store.hpp"
+#include "frontal/preparation.hpp"
+#include "frontal/render_job.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+/// A connection, as the transport names it.
+using PeerId = std::string;
+
+inline constexpr std::size_t kMaxQueuedJobs = 1000;
+inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
+/// Rows of a picture are sent in messages of about this size.
+inline constexpr std::size_t kPictureChunkBytes = std::size_t{8} << 20;
+
+struct FrontalOptions {
+  Hypercube cube;
+  /// Evaluator threads per node.
+  std::uint32_t threads = 1;
+  double heartbeat_s = 1;
+  /// A node that answers nothing for so long is taken for dead.
+  double silence_s = 10;
+  std::string version;
+};
+
+class Frontal {
+ public:
+  struct Outgoing {
+    PeerId to;
+    Message message;
+  };
+  /// Start a process for the rank, with that start number.
+  struct Spawn {
+    Rank rank;
+    std::uint32_t incarnation;
+  };
+
+  Frontal(FrontalOptions options, JobStore& store);
+
+  /// Seconds on a clock that never goes back, and Unix time. Call before the events of that moment; also
+  /// pings, notices silence and timeouts, and reports progress.
+  void on_time(double now_s, double unix_s);
+  void on_message(const PeerId& peer, const Message& message);
+  /// A node's process has ended; `how` for people ("killed by signal 9").
+  void on_node_exit(Rank rank, std::uint32_t incarnation, const std::string& how);
+
+  /// Preparing the next job, if there is one to prepare.
+  std::optional<PreparationWork> take_work();
+  void give_result(PreparationResult result);
+
+  std::vector<Outgoing> take_outgoing();
+  std::vector<Spawn> take_spawns();
+  /// Silent nodes, whose processes are to be ended.
+  std::vector<Spawn> take_kills();
+  /// After `down`: nodes have been told to stop, and so should the process, once all have left.
+  bool is_going_down() const { return going_down_; }
+  bool all_nodes_left() const;
+  /// A client's or the operator's wish to stop.
+  void go_down();
+
+  /// CPU seconds that this process has used so far; for the statistics.
+  std::function<double()> cpu_seconds = [] { return 0.0; };
+
+ private:
+  struct NodeRecord {
+    std::uint32_t incarnation = 0;
+    PeerId peer;  // empty until its hello
+    std::uint64_t pid = 0;
+    std::string endpoint;
+    std::uint32_t threads = 1;
+    double last_heard_s = 0;
+    bool is_lost = false;
+    bool has_left = false;
+  };
+  struct QueuedJob {
+    control::JobInfo info;
+    PreparationWork work;
+    PeerId client;
+    double submitted_at_s = 0;
+  };
+  struct Running {
+    control::JobInfo info;
+    control::JobOptions options;
+    double submitted_at_s = 0, began_at_s = 0, build_began_s = 0, render_began_s = 0, render_ended_s = 0;
+    double cpu_at_start_s = 0;
+    double last_progress_s = 0;
+    bool is_preparing = false;
+    std::optional<RenderJob> render;
+    bool is_loaded = false, is_started = false, is_finishing = false;
+  };
+
+  // frontal_clients.cpp
+  void on_client(const PeerId& peer, const ControlMessage& message, const Message& raw);
+  void on_submit(const PeerId& peer, const control::Submit& m, const Bytes& scene);
+  void on_watch(const PeerId& peer, std::uint32_t job);
+  void on_cancel(const PeerId& peer, std::uint32_t job);
+  void on_fetch(const PeerId& peer, const control::Fetch& m);
+  void send_list(const PeerId& peer);
+  void send_nodes(const PeerId& peer);
+  std::optional<control::JobInfo> find_info(std::uint32_t job) const;
+  void refuse(const PeerId& peer, std::uint32_t job, FailureCode code, std::string where,
+              std::string why);
+  void report_progress(bool at_once);
+  control::Progress progress_of(const control::JobInfo& info) const;
+
+  // frontal.cpp
+  void on_hello(const PeerId& peer, const control::Hello& m);
+  void on_node(Rank rank, const ControlMessage& message);
+  std::optional<Rank> rank_of(const PeerId& peer) const;
+  void lose(Rank rank, const std::string& how);
+  void spawn(Rank rank);
+  void welcome_all();
+  bool all_nodes_here() const;
+  void send(const PeerId& peer, const ControlMessage& message, Bytes payload = {});
+  void send_to_nodes(const ControlMessage& message);
+
+  void start_next_job();
+  void load_when_possible();
+  void start_rendering();
+  void hand_out(Rank rank);
+  void on_contributions(Rank rank, const Bytes& batch);
+  void finish_when_complete();
+  void complete();
+  void end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors);
+  void end_queued(std::size_t index, JobState state, FailureCode code, const std::string& why);
+  void keep(EndedJob job, const Picture& picture);
+  std::string statistics() const;
+
+  FrontalOptions options_;
+  JobStore& store_;
+  double now_s_ = 0, unix_s_ = 0, last_ping_s_ = 0;
+  std::uint64_t pings_ = 0;
+  std::vector<NodeRecord> nodes_;
+  std::map<PeerId, Rank> node_peers_;
+  std::uint32_t next_job_ = 1, next_incarnation_ = 1;
+  std::deque<QueuedJob> queue_;
+  std::optional<Running> running_;
+  std::deque<EndedJob> ended_;
+  std::map<std::uint32_t, std::set<PeerId>> watchers_;
+  std::vector<Outgoing> outgoing_;
+  std::vector<Spawn> spawns_, kills_;
+  bool going_down_ = false;
+};
+
+}  // namespace graycube

@@ -1,0 +1,197 @@
+// graycube-frontal: cuts scenes, hands them to its nodes, accumulates their light, serves clients.
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "frontal/frontal.hpp"
+#include "frontal/node_processes.hpp"
+#include "frontal/preparation_thread.hpp"
+#include "transport/endpoint.hpp"
+#include "transport/zmq_sockets.hpp"
+#include "version.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FrontalArguments {
+  std::uint32_t nodes = 1, threads = 1;
+  std::string listen, state;
+  bool is_private = false;
+  double silence_s = 10;
+};
+
+/// Nodes that don't leave within this time after `shutdown` are ended.
+constexpr double kGrace_s = 2;
+constexpr auto kTick = std::chrono::milliseconds(50);
+
+double seconds_of(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A folder of our own for sockets, removed at the end.
+class SocketFolder {
+ public:
+  SocketFolder() {
+    std::string pattern = (fs::temp_directory_path() / "graycube-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(), pattern);
+    }
+    path_ = pattern;
+  }
+  ~SocketFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  SocketFolder(const SocketFolder&) = delete;
+  SocketFolder& operator=(const SocketFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Signals that ask for the end, as a descriptor; SIGCHLD too, to wake the loop.
+int signal_descriptor() {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) ::sigaddset(&set, s);
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  return ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+}
+
+class FrontalProcess {
+ public:
+  FrontalProcess(const FrontalArguments& a, int signals)
+      : signals_(signals),
+        inbox_(context_, a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
+        store_(a.state.empty() ? default_store(a) : make_folder_store(a.state)),
+        processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
+        frontal_({*Hypercube::of_size(a.nodes), a.threads, 1.0, a.silence_s, kVersion}, *store_),
+        preparation_(wakeup_) {
+    frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };
+    std::cout << "listening " << inbox_.endpoint() << std::endl;
+  }
+
+  void run() {
+    double down_since_s = 0;
+    for (;;) {
+      const double now_s = seconds_of(CLOCK_MONOTONIC);
+      frontal_.on_time(now_s, seconds_of(CLOCK_REALTIME));
+      take_events();
+      if (frontal_.is_going_down()) {
+        if (down_since_s == 0) down_since_s = now_s;
+        if (processes_.empty() || now_s - down_since_s > kGrace_s) return;
+      }
+      void* const sockets[] = {inbox_.raw()};
+      const int descriptors[] = {wakeup_.descriptor(), signals_};
+      wait_readable(sockets, descriptors, kTick);
+      wakeup_.clear();
+    }
+  }
+
+ private:
+  static fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+  std::unique_ptr<JobStore> default_store(const FrontalArguments& a) const {
+    return a.is_private ? make_memory_store() : make_folder_store(folder_.path() / "jobs");
+  }
+
+  void take_events() {
+    take_signals();
+    for (const NodeExit& e : processes_.reap()) frontal_.on_node_exit(e.rank, e.incarnation, e.how);
+    if (auto result = preparation_.take()) frontal_.give_result(std::move(*result));
+    while (auto m = inbox_.receive()) {
+      frontal_.on_time(seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME));
+      frontal_.on_message(m->peer, m->message);
+      flush();
+    }
+    if (preparation_.is_free()) {
+      if (auto work = frontal_.take_work()) preparation_.give(std::move(*work));
+    }
+    flush();
+  }
+
+  void take_signals() {
+    signalfd_siginfo info{};
+    while (::read(signals_, &info, sizeof info) == sizeof info) {
+      if (info.ssi_signo != SIGCHLD) frontal_.go_down();
+    }
+  }
+
+  void flush() {
+    for (const Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, o.message);
+    for (const Frontal::Spawn& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
+    if (frontal_.is_going_down()) return;
+    for (const Frontal::Spawn& s : frontal_.take_spawns()) {
+      processes_.start(s.rank, s.incarnation, inbox_.endpoint());
+    }
+  }
+
+  int signals_;
+  SocketFolder folder_;
+  ZmqContext context_;
+  Wakeup wakeup_;
+  Inbox inbox_;
+  std::unique_ptr<JobStore> store_;
+  NodeProcesses processes_;
+  Frontal frontal_;
+  PreparationThread preparation_;
+};
+
+int fail(const std::string& what, const std::string& why, int status) {
+  std::fprintf(stderr, "graycube-frontal: %s: %s\n", what.c_str(), why.c_str());
+  return status;
+}
+
+int run_main(int argc, char** argv) {
+  CLI::App app{"The frontal daemon of a Graycube farm."};
+  app.set_version_flag("--version", std::string("graycube-frontal ") + kVersion);
+  FrontalArguments a;
+  app.add_option("--nodes", a.nodes, "Node processes: a power of two")->required();
+  app.add_option("--threads", a.threads, "Evaluator threads per node")
+      ->check(CLI::Range(1u, kMaxThreads));
+  app.add_option("--listen", a.listen, "Endpoint for clients");
+  app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
+  app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")
+      ->check(CLI::Range(0.1, 3600.0));
+  app.add_flag("--private", a.is_private, "Serve the process that started this one, and end with it");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail("usage: command line", e.what(), 2);
+  }
+  if (!Hypercube::of_size(a.nodes)) {
+    return fail("usage: --nodes", "expected a power of two, 1 to " + std::to_string(kMaxNodes), 2);
+  }
+  if (a.listen.empty()) a.listen = default_endpoint();
+  if (const auto problem = endpoint_problem(a.listen)) return fail("usage: --listen", *problem, 2);
+  const int signals = signal_descriptor();
+  if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  try {
+    FrontalProcess(a, signals).run();
+  } catch (const std::runtime_error& e) {
+    return fail("frontal", e.what(), 1);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace graycube
+
+int main(int argc, char** argv) { return graycube::run_main(argc, argv); }

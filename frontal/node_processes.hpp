@@ -1,0 +1,49 @@
+// The node processes that a frontal starts, and only those.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "topology/rank.hpp"
+
+namespace graycube {
+
+struct NodeExit {
+  Rank rank;
+  std::uint32_t incarnation;
+  /// For people: "killed by signal 9", "exited with status 1".
+  std::string how;
+};
+
+class NodeProcesses {
+ public:
+  /// `program` is graycube-node; inboxes are made in `folder`.
+  NodeProcesses(std::filesystem::path program, std::filesystem::path folder, std::uint32_t threads);
+  /// Ends those that are left, and waits for them.
+  ~NodeProcesses();
+  NodeProcesses(const NodeProcesses&) = delete;
+  NodeProcesses& operator=(const NodeProcesses&) = delete;
+
+  /// Throws std::system_error when no process can be started.
+  void start(Rank rank, std::uint32_t incarnation, const std::string& frontal);
+  void end(Rank rank, std::uint32_t incarnation);
+  /// The children that have ended since the last call.
+  std::vector<NodeExit> reap();
+  bool empty() const { return running_.empty(); }
+
+ private:
+  struct Child {
+    Rank rank;
+    std::uint32_t incarnation;
+  };
+  std::filesystem::path program_, folder_;
+  std::uint32_t threads_;
+  std::map<pid_t, Child> running_;
+};
+
+}  // namespace graycube

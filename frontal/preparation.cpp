@@ -1,0 +1,114 @@
+#include "frontal/preparation.hpp"
+
+#include <chrono>
+
+#include "proto/model_slice.hpp"
+#include "proto/tile_shape.hpp"
+#include "scene/compile_scene.hpp"
+#include "scene/read_scene.hpp"
+#include "space/macro_grid.hpp"
+#include "space/restrict.hpp"
+
+namespace graycube {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void add_error(std::vector<control::ErrorItem>& errors, std::string where, std::string why) {
+  if (errors.size() < kMaxErrorsListed) errors.push_back({std::move(where), std::move(why)});
+}
+
+/// A tile's sum of credit is exact up to these; `serial` has no such limit.
+void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem>& errors) {
+  if (s.max_depth > kMaxCreditDepth) {
+    add_error(errors, "/max_depth",
+              "roth and macro take at most " + std::to_string(kMaxCreditDepth) + "; use serial");
+  }
+  if (s.lights.size() > kMaxCreditLights) {
+    add_error(errors, "/lights",
+              "roth and macro take at most " + std::to_string(kMaxCreditLights) +
+                  " lights; use serial");
+  }
+}
+
+Algorithm chosen(Algorithm wanted, const Model& model) {
+  if (wanted != Algorithm::kAuto) return wanted;
+  return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
+}
+
+void cut(const PreparationWork& work, const Model& model, PreparedScene& out) {
+  const ImageSize& image = model.settings.image;
+  const TileShape shape = tile_shape(out.grain, kTileSide, image);
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const MacroGrid grid = MacroGrid::regular(frame, work.cube.columns(), work.cube.rows());
+  out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges()};
+  if (out.algorithm == Algorithm::kRoth) {
+    out.plan.emplace(image, shape);
+    out.slices.push_back(encode_model(model));
+    return;
+  }
+  out.plan.emplace(image, shape, grid);
+  for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
+    const RegionIndex region{static_cast<std::uint16_t>(work.cube.column_of(Rank{rank})),
+                             static_cast<std::uint16_t>(work.cube.row_of(Rank{rank}))};
+    out.slices.push_back(encode_model(restrict_to_region(model, grid, region)));
+  }
+}
+
+}  // namespace
+
+void apply_overrides(const control::JobOptions& options, RenderSettings& settings,
+                     std::vector<control::ErrorItem>& errors) {
+  ImageSize& image = settings.image;
+  image.width = options.width.value_or(image.width);
+  image.height = options.height.value_or(image.height);
+  image.samples = options.samples.value_or(image.samples);
+  settings.max_depth = options.max_depth.value_or(settings.max_depth);
+  const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
+                            std::uint64_t most) {
+    if (value >= least && value <= most) return;
+    add_error(errors, name, "expected " + std::to_string(least) + " to " + std::to_string(most) +
+                                ", found " + std::to_string(value));
+  };
+  in_range("--size", image.width, 1, kMaxImageSide);
+  in_range("--size", image.height, 1, kMaxImageSide);
+  in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
+  in_range("--samples", image.samples, 1, kMaxSamples);
+  in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+}
+
+PreparationResult run(const PreparationWork& work) {
+  PreparationResult result;
+  result.job = work.job;
+  const auto started = Clock::now();
+  const std::string_view text{reinterpret_cast<const char*>(work.scene_text.data()),
+                              work.scene_text.size()};
+  ReadResult read = read_scene_text(text);
+  for (const SceneError& e : read.errors) add_error(result.errors, e.pointer, e.message);
+  if (!read.scene) return result;
+  Model model = compile_scene(*read.scene);
+  read.scene.reset();
+  apply_overrides(work.options, model.settings, result.errors);
+  check_credit_limits(model.settings, result.errors);
+  if (result.errors.empty() && !fits_model_limits(model)) {
+    add_error(result.errors, "", "the scene is larger than a farm takes; use serial");
+  }
+  if (!result.errors.empty()) return result;
+  PreparedScene& scene = result.scene.emplace();
+  scene.load_s = seconds_since(started);
+  const auto cutting = Clock::now();
+  scene.algorithm = chosen(work.options.algorithm, model);
+  scene.grain = scene.algorithm == Algorithm::kRoth ? work.options.grain : Grain::kTile;
+  scene.settings = model.settings;
+  scene.primitives = model.primitives.size();
+  scene.objects = model.objects.size();
+  cut(work, model, scene);
+  scene.partition_s = seconds_since(cutting);
+  return result;
+}
+
+}  // namespace graycube

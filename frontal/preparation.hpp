@@ -1,0 +1,54 @@
+// From a scene's text to what the nodes get: read, compiled, cut into macro-regions, each with only the part
+// of the scene that reaches into it. Pure and slow: a thread of its own runs it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proto/messages.hpp"
+#include "topology/hypercube.hpp"
+#include "trace/tile_plan.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+struct PreparationWork {
+  std::uint32_t job = 0;
+  std::string scene_name;
+  Bytes scene_text;
+  control::JobOptions options;
+  Hypercube cube = *Hypercube::of_size(1);
+};
+
+/// `roth` copies the scene to every node; `auto` picks it only when a node's copy stays below this.
+inline constexpr std::uint64_t kReplicatedModelBytes = std::uint64_t{512} << 20;
+
+struct PreparedScene {
+  Algorithm algorithm = Algorithm::kMacro;
+  control::GridLayout grid;
+  Grain grain = Grain::kTile;
+  RenderSettings settings;
+  std::optional<TilePlan> plan;
+  std::uint64_t primitives = 0, objects = 0;
+  /// By rank; one for all in `roth`.
+  std::vector<Bytes> slices;
+  double load_s = 0, partition_s = 0;
+};
+
+struct PreparationResult {
+  std::uint32_t job = 0;
+  std::optional<PreparedScene> scene;
+  /// The scene file's mistakes, or options that don't fit it.
+  std::vector<control::ErrorItem> errors;
+};
+
+/// Never throws.
+PreparationResult run(const PreparationWork& work);
+
+/// The options' overrides, applied and checked; what doesn't fit is added to `errors`.
+void apply_overrides(const control::JobOptions& options, RenderSettings& settings,
+                     std::vector<control::ErrorItem>& errors);
+
+}  // namespace graycube

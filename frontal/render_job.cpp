@@ -1,0 +1,146 @@
+#include "frontal/render_job.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace graycube {
+namespace {
+
+std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
+  std::vector<std::uint32_t> rays(plan.tile_count());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    rays[i] = static_cast<std::uint32_t>(plan.primary_rays(i));
+  }
+  return rays;
+}
+
+/// What may be under way on a link and in its receiver's inbox.
+constexpr std::uint64_t kLinkCreditBytes = std::uint64_t{1} << 20;
+constexpr std::uint32_t kBatchBytes = std::uint32_t{64} << 10;
+
+}  // namespace
+
+RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, std::uint32_t nodes,
+                     std::uint32_t threads)
+    : job_(job),
+      scene_(std::move(scene)),
+      nodes_(nodes),
+      threads_(threads),
+      film_(scene_.settings.image.width, scene_.settings.image.height,
+            scene_.settings.image.samples * scene_.settings.image.samples),
+      ledger_(rays_per_tile(*scene_.plan)),
+      holder_(scene_.plan->tile_count()),
+      next_own_(nodes, 0),
+      open_(nodes, 0),
+      ready_(nodes, false),
+      reported_(nodes, false),
+      batches_received_(nodes, 0),
+      assignments_sent_(nodes, 0),
+      reports_(nodes) {}
+
+Bytes RenderJob::take_slice(Rank rank) {
+  if (is_roth()) return scene_.slices.front();
+  return std::move(scene_.slices[rank.value]);
+}
+
+control::Load RenderJob::load_for(Rank) const {
+  control::Load m;
+  m.job = job_;
+  m.epoch = epoch_;
+  m.algorithm = scene_.algorithm;
+  m.threads = threads_;
+  m.grid = scene_.grid;
+  m.grain = scene_.grain;
+  m.tile_size = kTileSide;
+  m.shadows = ShadowMode::kForward;
+  m.flow = FlowMode::kCredit;
+  m.link_credit_bytes = kLinkCreditBytes;
+  m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : kWindowTiles;
+  m.batch_bytes = kBatchBytes;
+  return m;
+}
+
+void RenderJob::set_ready(Rank rank, const control::Ready&) {
+  if (ready_[rank.value]) return;
+  ready_[rank.value] = true;
+  ++ready_count_;
+}
+
+std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
+  std::vector<std::uint32_t> tiles;
+  std::uint32_t& open = open_[rank.value];
+  if (is_roth()) {
+    while (open < kRothTilesPerThread * threads_ && next_tile_ < ledger_.tile_count()) {
+      tiles.push_back(next_tile_++);
+      ++open;
+    }
+  } else {
+    std::uint32_t& next = next_own_[rank.value];
+    const std::uint32_t own = scene_.plan->tile_count_of(rank.value);
+    while (open < kWindowTiles && next < own) {
+      tiles.push_back(scene_.plan->first_tile(rank.value) + next++);
+      ++open;
+    }
+  }
+  for (const std::uint32_t tile : tiles) holder_[tile] = rank;
+  return tiles;
+}
+
+std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& opened) {
+  BatchLimits limits;
+  limits.pixel_count = film_.pixel_count();
+  limits.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());
+  limits.max_depth = scene_.settings.max_depth;
+  limits.nodes = nodes_;
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> contributions;
+  const auto result = decode_contributions(batch, limits, credits, contributions);
+  if (const auto* error = std::get_if<BatchError>(&result)) {
+    return "a broken batch of contributions: " + std::string(to_string(*error));
+  }
+  const BatchStamp& s = std::get<BatchHeader>(result).stamp;
+  if (s.job != job_ || s.epoch != epoch_) return {};
+  if (s.sender >= nodes_ || s.sequence != batches_received_[s.sender]) {
+    return "a batch of contributions from node " + std::to_string(s.sender) + " was lost";
+  }
+  ++batches_received_[s.sender];
+  for (const Contribution& c : contributions) film_.add(c.pixel, c.light);
+  for (const TileCredit& c : credits) {
+    switch (ledger_.add(c.tile, c.credit)) {
+      case CreditResult::kOpen: break;
+      case CreditResult::kWhole:
+        --open_[holder_[c.tile].value];
+        opened.push_back(holder_[c.tile]);
+        break;
+      case CreditResult::kOverflow:
+      case CreditResult::kUnknownTile:
+        return "tile " + std::to_string(c.tile) + " got back more credit than it gave out";
+    }
+  }
+  return {};
+}
+
+bool RenderJob::all_batches_in() const {
+  return verdict_ && std::accumulate(batches_received_.begin(), batches_received_.end(),
+                                     std::uint64_t{0}) == verdict_->contribution_batches;
+}
+
+bool RenderJob::is_complete() const {
+  return ledger_.all_whole() && (is_roth() || all_batches_in());
+}
+
+std::string RenderJob::contradiction() const {
+  if (is_roth() || !all_batches_in() || ledger_.all_whole()) return {};
+  return "internal error: the token found nothing left, but " +
+         std::to_string(ledger_.tile_count() - ledger_.whole_count()) + " tiles are open";
+}
+
+void RenderJob::set_report(const control::NodeReport& report) {
+  const std::uint32_t rank = report.stats.rank;
+  if (rank >= nodes_ || reported_[rank]) return;
+  reported_[rank] = true;
+  ++report_count_;
+  reports_[rank] = report.stats;
+}
+
+}  // namespace graycube

@@ -1,0 +1,82 @@
+// A job while it is on the nodes: tiles, credit, light, reports.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordination/tile_ledger.hpp"
+#include "film/film.hpp"
+#include "frontal/preparation.hpp"
+#include "proto/batch.hpp"
+
+namespace graycube {
+
+/// Own tiles that a node may have open at a time in `macro`, and tiles per evaluator thread in `roth`: open
+/// until the frontal holds all their light. All rays in the machine descend from them (design section 10).
+inline constexpr std::uint32_t kWindowTiles = 64;
+inline constexpr std::uint32_t kRothTilesPerThread = 2;
+
+class RenderJob {
+ public:
+  RenderJob(std::uint32_t job, PreparedScene scene, std::uint32_t nodes, std::uint32_t threads);
+
+  std::uint32_t id() const { return job_; }
+  std::uint32_t epoch() const { return epoch_; }
+  const PreparedScene& scene() const { return scene_; }
+  /// The slice for a node; given away once the node has it.
+  Bytes take_slice(Rank rank);
+  control::Load load_for(Rank rank) const;
+
+  void set_ready(Rank rank, const control::Ready& ready);
+  bool all_ready() const { return ready_count_ == nodes_; }
+
+  /// Tiles to hand to a node now, as its window allows.
+  std::vector<std::uint32_t> next_tiles(Rank rank);
+  /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The nodes whose
+  /// windows opened are appended to `opened`.
+  std::string add_contributions(const Bytes& batch, std::vector<Rank>& opened);
+  std::uint64_t next_assignment_sequence(Rank rank) { return assignments_sent_[rank.value]++; }
+
+  void set_terminated(const control::Terminated& verdict) { verdict_ = verdict; }
+  void set_round(std::uint32_t round, std::uint32_t hops) {
+    rounds_ = round;
+    hops_ = hops;
+  }
+  std::uint32_t rounds() const { return rounds_; }
+  std::uint32_t hops() const { return hops_; }
+  std::size_t tiles() const { return ledger_.tile_count(); }
+  std::size_t tiles_whole() const { return ledger_.whole_count(); }
+  bool is_complete() const;
+  /// What contradicts what, when the token says that nothing is left but a tile is open; else empty.
+  std::string contradiction() const;
+
+  void set_report(const control::NodeReport& report);
+  bool all_reported() const { return report_count_ == nodes_; }
+  const std::vector<control::NodeStats>& reports() const { return reports_; }
+  const Film& film() const { return film_; }
+  std::uint32_t threads() const { return threads_; }
+
+ private:
+  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
+  bool all_batches_in() const;
+
+  std::uint32_t job_;
+  std::uint32_t epoch_ = 0;
+  PreparedScene scene_;
+  std::uint32_t nodes_, threads_;
+  Film film_;
+  TileLedger ledger_;
+  std::vector<Rank> holder_;                     // of each tile handed out
+  std::vector<std::uint32_t> next_own_, open_;   // by rank
+  std::uint32_t next_tile_ = 0;                  // roth: one queue for all
+  std::vector<bool> ready_, reported_;
+  std::uint32_t ready_count_ = 0, report_count_ = 0;
+  std::vector<std::uint64_t> batches_received_, assignments_sent_;
+  std::optional<control::Terminated> verdict_;
+  std::uint32_t rounds_ = 0, hops_ = 0;
+  std::vector<control::NodeStats> reports_;
+};
+
+}  // namespace graycube

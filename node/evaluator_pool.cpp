@@ -1,0 +1,88 @@
+#include "node/evaluator_pool.hpp"
+
+#include <sys/resource.h>
+
+#include <ctime>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+double seconds_of(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+EvaluatorPool::EvaluatorPool(Node& node, Wakeup& mailroom) : node_(node), mailroom_(mailroom) {
+  node_.measure = [this](control::NodeStats& stats) { measure(stats); };
+}
+
+EvaluatorPool::~EvaluatorPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  for (std::thread& t : threads_) t.join();
+}
+
+void EvaluatorPool::grow(unsigned threads) {
+  while (threads_.size() < threads) {
+    const auto index = static_cast<unsigned>(threads_.size());
+    threads_.emplace_back([this, index] { work(index); });
+  }
+}
+
+/// Called with the lock held, after anything may have changed in the brain.
+void EvaluatorPool::after_change() {
+  grow(node_.threads());
+  clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, node_.is_rendering());
+  if (node_.has_outgoing() || node_.is_shut_down()) mailroom_.signal();
+  if (waiting_ > 0 && node_.may_have_work()) changed_.notify_all();
+}
+
+void EvaluatorPool::work(unsigned index) {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    std::optional<Work> piece;
+    if (index < node_.threads()) piece = node_.take_work();
+    if (!piece) {
+      ++waiting_;
+      after_change();
+      changed_.wait(lock);
+      --waiting_;
+      after_change();
+      continue;
+    }
+    after_change();
+    const bool is_build = std::holds_alternative<BuildWork>(piece->what);
+    lock.unlock();
+    const double started = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    WorkResult result = run(std::move(*piece));
+    const double busy = seconds_of(CLOCK_THREAD_CPUTIME_ID) - started;
+    lock.lock();
+    if (!is_build) busy_s_ += busy;
+    node_.give_result(std::move(result));
+    after_change();
+  }
+}
+
+/// Times since the last report, so that each job of a daemon has its own.
+void EvaluatorPool::measure(control::NodeStats& stats) {
+  clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, false);
+  const double cpu_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
+  stats.busy_s = std::exchange(busy_s_, 0);
+  stats.idle_s = clock_.seconds(WaitReason::kIdle);
+  stats.blocked_s = clock_.seconds(WaitReason::kBlocked);
+  stats.window_s = clock_.seconds(WaitReason::kWindow);
+  clock_.reset();
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  stats.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace graycube

@@ -1,0 +1,36 @@
+// One hypercube link as its sender and receiver see it: the outbox, credit in bytes, sequence numbers.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "topology/rank.hpp"
+#include "trace/ray_task.hpp"
+
+namespace graycube {
+
+struct Link {
+  Rank peer;
+  bool is_greeted = false;
+
+  /// Rays that wait to be sent, oldest first.
+  std::vector<RayTask> outbox;
+  /// What may still be sent before the peer grants more, in bytes of ray records.
+  std::uint64_t send_credit = 0;
+  std::uint64_t next_sequence = 0;
+
+  /// Taken from the inbox by evaluators, but not yet granted back.
+  std::uint64_t ungranted = 0;
+  std::uint64_t expected_sequence = 0;
+
+  void reset(std::uint64_t credit) {
+    outbox.clear();
+    send_credit = credit;
+    ungranted = 0;
+    next_sequence = 0;
+    expected_sequence = 0;
+  }
+};
+
+}  // namespace graycube

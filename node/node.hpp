@@ -1,0 +1,143 @@
+// A node's brain: a state machine. Messages, results of work and the request for work go in; messages and
+// work come out. It knows no socket, thread or clock: main.cpp wires those on, the simulation others.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordination/termination.hpp"
+#include "node/link.hpp"
+#include "node/merge_buffer.hpp"
+#include "node/ray_store.hpp"
+#include "node/work.hpp"
+#include "proto/batch.hpp"
+#include "proto/messages.hpp"
+#include "topology/hypercube.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+struct NodeIdentity {
+  Rank rank;
+  /// The node's start number, given by whoever started it.
+  std::uint32_t incarnation = 0;
+  std::uint64_t pid = 0;
+  std::string endpoint;
+  std::uint32_t threads = 1;
+  std::string version;
+};
+
+/// Why an evaluator gets no work (design section 6).
+enum class WaitReason : std::uint8_t {
+  kReady,    ///< it would get some now
+  kBlocked,  ///< there are received rays that may not go on
+  kWindow,   ///< there are only unstarted primary rays, and the window is closed
+  kIdle,     ///< there is neither
+};
+
+/// Received rays handed to an evaluator in one piece.
+inline constexpr std::size_t kMaxRaysPerWork = 256;
+
+class Node {
+ public:
+  struct Outgoing {
+    /// Nothing: the frontal.
+    std::optional<Rank> to;
+    Message message;
+  };
+
+  explicit Node(NodeIdentity identity);
+
+  /// The first message, to be sent when the frontal can be reached.
+  Message hello() const;
+
+  void on_frontal(const Message& message);
+  /// A batch from a neighbour's inbox link. The sender is read from it and checked.
+  void on_neighbour(const Bytes& batch);
+
+  /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent goes out.
+  std::optional<Work> take_work();
+  void give_result(WorkResult result);
+  WaitReason wait_reason() const;
+  /// False only when take_work() would certainly give nothing.
+  bool may_have_work() const;
+  /// Evaluators that the job is to have; those of the node when there is none.
+  std::uint32_t threads() const { return state_ == State::kNoJob ? id_.threads : load_.threads; }
+  /// Between start and the end of a picture: what evaluators' waiting time is measured over.
+  bool is_rendering() const { return state_ == State::kRendering; }
+
+  /// What is to be sent, in order; the caller sends all of it.
+  std::vector<Outgoing> take_outgoing();
+  bool has_outgoing() const { return !outgoing_.empty(); }
+  bool is_shut_down() const { return shut_down_; }
+  /// Where each neighbour's inbox is; by rank, empty until the frontal has told.
+  const std::vector<std::string>& endpoints() const { return endpoints_; }
+
+  /// Fills in the times and memory of a report; the brain has no clock.
+  std::function<void(control::NodeStats&)> measure;
+
+ private:
+  enum class State : std::uint8_t { kNoJob, kBuilding, kReady, kRendering };
+
+  void on_control(const Message& message);
+  void on_welcome(const control::Welcome& m);
+  void on_load(const control::Load& m, const Bytes& slice);
+  void on_prepare(const control::Prepare& m);
+  void on_start(const control::Start& m);
+  void on_finish(const control::Finish& m);
+  void on_frontal_batch(const Bytes& batch);
+  void on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header);
+  void on_signal(Link& link, const BatchHeader& header);
+  void drop(const char* what, std::string_view why);
+
+  std::uint32_t bit_of(Rank peer) const;
+  void send_control(const ControlMessage& message);
+  void adopt_domain(WorkResult& result);
+  void send_ready_when_complete();
+  BatchStamp stamp(std::uint64_t sequence) const;
+
+  void absorb(Step& step);
+  void send_rays(Link& link, bool partial);
+  void flush_contributions();
+  void grant_credit(Link& link);
+  void flush_on_idle();
+  void pass_token();
+  bool is_passive() const;
+  void forget_rays();
+
+  NodeIdentity id_;
+  std::optional<Hypercube> cube_;
+  std::vector<std::string> endpoints_;
+  std::vector<Link> links_;  // by bit
+  std::vector<std::uint32_t> incarnations_;
+  std::vector<Outgoing> outgoing_;
+  bool shut_down_ = false;
+  std::uint64_t drops_ = 0;
+
+  State state_ = State::kNoJob;
+  control::Load load_;
+  std::uint32_t job_ = 0, epoch_ = 0;
+  std::optional<Bytes> unbuilt_slice_;
+  std::shared_ptr<const Domain> domain_;
+  double build_s_ = 0;
+  bool is_ready_sent_ = false;
+  std::optional<TilePlan> plan_;
+  BatchLimits limits_;
+  std::deque<std::uint32_t> tiles_;
+  /// Own tiles that the frontal has not handed out yet; `macro` only.
+  std::uint64_t unassigned_tiles_ = 0;
+  RayStore rays_;
+  MergeBuffer merge_;
+  TerminationRing ring_;
+  unsigned working_ = 0;
+  std::uint64_t contribution_sequence_ = 0;
+  std::uint64_t assignment_sequence_ = 0;
+  control::NodeStats stats_;
+};
+
+}  // namespace graycube

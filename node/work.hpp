@@ -1,0 +1,56 @@
+// What a node's brain hands to its evaluators, and what it gets back. Running a piece of work is pure: it
+// touches nothing of the brain.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "trace/step.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+/// The inner boundaries of the grid of macro-regions, as pixel edges.
+struct GridEdges {
+  std::vector<std::int64_t> columns, rows;
+};
+
+/// Subdivide the macro-region that came with `load`.
+struct BuildWork {
+  Bytes slice;
+  /// Nothing in `roth`: all of space.
+  std::optional<GridEdges> edges;
+  RegionIndex region;
+};
+/// Trace the primary rays of a tile.
+struct TileWork {
+  PixelRect rect;
+};
+/// Trace rays received from neighbours.
+struct RayWork {
+  std::vector<RayTask> rays;
+};
+
+struct Work {
+  std::uint32_t job = 0, epoch = 0;
+  std::shared_ptr<const Domain> domain;
+  std::variant<BuildWork, TileWork, RayWork> what;
+};
+
+struct WorkResult {
+  std::uint32_t job = 0, epoch = 0;
+  /// BuildWork: the domain, or why there is none.
+  std::shared_ptr<const Domain> domain;
+  std::string error;
+  double build_s = 0;
+  Step step;
+};
+
+/// Does the work. Never throws; a broken slice is an error in the result.
+WorkResult run(Work work);
+
+}  // namespace graycube

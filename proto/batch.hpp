@@ -1,0 +1,169 @@
+// Binary batches between nodes and between nodes and the frontal. FORMAT.md, "Batches", is
+// normative; this is its implementation. Encoding is for values of our own (limits are checked
+// assertions), decoding for bytes that anybody may have sent (nothing throws, nothing is allocated
+// before sizes are checked).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "space/macro_grid.hpp"
+#include "trace/contribution.hpp"
+#include "trace/ray_task.hpp"
+
+namespace graycube {
+
+/// "GCB1", read as a little-endian integer.
+inline constexpr std::uint32_t kBatchMagic = 0x31424347;
+inline constexpr std::uint16_t kBatchVersion = 1;
+inline constexpr std::size_t kBatchHeaderBytes = 44;
+/// The sender "rank" of the frontal.
+inline constexpr std::uint32_t kFrontalRank = 0xFFFFFFFF;
+
+inline constexpr std::size_t kRayBytes = 100;
+inline constexpr std::size_t kTileCreditBytes = 44;
+inline constexpr std::size_t kContributionBytes = 28;
+inline constexpr std::size_t kTokenBytes = 25;
+
+/// Largest message, header included: contributions, and every other type.
+inline constexpr std::size_t kMaxContributionBatchBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMaxBatchBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxRaysPerBatch = (kMaxBatchBytes - kBatchHeaderBytes) / kRayBytes;
+inline constexpr std::size_t kMaxTilesPerAssignment = (kMaxBatchBytes - kBatchHeaderBytes) / 4;
+/// Most bytes that one link-credit grant may give back.
+inline constexpr std::uint64_t kMaxLinkCreditBytes = std::uint64_t{1} << 32;
+/// Largest |direction · direction − 1| of a ray.
+inline constexpr double kDirectionTolerance = 1e-6;
+
+enum class BatchType : std::uint8_t {
+  kRays = 1,
+  kContributions = 2,
+  kLinkCredit = 3,
+  kToken = 4,
+  kAssignment = 5,
+  kGreeting = 6,
+  kGreetingAck = 7,
+  kGoodbye = 8,
+  kGoodbyeAck = 9,
+};
+
+/// Who sent a batch, and to what it belongs.
+struct BatchStamp {
+  std::uint32_t job = 0;
+  std::uint32_t epoch = 0;
+  /// Rank, or kFrontalRank.
+  std::uint32_t sender = 0;
+  /// The sender's start number: a restarted node has another one.
+  std::uint32_t incarnation = 0;
+  /// 0, 1, 2 … on each directed link, from 0 again in each epoch.
+  std::uint64_t sequence = 0;
+
+  friend bool operator==(const BatchStamp&, const BatchStamp&) = default;
+};
+
+struct BatchHeader {
+  BatchStamp stamp;
+  BatchType type = BatchType::kRays;
+  /// Records: rays, tile credits, assigned tiles; 1 for a grant or a token, 0 for greetings and
+  /// goodbyes.
+  std::uint32_t count = 0;
+  /// Contributions: pixels. 0 otherwise.
+  std::uint32_t second_count = 0;
+  std::uint32_t payload_bytes = 0;
+
+  friend bool operator==(const BatchHeader&, const BatchHeader&) = default;
+};
+
+enum class BatchError : std::uint8_t {
+  kTooShort,    // no whole header
+  kBadMagic,    // not a batch
+  kBadVersion,  // another version of the format
+  kBadType,     // unknown, or not the type that the decoder is for
+  kBadLength,   // counts, payload length and message length disagree
+  kTooLarge,    // beyond the type's largest message
+  kBadValue,    // a field out of its range
+};
+std::string_view to_string(BatchError error);
+std::string_view to_string(BatchType type);
+
+using BatchResult = std::variant<BatchHeader, BatchError>;
+
+/// What indices and counts must stay below: from the job that a batch belongs to.
+struct BatchLimits {
+  std::uint64_t pixel_count = 0;
+  std::uint32_t tile_count = 0;
+  std::uint32_t max_depth = 0;
+  std::uint32_t max_exponent = 255;
+  /// The grid of macro-regions, scattered ones included: a receiver sets its job's.
+  std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;
+  /// Senders are ranks below it, or the frontal.
+  std::uint32_t nodes = 0;
+};
+
+/// The token of the termination ring, as sent.
+struct TokenRecord {
+  bool black = false;
+  /// Safra's sum of messages sent minus received.
+  std::int64_t count = 0;
+  std::uint32_t round = 0;
+  std::uint32_t hops = 0;
+  /// Contribution batches sent to the frontal by the nodes passed in this round.
+  std::uint64_t contribution_batches = 0;
+
+  friend bool operator==(const TokenRecord&, const TokenRecord&) = default;
+};
+
+/// At most kMaxRaysPerBatch rays.
+std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays);
+/// Both together at most kMaxContributionBatchBytes, see contribution_batch_bytes.
+std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
+                                            std::span<const TileCredit> credits,
+                                            std::span<const Contribution> contributions);
+std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t bytes);
+std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& token);
+/// At most kMaxTilesPerAssignment tiles.
+std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
+                                         std::span<const std::uint32_t> tiles);
+/// The types without payload: greeting, goodbye and their acknowledgements.
+std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
+
+/// Size of a message with so many records, header included.
+constexpr std::size_t ray_batch_bytes(std::size_t rays) {
+  return kBatchHeaderBytes + rays * kRayBytes;
+}
+constexpr std::size_t contribution_batch_bytes(std::size_t tiles, std::size_t pixels) {
+  return kBatchHeaderBytes + tiles * kTileCreditBytes + pixels * kContributionBytes;
+}
+
+/// Checks everything about a message but its records' values: whoever gets a header may trust its
+/// counts and its length, but must still compare job, epoch, sender and sequence with what it
+/// expects.
+[[nodiscard]] BatchResult peek_header(std::span<const std::byte> message);
+
+/// True when a single frame is a batch rather than a control message: it starts with the magic.
+bool looks_like_batch(std::span<const std::byte> message);
+
+/// Each decodes a whole message of its type. The vectors are replaced; after an error they are
+/// empty (other outputs untouched).
+[[nodiscard]] BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
+                                      std::vector<RayTask>& rays);
+[[nodiscard]] BatchResult decode_contributions(std::span<const std::byte> message,
+                                               const BatchLimits& limits,
+                                               std::vector<TileCredit>& credits,
+                                               std::vector<Contribution>& contributions);
+[[nodiscard]] BatchResult decode_link_credit(std::span<const std::byte> message,
+                                             const BatchLimits& limits, std::uint64_t& bytes);
+[[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,
+                                       const BatchLimits& limits, TokenRecord& token);
+[[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,
+                                            const BatchLimits& limits,
+                                            std::vector<std::uint32_t>& tiles);
+/// Greeting, goodbye and their acknowledgements.
+[[nodiscard]] BatchResult decode_signal(std::span<const std::byte> message,
+                                        const BatchLimits& limits);
+
+}  // namespace graycube

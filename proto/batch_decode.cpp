@@ -1,0 +1,209 @@
+#include <array>
+#include <cmath>
+
+#include "proto/batch.hpp"
+#include "proto/batch_layout.hpp"
+#include "proto/bytes.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace batch_layout;
+
+/// A merged contribution holds at most this many units per component: 2^10 contributions of 2^52.
+constexpr std::int64_t kMaxMergedLight =
+    std::int64_t{kMaxMergedContributions} * static_cast<std::int64_t>(kMaxContribution * kFixedOne);
+/// A tile's credit never exceeds its number of primary rays, nor that the whole picture's.
+constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
+
+bool is_known(std::uint8_t type) { return type >= 1 && type <= 9; }
+
+/// The framing and the sender checked, and the type; `payload` is the bytes behind the header.
+BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,
+                 const std::byte*& payload) {
+  const BatchResult result = peek_header(message);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  if (h->type != type) return BatchError::kBadType;
+  if (h->stamp.sender >= limits.nodes && h->stamp.sender != kFrontalRank)
+    return BatchError::kBadValue;
+  payload = message.data() + kBatchHeaderBytes;
+  return result;
+}
+
+Vec3 load_vec(const std::byte* at) {
+  return {load_little<double>(at), load_little<double>(at + 8), load_little<double>(at + 16)};
+}
+
+bool is_weight(double v) { return std::isfinite(v) && v >= 0; }
+
+bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
+  task.ray = {load_vec(at), load_vec(at + 24)};
+  task.t = load_little<double>(at + 48);
+  task.t_max = load_little<double>(at + 56);
+  const Vec3 weight = load_vec(at + 64);
+  task.weight = {weight.x, weight.y, weight.z};
+  task.pixel = load_little<std::uint32_t>(at + 88);
+  const auto kind = load_little<std::uint8_t>(at + 92);
+  task.credit_exponent = load_little<std::uint8_t>(at + 93);
+  task.depth = load_little<std::uint16_t>(at + 94);
+  task.region = {load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98)};
+  if (kind >= kRayKinds) return false;
+  task.kind = static_cast<RayKind>(kind);
+  const Vec3& d = task.ray.direction;
+  // Written so that NaN fails every comparison.
+  return is_finite(task.ray.origin) && std::fabs(dot(d, d) - 1) <= kDirectionTolerance &&
+         std::isfinite(task.t) && task.t >= 0 && task.t_max >= 0 && is_weight(weight.x) &&
+         is_weight(weight.y) && is_weight(weight.z) && task.pixel < limits.pixel_count &&
+         task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
+         task.region.column < limits.columns && task.region.row < limits.rows;
+}
+
+bool load_credit(const std::byte* at, const BatchLimits& limits, TileCredit& credit) {
+  credit.tile = load_little<std::uint32_t>(at);
+  std::array<std::uint64_t, Credit::kWords> words;
+  for (std::size_t w = 0; w < words.size(); ++w)
+    words[w] = load_little<std::uint64_t>(at + 4 + 8 * w);
+  credit.credit = Credit::from_words(words);
+  // The last bit stands for 2^-256, which no ray can hold.
+  return credit.tile < limits.tile_count && words[0] <= kMaxTileUnits && (words[4] & 1) == 0;
+}
+
+bool is_light(std::int64_t v) { return v >= 0 && v <= kMaxMergedLight; }
+
+bool load_contribution(const std::byte* at, const BatchLimits& limits, Contribution& c) {
+  c.pixel = load_little<std::uint32_t>(at);
+  c.light = {load_little<std::int64_t>(at + 4), load_little<std::int64_t>(at + 12),
+             load_little<std::int64_t>(at + 20)};
+  return c.pixel < limits.pixel_count && is_light(c.light.r) && is_light(c.light.g) &&
+         is_light(c.light.b);
+}
+
+/// Fills `records` with `count` records of `size` bytes; empties it when one of them is wrong.
+template <class Record>
+bool load_all(const std::byte* at, std::size_t count, std::size_t size, const BatchLimits& limits,
+              bool (*load)(const std::byte*, const BatchLimits&, Record&),
+              std::vector<Record>& records) {
+  records.resize(count);
+  for (Record& record : records) {
+    if (!load(at, limits, record)) [[unlikely]] {
+      records.clear();
+      return false;
+    }
+    at += size;
+  }
+  return true;
+}
+
+bool load_tile(const std::byte* at, const BatchLimits& limits, std::uint32_t& tile) {
+  tile = load_little<std::uint32_t>(at);
+  return tile < limits.tile_count;
+}
+
+}  // namespace
+
+bool looks_like_batch(std::span<const std::byte> message) {
+  return message.size() >= 4 && load_little<std::uint32_t>(message.data()) == kBatchMagic;
+}
+
+BatchResult peek_header(std::span<const std::byte> message) {
+  if (message.size() < kBatchHeaderBytes) return BatchError::kTooShort;
+  ByteReader r(message);
+  if (r.get<std::uint32_t>() != kBatchMagic) return BatchError::kBadMagic;
+  if (r.get<std::uint16_t>() != kBatchVersion) return BatchError::kBadVersion;
+  const auto type = r.get<std::uint8_t>();
+  if (!is_known(type)) return BatchError::kBadType;
+  if (r.get<std::uint8_t>() != 0) return BatchError::kBadValue;
+  BatchHeader h;
+  h.type = static_cast<BatchType>(type);
+  h.stamp.job = r.get<std::uint32_t>();
+  h.stamp.epoch = r.get<std::uint32_t>();
+  h.stamp.sender = r.get<std::uint32_t>();
+  h.stamp.sequence = r.get<std::uint64_t>();
+  h.count = r.get<std::uint32_t>();
+  h.second_count = r.get<std::uint32_t>();
+  h.payload_bytes = r.get<std::uint32_t>();
+  h.stamp.incarnation = r.get<std::uint32_t>();
+  if (message.size() > max_message_bytes(h.type)) return BatchError::kTooLarge;
+  const PayloadRule rule = payload_rule(h);
+  if (!rule.counts_fit || rule.bytes != h.payload_bytes || rule.bytes != r.remaining()) {
+    return BatchError::kBadLength;
+  }
+  return h;
+}
+
+BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
+                        std::vector<RayTask>& rays) {
+  rays.clear();
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kRays, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  if (!load_all(at, h->count, kRayBytes, limits, load_ray, rays)) return BatchError::kBadValue;
+  return result;
+}
+
+BatchResult decode_contributions(std::span<const std::byte> message, const BatchLimits& limits,
+                                 std::vector<TileCredit>& credits,
+                                 std::vector<Contribution>& contributions) {
+  credits.clear();
+  contributions.clear();
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kContributions, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  const std::byte* pixels = at + h->count * kTileCreditBytes;
+  if (!load_all(at, h->count, kTileCreditBytes, limits, load_credit, credits) ||
+      !load_all(pixels, h->second_count, kContributionBytes, limits, load_contribution,
+                contributions)) {
+    credits.clear();
+    return BatchError::kBadValue;
+  }
+  return result;
+}
+
+BatchResult decode_link_credit(std::span<const std::byte> message, const BatchLimits& limits,
+                               std::uint64_t& bytes) {
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kLinkCredit, at);
+  if (!std::holds_alternative<BatchHeader>(result)) return result;
+  const auto granted = load_little<std::uint64_t>(at);
+  if (granted > kMaxLinkCreditBytes) return BatchError::kBadValue;
+  bytes = granted;
+  return result;
+}
+
+BatchResult decode_token(std::span<const std::byte> message, const BatchLimits& limits,
+                         TokenRecord& token) {
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kToken, at);
+  if (!std::holds_alternative<BatchHeader>(result)) return result;
+  const auto colour = load_little<std::uint8_t>(at);
+  if (colour > 1) return BatchError::kBadValue;
+  token = {colour == 1, load_little<std::int64_t>(at + 1), load_little<std::uint32_t>(at + 9),
+           load_little<std::uint32_t>(at + 13), load_little<std::uint64_t>(at + 17)};
+  return result;
+}
+
+BatchResult decode_assignment(std::span<const std::byte> message, const BatchLimits& limits,
+                              std::vector<std::uint32_t>& tiles) {
+  tiles.clear();
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kAssignment, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  if (!load_all(at, h->count, 4, limits, load_tile, tiles)) return BatchError::kBadValue;
+  return result;
+}
+
+BatchResult decode_signal(std::span<const std::byte> message, const BatchLimits& limits) {
+  const BatchResult peeked = peek_header(message);
+  const auto* h = std::get_if<BatchHeader>(&peeked);
+  if (h == nullptr) return peeked;
+  if (!is_signal(h->type)) return BatchError::kBadType;
+  const std::byte* at = nullptr;
+  return open(message, limits, h->type, at);
+}
+
+}  // namespace graycube

@@ -1,0 +1,144 @@
+#include <utility>
+
+#include "geometry/check.hpp"
+#include "proto/batch.hpp"
+#include "proto/batch_layout.hpp"
+#include "proto/bytes.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace batch_layout;
+
+/// A writer that already holds the header; `count` and `second` decide the payload's size.
+ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std::size_t second) {
+  BatchHeader h{stamp, type, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(second),
+                0};
+  const PayloadRule rule = payload_rule(h);
+  const std::uint64_t size = kBatchHeaderBytes + rule.bytes;
+  GRAYCUBE_CHECK(rule.counts_fit && count == h.count && second == h.second_count &&
+                     size <= max_message_bytes(type),
+                 "%zu + %zu records in one %s batch", count, second, to_string(type).data());
+  ByteWriter w(static_cast<std::size_t>(size));
+  w.put(kBatchMagic);
+  w.put(kBatchVersion);
+  w.put(static_cast<std::uint8_t>(type));
+  w.put(std::uint8_t{0});
+  w.put(stamp.job);
+  w.put(stamp.epoch);
+  w.put(stamp.sender);
+  w.put(stamp.sequence);
+  w.put(h.count);
+  w.put(h.second_count);
+  w.put(static_cast<std::uint32_t>(rule.bytes));
+  w.put(stamp.incarnation);
+  return w;
+}
+
+void store_vec(std::byte* at, double x, double y, double z) {
+  store_little(at, x);
+  store_little(at + 8, y);
+  store_little(at + 16, z);
+}
+
+void store_ray(std::byte* at, const RayTask& task) {
+  const auto& [origin, direction] = task.ray;
+  store_vec(at, origin.x, origin.y, origin.z);
+  store_vec(at + 24, direction.x, direction.y, direction.z);
+  store_little(at + 48, task.t);
+  store_little(at + 56, task.t_max);
+  store_vec(at + 64, task.weight.r, task.weight.g, task.weight.b);
+  store_little(at + 88, task.pixel);
+  store_little(at + 92, static_cast<std::uint8_t>(task.kind));
+  store_little(at + 93, task.credit_exponent);
+  store_little(at + 94, task.depth);
+  store_little(at + 96, task.region.column);
+  store_little(at + 98, task.region.row);
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays) {
+  ByteWriter w = begin(stamp, BatchType::kRays, rays.size(), 0);
+  std::byte* at = w.room(rays.size() * kRayBytes);
+  for (const RayTask& task : rays) {
+    store_ray(at, task);
+    at += kRayBytes;
+  }
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
+                                            std::span<const TileCredit> credits,
+                                            std::span<const Contribution> contributions) {
+  ByteWriter w = begin(stamp, BatchType::kContributions, credits.size(), contributions.size());
+  for (const TileCredit& c : credits) {
+    w.put(c.tile);
+    for (const std::uint64_t word : c.credit.words()) w.put(word);
+  }
+  for (const Contribution& c : contributions) {
+    w.put(c.pixel);
+    w.put(c.light.r);
+    w.put(c.light.g);
+    w.put(c.light.b);
+  }
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t bytes) {
+  ByteWriter w = begin(stamp, BatchType::kLinkCredit, 1, 0);
+  w.put(bytes);
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& token) {
+  ByteWriter w = begin(stamp, BatchType::kToken, 1, 0);
+  w.put(static_cast<std::uint8_t>(token.black ? 1 : 0));
+  w.put(token.count);
+  w.put(token.round);
+  w.put(token.hops);
+  w.put(token.contribution_batches);
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
+                                         std::span<const std::uint32_t> tiles) {
+  ByteWriter w = begin(stamp, BatchType::kAssignment, tiles.size(), 0);
+  for (const std::uint32_t tile : tiles) w.put(tile);
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type) {
+  GRAYCUBE_CHECK(is_signal(type), "%s has a payload", to_string(type).data());
+  return begin(stamp, type, 0, 0).take();
+}
+
+std::string_view to_string(BatchError error) {
+  switch (error) {
+    case BatchError::kTooShort: return "too short";
+    case BatchError::kBadMagic: return "bad magic";
+    case BatchError::kBadVersion: return "bad version";
+    case BatchError::kBadType: return "bad type";
+    case BatchError::kBadLength: return "bad length";
+    case BatchError::kTooLarge: return "too large";
+    case BatchError::kBadValue: return "bad value";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(BatchType type) {
+  switch (type) {
+    case BatchType::kRays: return "rays";
+    case BatchType::kContributions: return "contributions";
+    case BatchType::kLinkCredit: return "link_credit";
+    case BatchType::kToken: return "token";
+    case BatchType::kAssignment: return "assignment";
+    case BatchType::kGreeting: return "greeting";
+    case BatchType::kGreetingAck: return "greeting_ack";
+    case BatchType::kGoodbye: return "goodbye";
+    case BatchType::kGoodbyeAck: return "goodbye_ack";
+  }
+  return "unknown";
+}
+
+}  // namespace graycube

@@ -1,0 +1,304 @@
+// The fields of every control message with their limits, listed once for the writer and the reader:
+// each_field(visit, message) calls visit(name, member[, limits]) for each. A member of type
+// std::optional may be missing, as may one whose limits say so; every other one must be there.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "proto/messages.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+
+struct FieldLimits {
+  /// Numbers, also inside arrays; integers have their type's range on top.
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  /// Most bytes of a string, or elements of an array.
+  std::size_t length = kMaxNameBytes;
+  /// May be missing; the member then keeps its default.
+  bool has_default = false;
+};
+
+/// `T`, const for the writer or not for the reader.
+template <class Member, class T>
+concept Is = std::same_as<std::remove_const_t<Member>, T>;
+
+namespace control {
+
+inline constexpr FieldLimits kText{.length = kMaxTextBytes};
+inline constexpr FieldLimits kSeconds{.min = 0};
+inline constexpr FieldLimits kRankRange{.max = kMaxNodes - 1};
+inline constexpr FieldLimits kThreadRange{.min = 1, .max = kMaxThreads};
+inline constexpr FieldLimits kFraction{.min = 0, .max = 1};
+
+constexpr FieldLimits at_least_one() { return {.min = 1}; }
+
+void each_field(auto& visit, Is<NodeStats> auto& m) {
+  visit("rank", m.rank, kRankRange);
+  visit("gray", m.gray, kRankRange);
+  visit("pid", m.pid);
+  visit("cpu_s", m.cpu_s, kSeconds);
+  visit("busy_s", m.busy_s, kSeconds);
+  visit("idle_s", m.idle_s, kSeconds);
+  visit("blocked_s", m.blocked_s, kSeconds);
+  visit("window_s", m.window_s, kSeconds);
+  visit("rays_in", m.rays_in);
+  visit("rays_out", m.rays_out);
+  visit("queue_peak", m.queue_peak);
+  visit("primitives", m.primitives);
+  visit("peak_rss_bytes", m.peak_rss_bytes);
+  visit("primary", m.primary);
+  visit("shadow", m.shadow);
+  visit("reflection", m.reflection);
+  visit("refraction", m.refraction);
+  visit("skipped_by_horizon", m.skipped_by_horizon);
+  visit("forwarded_shadow", m.forwarded_shadow);
+  visit("forwarded_secondary", m.forwarded_secondary);
+  visit("ray_batches", m.ray_batches);
+  visit("ray_bytes", m.ray_bytes);
+  visit("contribution_batches", m.contribution_batches);
+  visit("contribution_bytes", m.contribution_bytes);
+  visit("non_finite", m.non_finite);
+  visit("clamped", m.clamped);
+  visit("malformed_drops", m.malformed_drops);
+}
+
+void each_field(auto& visit, Is<JobOptions> auto& m) {
+  constexpr FieldLimits kDefaulted{.has_default = true};
+  visit("algorithm", m.algorithm, kDefaulted);
+  visit("grain", m.grain, kDefaulted);
+  visit("shadows", m.shadows, kDefaulted);
+  visit("partition", m.partition, kDefaulted);
+  visit("scatter", m.scatter, {.min = 1, .max = kMaxGridSide, .has_default = true});
+  visit("flow", m.flow, kDefaulted);
+  visit("queue", m.queue, {.min = 1, .has_default = true});
+  visit("threads", m.threads, {.max = kMaxThreads, .has_default = true});
+  visit("timeout_s", m.timeout_s, {.min = 0, .has_default = true});
+  visit("width", m.width, {.min = 1, .max = kMaxImageSide});
+  visit("height", m.height, {.min = 1, .max = kMaxImageSide});
+  visit("samples", m.samples, {.min = 1, .max = kMaxSamples});
+  visit("max_depth", m.max_depth, {.max = kMaxDepth});
+}
+
+void each_field(auto& visit, Is<GridLayout> auto& m) {
+  constexpr FieldLimits kSide{.min = 1, .max = kMaxGridSide};
+  // Edges may lie beyond the picture, but not by more than this.
+  constexpr double kFarEdge = 1 << 30;
+  constexpr FieldLimits kEdges{.min = -kFarEdge, .max = kFarEdge, .length = kMaxGridSide - 1};
+  visit("columns", m.columns, kSide);
+  visit("rows", m.rows, kSide);
+  visit("scatter", m.scatter, kSide);
+  visit("column_edges", m.column_edges, kEdges);
+  visit("row_edges", m.row_edges, kEdges);
+}
+
+void each_field(auto& visit, Is<TokenProgress> auto& m) {
+  visit("round", m.round);
+  visit("hops", m.hops);
+}
+
+void each_field(auto& visit, Is<ErrorItem> auto& m) {
+  visit("where", m.where, kText);
+  visit("why", m.why, kText);
+}
+
+void each_field(auto& visit, Is<NodeInfo> auto& m) {
+  visit("rank", m.rank, kRankRange);
+  visit("gray", m.gray, kRankRange);
+  visit("pid", m.pid);
+  visit("state", m.state);
+  visit("endpoint", m.endpoint);
+  visit("threads", m.threads, kThreadRange);
+}
+
+// ---- node → frontal
+
+void each_field(auto& visit, Is<Hello> auto& m) {
+  visit("rank", m.rank, kRankRange);
+  visit("pid", m.pid);
+  visit("incarnation", m.incarnation);
+  visit("endpoint", m.endpoint);
+  visit("threads", m.threads, kThreadRange);
+  visit("version", m.version);
+}
+
+void each_field(auto& visit, Is<Ready> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("primitives", m.primitives);
+  visit("objects", m.objects);
+  visit("leaves", m.leaves);
+  visit("build_s", m.build_s, kSeconds);
+}
+
+void each_field(auto& visit, Is<EpochAck> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+}
+
+void each_field(auto& visit, Is<TokenRound> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("round", m.round);
+  visit("hops", m.hops);
+  visit("black", m.black);
+  visit("count", m.count);
+}
+
+void each_field(auto& visit, Is<Terminated> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("rounds", m.rounds);
+  visit("hops", m.hops);
+  visit("contribution_batches", m.contribution_batches);
+}
+
+void each_field(auto& visit, Is<NodeReport> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("stats", m.stats);
+}
+
+void each_field(auto& visit, Is<NodeProgress> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("primary_rays_left", m.primary_rays_left);
+}
+
+void each_field(auto& visit, Is<Pong> auto& m) { visit("sequence", m.sequence); }
+
+void each_field(auto& visit, Is<NodeError> auto& m) {
+  visit("job", m.job);
+  visit("message", m.message, kText);
+}
+
+void each_field(auto&, Is<Goodbye> auto&) {}
+
+// ---- frontal → node
+
+void each_field(auto& visit, Is<Welcome> auto& m) {
+  visit("nodes", m.nodes, {.min = 1, .max = kMaxNodes});
+  visit("version", m.version);
+  visit("endpoints", m.endpoints, {.length = kMaxNodes});
+  visit("heartbeat_ms", m.heartbeat_ms, at_least_one());
+}
+
+void each_field(auto& visit, Is<Load> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("algorithm", m.algorithm);
+  visit("threads", m.threads, kThreadRange);
+  visit("grid", m.grid);
+  visit("grain", m.grain);
+  visit("tile_size", m.tile_size, {.min = 1, .max = kMaxImageSide});
+  visit("shadows", m.shadows);
+  visit("flow", m.flow);
+  visit("queue", m.queue, at_least_one());
+  visit("link_credit_bytes", m.link_credit_bytes);
+  visit("window_tiles", m.window_tiles, at_least_one());
+  visit("batch_bytes", m.batch_bytes, at_least_one());
+}
+
+void each_field(auto& visit, Is<Prepare> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+}
+
+void each_field(auto& visit, Is<Start> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("incarnations", m.incarnations, {.length = kMaxNodes});
+}
+
+void each_field(auto& visit, Is<Finish> auto& m) { visit("job", m.job, at_least_one()); }
+void each_field(auto& visit, Is<Ping> auto& m) { visit("sequence", m.sequence); }
+void each_field(auto&, Is<Shutdown> auto&) {}
+
+// ---- client → frontal
+
+void each_field(auto& visit, Is<Submit> auto& m) {
+  visit("scene_name", m.scene_name);
+  visit("options", m.options);
+}
+
+void each_field(auto& visit, Is<Status> auto& m) { visit("job", m.job, at_least_one()); }
+void each_field(auto&, Is<List> auto&) {}
+void each_field(auto& visit, Is<Watch> auto& m) { visit("job", m.job, at_least_one()); }
+void each_field(auto& visit, Is<Cancel> auto& m) { visit("job", m.job, at_least_one()); }
+void each_field(auto&, Is<Nodes> auto&) {}
+
+void each_field(auto& visit, Is<Fetch> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("first_row", m.first_row, {.max = kMaxImageSide});
+  visit("rows", m.rows, {.max = kMaxImageSide});
+}
+
+void each_field(auto&, Is<Down> auto&) {}
+
+// ---- frontal → client
+
+void each_field(auto& visit, Is<Accepted> auto& m) { visit("job", m.job, at_least_one()); }
+
+void each_field(auto& visit, Is<JobInfo> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("state", m.state);
+  visit("scene", m.scene);
+  visit("algorithm", m.algorithm);
+  visit("nodes", m.nodes, {.max = kMaxNodes});
+  visit("fraction", m.fraction, kFraction);
+  visit("eta_s", m.eta_s, kSeconds);
+  visit("rounds", m.rounds);
+  visit("submitted_s", m.submitted_s, kSeconds);
+  visit("started_s", m.started_s, kSeconds);
+  visit("finished_s", m.finished_s, kSeconds);
+  visit("message", m.message, kText);
+  visit("tiles", m.tiles);
+  visit("tiles_whole", m.tiles_whole);
+}
+
+void each_field(auto& visit, Is<Jobs> auto& m) {
+  visit("jobs", m.jobs, {.length = kMaxJobsListed});
+}
+
+void each_field(auto& visit, Is<Progress> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("state", m.state);
+  visit("fraction", m.fraction, kFraction);
+  visit("eta_s", m.eta_s, kSeconds);
+  visit("tiles_whole", m.tiles_whole);
+  visit("tiles", m.tiles);
+  visit("rounds", m.rounds);
+  visit("token", m.token);
+}
+
+void each_field(auto& visit, Is<NodeList> auto& m) {
+  visit("nodes", m.nodes, {.length = kMaxNodes});
+}
+
+void each_field(auto& visit, Is<Done> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("stats", m.stats, {.length = kMaxStatsBytes});
+}
+
+void each_field(auto& visit, Is<Picture> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("width", m.width, {.min = 1, .max = kMaxImageSide});
+  visit("height", m.height, {.min = 1, .max = kMaxImageSide});
+  visit("first_row", m.first_row, {.max = kMaxImageSide});
+  visit("rows", m.rows, {.max = kMaxImageSide});
+}
+
+void each_field(auto& visit, Is<Failed> auto& m) {
+  visit("job", m.job);
+  visit("code", m.code);
+  visit("errors", m.errors, {.length = kMaxErrorsListed});
+}
+
+void each_field(auto&, Is<Bye> auto&) {}
+
+}  // namespace control
+}  // namespace graycube

@@ -1,0 +1,440 @@
+// The control messages: what goes as JSON between nodes, frontal and clients, one struct per
+// message. FORMAT.md, "Control messages", is normative. `kType` is the message's name on the wire,
+// the members' names are the fields' names (control_fields.hpp lists them with their limits). Times
+// are in seconds; jobs count from 1.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "space/macro_grid.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+inline constexpr std::uint32_t kMaxThreads = 1024;
+/// Longest names, endpoints and versions, and longest messages for people; UTF-8 bytes.
+inline constexpr std::size_t kMaxNameBytes = 256;
+inline constexpr std::size_t kMaxTextBytes = 1024;
+/// Longest JSON text of a job's statistics.
+inline constexpr std::size_t kMaxStatsBytes = 768 * 1024;
+inline constexpr std::size_t kMaxJobsListed = 256;
+inline constexpr std::size_t kMaxErrorsListed = 100;
+/// Largest binary frame behind `submit` (the scene's text) and behind `picture`.
+inline constexpr std::size_t kMaxSubmitBytes = std::size_t{1} << 28;
+inline constexpr std::size_t kMaxPictureBytes = std::size_t{1} << 26;
+
+enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
+enum class Grain : std::uint8_t { kPixel, kLine, kTile };
+enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
+enum class PartitionMode : std::uint8_t { kRegular, kBalanced };
+enum class FlowMode : std::uint8_t { kCredit, kBlocking };
+enum class JobState : std::uint8_t {
+  kQueued,
+  kLoading,
+  kBuilding,
+  kRendering,
+  kDone,
+  kFailed,
+  kCancelled
+};
+enum class NodeState : std::uint8_t { kStarting, kIdle, kBusy, kLost };
+enum class FailureCode : std::uint8_t {
+  kBadInput,
+  kFailed,
+  kCancelled,
+  kTimeout,
+  kUnknownJob,
+  kBusy,
+  kNotDone,
+  kTooLarge,
+  kBadRequest
+};
+
+/// Names as on the wire and on the command line; empty for a value outside the enum.
+std::string_view to_string(Algorithm value);
+std::string_view to_string(Grain value);
+std::string_view to_string(ShadowMode value);
+std::string_view to_string(PartitionMode value);
+std::string_view to_string(FlowMode value);
+std::string_view to_string(JobState value);
+std::string_view to_string(NodeState value);
+std::string_view to_string(FailureCode value);
+
+/// JSON text of one object, carried as it is.
+struct RawObject {
+  std::string text = "{}";
+  friend bool operator==(const RawObject&, const RawObject&) = default;
+};
+
+namespace control {
+
+/// A node's record of one job: the fields of `per_node` in the statistics file, and what the
+/// frontal sums.
+struct NodeStats {
+  std::uint32_t rank = 0, gray = 0;
+  std::uint64_t pid = 0;
+  double cpu_s = 0, busy_s = 0, idle_s = 0, blocked_s = 0, window_s = 0;
+  std::uint64_t rays_in = 0, rays_out = 0, queue_peak = 0, primitives = 0, peak_rss_bytes = 0;
+  /// Rays, counted where they are created.
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  std::uint64_t skipped_by_horizon = 0, forwarded_shadow = 0, forwarded_secondary = 0;
+  std::uint64_t ray_batches = 0, ray_bytes = 0, contribution_batches = 0, contribution_bytes = 0;
+  /// Components of contributions mended while rounding; batches and messages refused.
+  std::uint64_t non_finite = 0, clamped = 0, malformed_drops = 0;
+  friend bool operator==(const NodeStats&, const NodeStats&) = default;
+};
+
+/// Overrides and choices of a render; what a client leaves out keeps the default.
+struct JobOptions {
+  Algorithm algorithm = Algorithm::kAuto;
+  Grain grain = Grain::kTile;
+  ShadowMode shadows = ShadowMode::kHorizon;
+  PartitionMode partition = PartitionMode::kRegular;
+  std::uint32_t scatter = 1;
+  FlowMode flow = FlowMode::kCredit;
+  /// Rays that a node's input queue holds where flow is blocking.
+  std::uint32_t queue = 1024;
+  /// Evaluator threads per node; 0: what the node was started with.
+  std::uint32_t threads = 0;
+  /// Seconds; 0: no limit.
+  double timeout_s = 0;
+  /// The scene's own values where absent.
+  std::optional<std::uint32_t> width{}, height{}, samples{}, max_depth{};
+  friend bool operator==(const JobOptions&, const JobOptions&) = default;
+};
+
+/// The grid of macro-regions: `scatter` × `scatter` per node, region (i, j) on node
+/// (i mod columns/scatter, j mod rows/scatter).
+struct GridLayout {
+  std::uint32_t columns = 1, rows = 1, scatter = 1;
+  /// Inner boundaries as pixel edges, strictly increasing, one fewer than columns (rows).
+  std::vector<std::int64_t> column_edges{}, row_edges{};
+  friend bool operator==(const GridLayout&, const GridLayout&) = default;
+};
+
+struct TokenProgress {
+  std::uint32_t round = 0, hops = 0;
+  friend bool operator==(const TokenProgress&, const TokenProgress&) = default;
+};
+
+struct ErrorItem {
+  /// A JSON pointer into the scene, a node, an option.
+  std::string where{};
+  std::string why{};
+  friend bool operator==(const ErrorItem&, const ErrorItem&) = default;
+};
+
+struct NodeInfo {
+  std::uint32_t rank = 0, gray = 0;
+  std::uint64_t pid = 0;
+  NodeState state = NodeState::kStarting;
+  std::string endpoint{};
+  std::uint32_t threads = 1;
+  friend bool operator==(const NodeInfo&, const NodeInfo&) = default;
+};
+
+// ---- node → frontal
+
+struct Hello {
+  static constexpr std::string_view kType = "hello";
+  std::uint32_t rank = 0;
+  std::uint64_t pid = 0;
+  std::uint32_t incarnation = 0;
+  /// Where the node's inbox listens.
+  std::string endpoint{};
+  std::uint32_t threads = 1;
+  std::string version{};
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+/// The macro-region is subdivided.
+struct Ready {
+  static constexpr std::string_view kType = "ready";
+  std::uint32_t job = 0, epoch = 0;
+  std::uint64_t primitives = 0, objects = 0, leaves = 0;
+  double build_s = 0;
+  friend bool operator==(const Ready&, const Ready&) = default;
+};
+
+/// Everything of older epochs is dropped.
+struct EpochAck {
+  static constexpr std::string_view kType = "epoch_ack";
+  std::uint32_t job = 0, epoch = 0;
+  friend bool operator==(const EpochAck&, const EpochAck&) = default;
+};
+
+/// Rank 0 only: the token came round without ending the image.
+struct TokenRound {
+  static constexpr std::string_view kType = "token_round";
+  std::uint32_t job = 0, epoch = 0, round = 0, hops = 0;
+  bool black = false;
+  std::int64_t count = 0;
+  friend bool operator==(const TokenRound&, const TokenRound&) = default;
+};
+
+/// Rank 0 only: the token's verdict, with the contribution batches that the frontal must hold by
+/// then.
+struct Terminated {
+  static constexpr std::string_view kType = "terminated";
+  std::uint32_t job = 0, epoch = 0, rounds = 0, hops = 0;
+  std::uint64_t contribution_batches = 0;
+  friend bool operator==(const Terminated&, const Terminated&) = default;
+};
+
+struct NodeReport {
+  static constexpr std::string_view kType = "node_report";
+  std::uint32_t job = 0, epoch = 0;
+  NodeStats stats{};
+  friend bool operator==(const NodeReport&, const NodeReport&) = default;
+};
+
+struct NodeProgress {
+  static constexpr std::string_view kType = "node_progress";
+  std::uint32_t job = 0;
+  std::uint64_t primary_rays_left = 0;
+  friend bool operator==(const NodeProgress&, const NodeProgress&) = default;
+};
+
+struct Pong {
+  static constexpr std::string_view kType = "pong";
+  std::uint64_t sequence = 0;
+  friend bool operator==(const Pong&, const Pong&) = default;
+};
+
+/// The node can't go on with a job. job 0: with anything.
+struct NodeError {
+  static constexpr std::string_view kType = "node_error";
+  std::uint32_t job = 0;
+  std::string message{};
+  friend bool operator==(const NodeError&, const NodeError&) = default;
+};
+
+/// Nothing more will come from this node.
+struct Goodbye {
+  static constexpr std::string_view kType = "goodbye";
+  friend bool operator==(const Goodbye&, const Goodbye&) = default;
+};
+
+// ---- frontal → node
+
+struct Welcome {
+  static constexpr std::string_view kType = "welcome";
+  std::uint32_t nodes = 1;
+  /// The frontal's.
+  std::string version{};
+  /// Every node's inbox, by rank; empty where no node is yet.
+  std::vector<std::string> endpoints{};
+  /// How often the frontal pings.
+  std::uint32_t heartbeat_ms = 1000;
+  friend bool operator==(const Welcome&, const Welcome&) = default;
+};
+
+/// Followed by a binary frame: the node's model slice.
+struct Load {
+  static constexpr std::string_view kType = "load";
+  std::uint32_t job = 0, epoch = 0;
+  /// kRoth or kMacro.
+  Algorithm algorithm = Algorithm::kMacro;
+  std::uint32_t threads = 1;
+  GridLayout grid{};
+  Grain grain = Grain::kTile;
+  /// Side of a tile, in pixels.
+  std::uint32_t tile_size = 1;
+  ShadowMode shadows = ShadowMode::kHorizon;
+  FlowMode flow = FlowMode::kCredit;
+  /// Rays that the input queue holds where flow is blocking.
+  std::uint32_t queue = 1024;
+  std::uint64_t link_credit_bytes = 0;
+  /// Own tiles that may be open at a time.
+  std::uint32_t window_tiles = 1;
+  std::uint32_t batch_bytes = 65536;
+  friend bool operator==(const Load&, const Load&) = default;
+};
+
+/// Drop everything of epochs before this one, and acknowledge.
+struct Prepare {
+  static constexpr std::string_view kType = "prepare";
+  std::uint32_t job = 0, epoch = 0;
+  friend bool operator==(const Prepare&, const Prepare&) = default;
+};
+
+/// The barrier is passed. Tiles to trace: a node's own in epoch 0, later those that assignments
+/// bring.
+struct Start {
+  static constexpr std::string_view kType = "start";
+  std::uint32_t job = 0, epoch = 0;
+  /// By rank; links accept no others.
+  std::vector<std::uint32_t> incarnations{};
+  friend bool operator==(const Start&, const Start&) = default;
+};
+
+/// Send the report and drop the job.
+struct Finish {
+  static constexpr std::string_view kType = "finish";
+  std::uint32_t job = 0;
+  friend bool operator==(const Finish&, const Finish&) = default;
+};
+
+struct Ping {
+  static constexpr std::string_view kType = "ping";
+  std::uint64_t sequence = 0;
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+
+struct Shutdown {
+  static constexpr std::string_view kType = "shutdown";
+  friend bool operator==(const Shutdown&, const Shutdown&) = default;
+};
+
+// ---- client → frontal
+
+/// Followed by a binary frame: the scene's text.
+struct Submit {
+  static constexpr std::string_view kType = "submit";
+  std::string scene_name{};
+  JobOptions options{};
+  friend bool operator==(const Submit&, const Submit&) = default;
+};
+
+struct Status {
+  static constexpr std::string_view kType = "status";
+  std::uint32_t job = 0;
+  friend bool operator==(const Status&, const Status&) = default;
+};
+
+struct List {
+  static constexpr std::string_view kType = "list";
+  friend bool operator==(const List&, const List&) = default;
+};
+
+/// Progress from now on, until Done or Failed.
+struct Watch {
+  static constexpr std::string_view kType = "watch";
+  std::uint32_t job = 0;
+  friend bool operator==(const Watch&, const Watch&) = default;
+};
+
+struct Cancel {
+  static constexpr std::string_view kType = "cancel";
+  std::uint32_t job = 0;
+  friend bool operator==(const Cancel&, const Cancel&) = default;
+};
+
+struct Nodes {
+  static constexpr std::string_view kType = "nodes";
+  friend bool operator==(const Nodes&, const Nodes&) = default;
+};
+
+/// Rows of a picture; fewer may come, the client asks on from there.
+struct Fetch {
+  static constexpr std::string_view kType = "fetch";
+  std::uint32_t job = 0, first_row = 0, rows = 0;
+  friend bool operator==(const Fetch&, const Fetch&) = default;
+};
+
+/// Stop the farm.
+struct Down {
+  static constexpr std::string_view kType = "down";
+  friend bool operator==(const Down&, const Down&) = default;
+};
+
+// ---- frontal → client
+
+struct Accepted {
+  static constexpr std::string_view kType = "accepted";
+  std::uint32_t job = 0;
+  friend bool operator==(const Accepted&, const Accepted&) = default;
+};
+
+struct JobInfo {
+  static constexpr std::string_view kType = "job_info";
+  std::uint32_t job = 0;
+  JobState state = JobState::kQueued;
+  std::string scene{};
+  Algorithm algorithm = Algorithm::kAuto;
+  std::uint32_t nodes = 0;
+  /// 0 … 1.
+  double fraction = 0;
+  /// Absent while nothing is known.
+  std::optional<double> eta_s{};
+  std::uint32_t rounds = 0;
+  /// Unix time.
+  double submitted_s = 0;
+  std::optional<double> started_s{}, finished_s{};
+  std::string message{};
+  std::uint32_t tiles = 0, tiles_whole = 0;
+  friend bool operator==(const JobInfo&, const JobInfo&) = default;
+};
+
+/// The newest kMaxJobsListed jobs.
+struct Jobs {
+  static constexpr std::string_view kType = "jobs";
+  std::vector<JobInfo> jobs{};
+  friend bool operator==(const Jobs&, const Jobs&) = default;
+};
+
+struct Progress {
+  static constexpr std::string_view kType = "progress";
+  std::uint32_t job = 0;
+  JobState state = JobState::kQueued;
+  double fraction = 0;
+  std::optional<double> eta_s{};
+  std::uint32_t tiles_whole = 0, tiles = 0, rounds = 0;
+  std::optional<TokenProgress> token{};
+  friend bool operator==(const Progress&, const Progress&) = default;
+};
+
+struct NodeList {
+  static constexpr std::string_view kType = "node_list";
+  std::vector<NodeInfo> nodes{};
+  friend bool operator==(const NodeList&, const NodeList&) = default;
+};
+
+struct Done {
+  static constexpr std::string_view kType = "done";
+  std::uint32_t job = 0;
+  /// The statistics file.
+  RawObject stats{};
+  friend bool operator==(const Done&, const Done&) = default;
+};
+
+/// Followed by a binary frame: `rows` rows of `width` pixels, see picture_rows.hpp.
+struct Picture {
+  static constexpr std::string_view kType = "picture";
+  std::uint32_t job = 0, width = 1, height = 1, first_row = 0, rows = 0;
+  friend bool operator==(const Picture&, const Picture&) = default;
+};
+
+/// Refusals and failed jobs; job 0 when the request named none.
+struct Failed {
+  static constexpr std::string_view kType = "failed";
+  std::uint32_t job = 0;
+  FailureCode code = FailureCode::kFailed;
+  std::vector<ErrorItem> errors{};
+  friend bool operator==(const Failed&, const Failed&) = default;
+};
+
+/// The frontal stops.
+struct Bye {
+  static constexpr std::string_view kType = "bye";
+  friend bool operator==(const Bye&, const Bye&) = default;
+};
+
+}  // namespace control
+
+using ControlMessage =
+    std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
+                 control::Terminated, control::NodeReport, control::NodeProgress, control::Pong,
+                 control::NodeError, control::Goodbye, control::Welcome, control::Load,
+                 control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
+                 control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,
+                 control::JobInfo, control::Jobs, control::Progress, control::NodeList,
+                 control::Done, control::Picture, control::Failed, control::Bye>;
+
+}  // namespace graycube

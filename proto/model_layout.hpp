@@ -1,0 +1,66 @@
+// The layout of a model slice, shared by its writer and its reader. FORMAT.md describes it.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "csg/model.hpp"
+
+namespace graycube::model_layout {
+
+inline constexpr std::size_t kHeaderBytes = 32;
+inline constexpr std::size_t kSettingsBytes = 172;
+inline constexpr std::size_t kLightBytes = 49;
+inline constexpr std::size_t kMaterialBytes = 81;
+inline constexpr std::size_t kPlaneBytes = 32;
+inline constexpr std::size_t kNodeBytes = 5;
+inline constexpr std::size_t kObjectBytes = 60;
+/// Kind, flags and material; what the flags name follows.
+inline constexpr std::size_t kPrimitiveBytes = 7;
+
+/// Bits 0 … 5 of a primitive's flags: v[i] is not +0 and follows.
+inline constexpr unsigned kHasMap = 1u << 6;
+inline constexpr unsigned kHasBounds = 1u << 7;
+inline constexpr unsigned kHasPlanes = 1u << 8;
+inline constexpr unsigned kAllFlags = (1u << 9) - 1;
+
+/// Equality of bits: −0 is not +0.
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+inline bool same_bits(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
+/// Which optional parts of a primitive are written: those that differ from Primitive{}.
+inline unsigned flags_of(const Primitive& p) {
+  static const Primitive plain;
+  unsigned flags = 0;
+  for (std::size_t i = 0; i < p.v.size(); ++i) {
+    if (!same_bits(p.v[i], 0.0)) flags |= 1u << i;
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      if (!same_bits(p.to_local.m[row][column], plain.to_local.m[row][column])) flags |= kHasMap;
+    }
+  }
+  if (!same_bits(p.bounds.lo, plain.bounds.lo) || !same_bits(p.bounds.hi, plain.bounds.hi)) {
+    flags |= kHasBounds;
+  }
+  if (p.first_plane != 0 || p.plane_count != 0) flags |= kHasPlanes;
+  return flags;
+}
+
+constexpr std::size_t primitive_bytes(unsigned flags) {
+  return kPrimitiveBytes + 8 * static_cast<std::size_t>(std::popcount(flags & 0x3Fu)) +
+         ((flags & kHasMap) != 0 ? 96 : 0) + ((flags & kHasBounds) != 0 ? 48 : 0) +
+         ((flags & kHasPlanes) != 0 ? 8 : 0);
+}
+
+inline bool is_inner(TreeNode::Kind kind) {
+  return kind == TreeNode::Kind::kAnd || kind == TreeNode::Kind::kOr;
+}
+
+}  // namespace graycube::model_layout

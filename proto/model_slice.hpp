@@ -1,0 +1,51 @@
+// A model, or the slice of it that one macro-region needs, as bytes: what the frontal sends a node
+// behind `load`. FORMAT.md, "Model slices", is normative. Every field of Model crosses with all its
+// bits; what is zero or the identity, as in most primitives, takes no room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "csg/model.hpp"
+
+namespace graycube {
+
+/// "GCM1", read as a little-endian integer.
+inline constexpr std::uint32_t kModelMagic = 0x314D4347;
+inline constexpr std::uint16_t kModelVersion = 1;
+
+inline constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
+inline constexpr std::uint32_t kMaxModelMaterials = 1u << 20;
+inline constexpr std::uint32_t kMaxModelPrimitives = 1u << 24;
+inline constexpr std::uint32_t kMaxModelPlanes = 1u << 25;
+inline constexpr std::uint32_t kMaxModelNodes = 1u << 26;
+inline constexpr std::uint32_t kMaxModelObjects = 1u << 24;
+/// Most nodes on the way from an object's root to a leaf: whoever walks the tree may recurse.
+inline constexpr std::uint32_t kMaxModelTreeDepth = 512;
+
+/// Why bytes are not a model: which part ("primitive 17"), and what is wrong with it.
+struct ModelError {
+  std::string where;
+  std::string why;
+};
+
+/// Size of what encode_model gives.
+std::size_t encoded_model_bytes(const Model& model);
+
+/// True when encode_model may be called: no count, nor the size, nor the depth of a tree beyond its
+/// limit.
+bool fits_model_limits(const Model& model);
+
+/// The model must keep to its own rules (those that decode_model checks) and fit the limits; a
+/// broken one is a bug that the receiver reports.
+std::vector<std::byte> encode_model(const Model& model);
+
+/// Takes no more memory than the counts that the bytes can hold, and checks every index: nodes of a
+/// decoded model nest properly, and every material, plane and primitive that they name exists.
+[[nodiscard]] std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes);
+
+}  // namespace graycube

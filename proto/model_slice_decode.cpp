@@ -1,0 +1,291 @@
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "proto/bytes.hpp"
+#include "proto/model_layout.hpp"
+#include "proto/model_slice.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace model_layout;
+
+struct Counts {
+  std::uint32_t lights, materials, planes, primitives, nodes, objects;
+};
+
+Vec3 get_vec(ByteReader& r) {
+  const auto x = r.get<double>(), y = r.get<double>(), z = r.get<double>();
+  return {x, y, z};
+}
+
+Rgb get_rgb(ByteReader& r) {
+  const Vec3 v = get_vec(r);
+  return {v.x, v.y, v.z};
+}
+
+Aabb get_box(ByteReader& r) {
+  const Vec3 lo = get_vec(r);
+  return {lo, get_vec(r)};
+}
+
+bool is_coefficient(double v) { return std::isfinite(v) && v >= 0; }
+bool is_color(const Rgb& c) {
+  return is_coefficient(c.r) && is_coefficient(c.g) && is_coefficient(c.b);
+}
+/// Bounds may be infinite, and "nothing" has lo > hi; only NaN is wrong.
+bool is_box(const Aabb& box) {
+  for (int a = 0; a < 3; ++a) {
+    if (std::isnan(box.lo[a]) || std::isnan(box.hi[a])) return false;
+  }
+  return true;
+}
+
+/// Reads part after part; the first fault is kept and everything after it skipped.
+class ModelReader {
+ public:
+  explicit ModelReader(std::span<const std::byte> bytes) : r_(bytes), size_(bytes.size()) {}
+
+  std::variant<Model, ModelError> read() {
+    const Counts counts = header();
+    if (!error_) settings(counts);
+    section("light", counts.lights, model_.settings.lights, &ModelReader::light);
+    section("material", counts.materials, model_.materials, &ModelReader::material);
+    section("plane", counts.planes, model_.planes, &ModelReader::plane);
+    section("primitive", counts.primitives, model_.primitives, &ModelReader::primitive);
+    section("node", counts.nodes, model_.nodes, &ModelReader::node);
+    section("object", counts.objects, model_.objects, &ModelReader::object);
+    if (!error_) trees();
+    if (!error_ && r_.remaining() != 0) fail("end", "bytes left over");
+    if (error_) return *std::move(error_);
+    return std::move(model_);
+  }
+
+ private:
+  void fail(std::string where, const char* why) {
+    if (!error_) error_ = ModelError{std::move(where), why};
+  }
+
+  Counts header() {
+    Counts c{};
+    if (size_ > kMaxModelBytes) fail("header", "too large");
+    if (r_.get<std::uint32_t>() != kModelMagic) fail("header", "bad magic");
+    if (r_.get<std::uint16_t>() != kModelVersion) fail("header", "unknown version");
+    if (r_.get<std::uint16_t>() != 0) fail("header", "reserved field is not 0");
+    for (std::uint32_t* count :
+         {&c.lights, &c.materials, &c.planes, &c.primitives, &c.nodes, &c.objects}) {
+      *count = r_.get<std::uint32_t>();
+    }
+    if (c.lights > kMaxLights || c.materials > kMaxModelMaterials || c.planes > kMaxModelPlanes ||
+        c.primitives > kMaxModelPrimitives || c.nodes > kMaxModelNodes ||
+        c.objects > kMaxModelObjects) {
+      fail("header", "a count beyond its limit");
+    }
+    const std::uint64_t least =
+        kSettingsBytes + std::uint64_t{c.lights} * kLightBytes +
+        std::uint64_t{c.materials} * kMaterialBytes + std::uint64_t{c.planes} * kPlaneBytes +
+        std::uint64_t{c.primitives} * kPrimitiveBytes + std::uint64_t{c.nodes} * kNodeBytes +
+        std::uint64_t{c.objects} * kObjectBytes;
+    if (!r_.ok() || least > r_.remaining()) fail("header", "fewer bytes than the counts need");
+    return c;
+  }
+
+  /// `count` records into `out`. Memory is taken only here, after the header has found room for all
+  /// counts.
+  template <class Record>
+  void section(const char* name, std::uint32_t count, std::vector<Record>& out,
+               const char* (ModelReader::*record)(Record&)) {
+    if (error_) return;
+    out.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const char* why = (this->*record)(out[i]);
+      if (!r_.ok()) why = "too short";
+      if (why != nullptr) [[unlikely]] {
+        fail(std::string(name) + ' ' + std::to_string(i), why);
+        return;
+      }
+    }
+  }
+
+  void settings(const Counts& counts) {
+    RenderSettings& s = model_.settings;
+    s.image.width = r_.get<std::uint32_t>();
+    s.image.height = r_.get<std::uint32_t>();
+    s.image.samples = r_.get<std::uint32_t>();
+    const auto projection = r_.get<std::uint8_t>(), handedness = r_.get<std::uint8_t>();
+    const auto reserved = r_.get<std::uint16_t>();
+    Camera& camera = s.camera;
+    camera.eye = get_vec(r_);
+    camera.look_at = get_vec(r_);
+    camera.up = get_vec(r_);
+    camera.fov_degrees = r_.get<double>();
+    camera.width = r_.get<double>();
+    s.background = get_rgb(r_);
+    s.ambient = get_rgb(r_);
+    s.max_depth = r_.get<std::uint32_t>();
+    s.min_weight = r_.get<double>();
+    model_.delta = r_.get<double>();
+    if (projection > 1 || handedness > 1 || reserved != 0) {
+      return fail("camera", "unknown projection or handedness");
+    }
+    camera.projection = static_cast<Projection>(projection);
+    camera.handedness = static_cast<Handedness>(handedness);
+    if (const char* why = why_wrong(s.image)) return fail("image", why);
+    if (const char* why = why_wrong(camera)) return fail("camera", why);
+    if (!is_color(s.background) || !is_color(s.ambient) || s.max_depth > kMaxDepth ||
+        !is_coefficient(s.min_weight) || !is_coefficient(model_.delta) ||
+        counts.lights > kMaxLights) {
+      fail("settings", "a value out of range");
+    }
+  }
+
+  static const char* why_wrong(const ImageSize& image) {
+    if (image.width < 1 || image.width > kMaxImageSide || image.height < 1 ||
+        image.height > kMaxImageSide || std::uint64_t{image.width} * image.height > kMaxPixels) {
+      return "size out of range";
+    }
+    return image.samples < 1 || image.samples > kMaxSamples ? "samples out of range" : nullptr;
+  }
+
+  static const char* why_wrong(const Camera& camera) {
+    if (!is_finite(camera.eye) || !is_finite(camera.look_at) || !is_finite(camera.up) ||
+        !std::isfinite(camera.fov_degrees) || !std::isfinite(camera.width)) {
+      return "not finite";
+    }
+    const Vec3 view = normalized(camera.look_at - camera.eye);
+    if (length(cross(view, normalized(camera.up))) == 0) return "no view direction, or up along it";
+    if (camera.projection == Projection::kPerspective) {
+      return camera.fov_degrees > 0 && camera.fov_degrees < 180 ? nullptr : "fov out of range";
+    }
+    return camera.width > 0 ? nullptr : "width out of range";
+  }
+
+  const char* light(PointLight& light) {
+    light.position = get_vec(r_);
+    light.color = get_rgb(r_);
+    const auto falloff = r_.get<std::uint8_t>();
+    if (falloff > 1) return "unknown falloff";
+    light.falloff = static_cast<Falloff>(falloff);
+    return is_finite(light.position) && is_color(light.color) ? nullptr : "a value out of range";
+  }
+
+  const char* material(Material& m) {
+    m.color = get_rgb(r_);
+    bool valid = is_color(m.color);
+    for (double* v :
+         {&m.ambient, &m.diffuse, &m.specular, &m.shininess, &m.reflect, &m.transmit, &m.ior}) {
+      *v = r_.get<double>();
+      valid = valid && is_coefficient(*v);
+    }
+    const auto shading = r_.get<std::uint8_t>();
+    if (shading > static_cast<std::uint8_t>(ShadingModel::kHallGreenberg))
+      return "unknown shading model";
+    m.model = static_cast<ShadingModel>(shading);
+    return valid && m.transmit <= 1 && m.ior > 0 ? nullptr : "a coefficient out of range";
+  }
+
+  const char* plane(Plane& plane) {
+    plane.normal = get_vec(r_);
+    plane.offset = r_.get<double>();
+    return is_finite(plane.normal) && std::isfinite(plane.offset) ? nullptr : "not finite";
+  }
+
+  const char* primitive(Primitive& p) {
+    const auto kind = r_.get<std::uint8_t>();
+    const unsigned flags = r_.get<std::uint16_t>();
+    p.material = r_.get<std::uint32_t>();
+    if (kind >= kPrimitiveKinds) return "unknown kind";
+    if (flags > kAllFlags) return "unknown flags";
+    if (p.material >= model_.materials.size()) return "no such material";
+    p.kind = static_cast<PrimitiveKind>(kind);
+    bool finite = true;
+    const auto number = [&](double& v) {
+      v = r_.get<double>();
+      finite = finite && std::isfinite(v);
+    };
+    for (std::size_t i = 0; i < p.v.size(); ++i) {
+      if ((flags >> i & 1) != 0) number(p.v[i]);
+    }
+    if ((flags & kHasMap) != 0) {
+      for (auto& row : p.to_local.m) {
+        for (double& v : row) number(v);
+      }
+    }
+    if ((flags & kHasBounds) != 0) p.bounds = get_box(r_);
+    if ((flags & kHasPlanes) != 0) {
+      p.first_plane = r_.get<std::uint32_t>();
+      p.plane_count = r_.get<std::uint32_t>();
+      if (std::uint64_t{p.first_plane} + p.plane_count > model_.planes.size())
+        return "no such plane";
+    }
+    return finite && is_box(p.bounds) ? nullptr : "not finite";
+  }
+
+  const char* node(TreeNode& n) {
+    const auto kind = r_.get<std::uint8_t>();
+    const auto value = r_.get<std::uint32_t>();
+    if (kind > static_cast<std::uint8_t>(TreeNode::Kind::kInvertedLeaf)) return "unknown kind";
+    n.kind = static_cast<TreeNode::Kind>(kind);
+    if (is_inner(n.kind)) {
+      n.size = value;
+      return value >= 2 ? nullptr : "an operation without children";
+    }
+    n.primitive = value;
+    return value < model_.primitives.size() ? nullptr : "no such primitive";
+  }
+
+  const char* object(Object& o) {
+    o.id = r_.get<std::uint32_t>();
+    o.first_node = r_.get<std::uint32_t>();
+    o.node_count = r_.get<std::uint32_t>();
+    o.bounds = get_box(r_);
+    // Objects keep file order, and so do their trees: one behind the other, nothing between them.
+    const bool first = &o == model_.objects.data();
+    if (!first && o.id <= (&o)[-1].id) return "ids must increase";
+    const std::uint64_t begin =
+        first ? 0 : (&o)[-1].first_node + std::uint64_t{(&o)[-1].node_count};
+    if (o.first_node != begin) return "its nodes must follow those of the object before";
+    if (o.node_count < 1 || begin + o.node_count > model_.nodes.size()) return "no such nodes";
+    return is_box(o.bounds) ? nullptr : "not a number in its bounds";
+  }
+
+  /// Every subtree must end where or before its parent does, and every object's tree where its
+  /// nodes do.
+  void trees() {
+    std::uint64_t covered = 0;
+    std::vector<std::uint64_t> ends;
+    for (const Object& object : model_.objects) {
+      if (model_.nodes[object.first_node].size != object.node_count) {
+        return fail("node " + std::to_string(object.first_node),
+                    "not the root of its object's nodes");
+      }
+      covered = std::uint64_t{object.first_node} + object.node_count;
+      for (std::uint64_t i = object.first_node; i < covered; ++i) {
+        while (!ends.empty() && ends.back() <= i) ends.pop_back();
+        const std::uint64_t end = i + model_.nodes[i].size;
+        if (!ends.empty() && end > ends.back()) {
+          return fail("node " + std::to_string(i), "its subtree ends beyond its parent's");
+        }
+        ends.push_back(end);
+        if (ends.size() > kMaxModelTreeDepth)
+          return fail("node " + std::to_string(i), "nested too deeply");
+      }
+      ends.clear();
+    }
+    if (covered != model_.nodes.size()) fail("nodes", "some belong to no object");
+  }
+
+  ByteReader r_;
+  std::size_t size_;
+  Model model_;
+  std::optional<ModelError> error_;
+};
+
+}  // namespace
+
+std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes) {
+  return ModelReader(bytes).read();
+}
+
+}  // namespace graycube

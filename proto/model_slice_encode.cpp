@@ -1,0 +1,156 @@
+#include <algorithm>
+
+#include "geometry/check.hpp"
+#include "proto/bytes.hpp"
+#include "proto/model_layout.hpp"
+#include "proto/model_slice.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace model_layout;
+
+void put_vec(ByteWriter& w, const Vec3& v) {
+  w.put(v.x);
+  w.put(v.y);
+  w.put(v.z);
+}
+
+void put_rgb(ByteWriter& w, const Rgb& c) {
+  w.put(c.r);
+  w.put(c.g);
+  w.put(c.b);
+}
+
+void put_box(ByteWriter& w, const Aabb& box) {
+  put_vec(w, box.lo);
+  put_vec(w, box.hi);
+}
+
+void put_settings(ByteWriter& w, const RenderSettings& s, double delta) {
+  w.put(s.image.width);
+  w.put(s.image.height);
+  w.put(s.image.samples);
+  w.put(static_cast<std::uint8_t>(s.camera.projection));
+  w.put(static_cast<std::uint8_t>(s.camera.handedness));
+  w.put(std::uint16_t{0});
+  put_vec(w, s.camera.eye);
+  put_vec(w, s.camera.look_at);
+  put_vec(w, s.camera.up);
+  w.put(s.camera.fov_degrees);
+  w.put(s.camera.width);
+  put_rgb(w, s.background);
+  put_rgb(w, s.ambient);
+  w.put(s.max_depth);
+  w.put(s.min_weight);
+  w.put(delta);
+}
+
+void put_light(ByteWriter& w, const PointLight& light) {
+  put_vec(w, light.position);
+  put_rgb(w, light.color);
+  w.put(static_cast<std::uint8_t>(light.falloff));
+}
+
+void put_material(ByteWriter& w, const Material& m) {
+  put_rgb(w, m.color);
+  for (const double v :
+       {m.ambient, m.diffuse, m.specular, m.shininess, m.reflect, m.transmit, m.ior}) {
+    w.put(v);
+  }
+  w.put(static_cast<std::uint8_t>(m.model));
+}
+
+void put_primitive(ByteWriter& w, const Primitive& p) {
+  const unsigned flags = flags_of(p);
+  w.put(static_cast<std::uint8_t>(p.kind));
+  w.put(static_cast<std::uint16_t>(flags));
+  w.put(p.material);
+  for (std::size_t i = 0; i < p.v.size(); ++i) {
+    if ((flags >> i & 1) != 0) w.put(p.v[i]);
+  }
+  if ((flags & kHasMap) != 0) {
+    for (const auto& row : p.to_local.m) {
+      for (const double v : row) w.put(v);
+    }
+  }
+  if ((flags & kHasBounds) != 0) put_box(w, p.bounds);
+  if ((flags & kHasPlanes) != 0) {
+    w.put(p.first_plane);
+    w.put(p.plane_count);
+  }
+}
+
+/// A leaf's size is 1 and an inner node names no primitive, so one number is enough.
+void put_node(ByteWriter& w, const TreeNode& n) {
+  GRAYCUBE_CHECK(is_inner(n.kind) ? n.primitive == 0 : n.size == 1,
+                 "kind %d, primitive %u, size %u", static_cast<int>(n.kind), n.primitive, n.size);
+  w.put(static_cast<std::uint8_t>(n.kind));
+  w.put(is_inner(n.kind) ? n.size : n.primitive);
+}
+
+void put_object(ByteWriter& w, const Object& o) {
+  w.put(o.id);
+  w.put(o.first_node);
+  w.put(o.node_count);
+  put_box(w, o.bounds);
+}
+
+/// The deepest nesting of a preorder list of trees whose sizes are trusted.
+std::size_t depth_of(const std::vector<TreeNode>& nodes) {
+  std::vector<std::size_t> ends;
+  std::size_t deepest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    while (!ends.empty() && ends.back() <= i) ends.pop_back();
+    ends.push_back(i + nodes[i].size);
+    deepest = std::max(deepest, ends.size());
+  }
+  return deepest;
+}
+
+}  // namespace
+
+std::size_t encoded_model_bytes(const Model& model) {
+  std::size_t bytes = kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
+                      model.materials.size() * kMaterialBytes + model.planes.size() * kPlaneBytes +
+                      model.nodes.size() * kNodeBytes + model.objects.size() * kObjectBytes;
+  for (const Primitive& p : model.primitives) bytes += primitive_bytes(flags_of(p));
+  return bytes;
+}
+
+bool fits_model_limits(const Model& model) {
+  return model.settings.lights.size() <= kMaxLights &&
+         model.materials.size() <= kMaxModelMaterials &&
+         model.primitives.size() <= kMaxModelPrimitives && model.planes.size() <= kMaxModelPlanes &&
+         model.nodes.size() <= kMaxModelNodes && model.objects.size() <= kMaxModelObjects &&
+         depth_of(model.nodes) <= kMaxModelTreeDepth &&
+         encoded_model_bytes(model) <= kMaxModelBytes;
+}
+
+std::vector<std::byte> encode_model(const Model& model) {
+  const std::size_t size = encoded_model_bytes(model);
+  GRAYCUBE_CHECK(fits_model_limits(model), "a model of %zu bytes, %zu primitives, %zu nodes", size,
+                 model.primitives.size(), model.nodes.size());
+  ByteWriter w(size);
+  w.put(kModelMagic);
+  w.put(kModelVersion);
+  w.put(std::uint16_t{0});
+  for (const std::size_t count :
+       {model.settings.lights.size(), model.materials.size(), model.planes.size(),
+        model.primitives.size(), model.nodes.size(), model.objects.size()}) {
+    w.put(static_cast<std::uint32_t>(count));
+  }
+  put_settings(w, model.settings, model.delta);
+  for (const PointLight& light : model.settings.lights) put_light(w, light);
+  for (const Material& material : model.materials) put_material(w, material);
+  for (const Plane& plane : model.planes) {
+    put_vec(w, plane.normal);
+    w.put(plane.offset);
+  }
+  for (const Primitive& primitive : model.primitives) put_primitive(w, primitive);
+  for (const TreeNode& node : model.nodes) put_node(w, node);
+  for (const Object& object : model.objects) put_object(w, object);
+  return std::move(w).take();
+}
+
+}  // namespace graycube

@@ -1,0 +1,32 @@
+#include "proto/picture_rows.hpp"
+
+#include "geometry/check.hpp"
+#include "proto/bytes.hpp"
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+std::vector<std::byte> encode_picture_rows(std::span<const float> values) {
+  GRAYCUBE_CHECK(values.size() % 3 == 0 && values.size() <= kMaxPictureBytes / 4, "%zu values",
+                 values.size());
+  ByteWriter w(values.size() * 4);
+  for (const float v : values) w.put(v);
+  return std::move(w).take();
+}
+
+bool decode_picture_rows(std::span<const std::byte> frame, std::uint32_t width, std::uint32_t rows,
+                         std::vector<float>& values) {
+  values.clear();
+  const std::uint64_t pixels = std::uint64_t{width} * rows;
+  if (frame.size() > kMaxPictureBytes || frame.size() % 12 != 0 || frame.size() / 12 != pixels)
+    return false;
+  values.resize(frame.size() / 4);
+  const std::byte* at = frame.data();
+  for (float& v : values) {
+    v = load_little<float>(at);
+    at += 4;
+  }
+  return true;
+}
+
+}  // namespace graycube

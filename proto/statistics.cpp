@@ -1,0 +1,103 @@
+#include "proto/statistics.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace graycube {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using control::NodeStats;
+
+std::uint64_t total(const std::vector<NodeStats>& nodes, std::uint64_t NodeStats::*field) {
+  std::uint64_t sum = 0;
+  for (const NodeStats& n : nodes) sum += n.*field;
+  return sum;
+}
+
+double total(const std::vector<NodeStats>& nodes, double NodeStats::*field) {
+  double sum = 0;
+  for (const NodeStats& n : nodes) sum += n.*field;
+  return sum;
+}
+
+Json node_json(const NodeStats& n) {
+  return {{"rank", n.rank},
+          {"gray", n.gray},
+          {"pid", n.pid},
+          {"cpu_s", n.cpu_s},
+          {"busy_s", n.busy_s},
+          {"idle_s", n.idle_s},
+          {"blocked_s", n.blocked_s},
+          {"window_s", n.window_s},
+          {"rays_in", n.rays_in},
+          {"rays_out", n.rays_out},
+          {"queue_peak", n.queue_peak},
+          {"primitives", n.primitives},
+          {"peak_rss_bytes", n.peak_rss_bytes}};
+}
+
+Json balance_json(const Statistics& s) {
+  double most = 0;
+  for (const NodeStats& n : s.per_node) most = std::max(most, n.busy_s);
+  const double mean = s.per_node.empty() ? 0
+                                         : total(s.per_node, &NodeStats::busy_s) /
+                                               static_cast<double>(s.per_node.size());
+  const double available = static_cast<double>(s.nodes) * s.threads * s.render_s;
+  const auto share = [&](double seconds) { return available > 0 ? seconds / available : 0.0; };
+  return {{"efficiency", most > 0 ? mean / most : 1.0},
+          {"blocked_fraction", share(total(s.per_node, &NodeStats::blocked_s))},
+          {"window_fraction", share(total(s.per_node, &NodeStats::window_s))}};
+}
+
+}  // namespace
+
+std::string statistics_json(const Statistics& s) {
+  const auto sum = [&](std::uint64_t NodeStats::*field) { return total(s.per_node, field); };
+  Json j;
+  j["graycube"] = s.version;
+  j["scene"] = s.scene;
+  j["algorithm"] = to_string(s.algorithm);
+  j["nodes"] = s.nodes;
+  j["threads"] = s.threads;
+  j["dimension"] = s.dimension;
+  j["grid"] = s.grid;
+  j["image"] = {{"width", s.image.width}, {"height", s.image.height}, {"samples", s.image.samples}};
+  j["primitives"] = s.primitives;
+  j["objects"] = s.objects;
+  j["wall_s"] = s.wall_s;
+  j["cpu_s"] = s.cpu_s;
+  j["phases"] = {{"load_s", s.load_s},
+                 {"partition_s", s.partition_s},
+                 {"build_s", s.build_s},
+                 {"render_s", s.render_s}};
+  j["rays"] = {{"primary", sum(&NodeStats::primary)},
+               {"shadow", sum(&NodeStats::shadow)},
+               {"reflection", sum(&NodeStats::reflection)},
+               {"refraction", sum(&NodeStats::refraction)}};
+  j["shadow"] = {{"skipped_by_horizon", sum(&NodeStats::skipped_by_horizon)}};
+  j["forwarded"] = {{"shadow", sum(&NodeStats::forwarded_shadow)},
+                    {"secondary", sum(&NodeStats::forwarded_secondary)}};
+  j["messages"] = {{"ray_batches", sum(&NodeStats::ray_batches)},
+                   {"ray_bytes", sum(&NodeStats::ray_bytes)},
+                   {"contribution_batches", sum(&NodeStats::contribution_batches)},
+                   {"contribution_bytes", sum(&NodeStats::contribution_bytes)}};
+  j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
+  j["balance"] = balance_json(s);
+  j["contributions"] = {{"non_finite", sum(&NodeStats::non_finite)},
+                        {"clamped", sum(&NodeStats::clamped)}};
+  j["malformed_drops"] = sum(&NodeStats::malformed_drops);
+  j["per_node"] = Json::array();
+  for (const NodeStats& n : s.per_node) j["per_node"].push_back(node_json(n));
+  return j.dump();
+}
+
+std::string with_command_times(const std::string& text, double wall_s, double cpu_s) {
+  Json j = Json::parse(text, nullptr, false);
+  if (!j.is_object() || !j.contains("cpu_s") || !j["cpu_s"].is_number()) return text;
+  j["wall_s"] = wall_s;
+  j["cpu_s"] = j["cpu_s"].get<double>() + cpu_s;
+  return j.dump();
+}
+
+}  // namespace graycube

@@ -1,0 +1,35 @@
+// The statistics file: one JSON object for each render (README, "Statistics").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/messages.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+
+struct Statistics {
+  std::string version, scene;
+  Algorithm algorithm = Algorithm::kSerial;
+  std::uint32_t nodes = 1, threads = 1, dimension = 0;
+  std::array<std::uint32_t, 2> grid{1, 1};
+  ImageSize image;
+  std::uint64_t primitives = 0, objects = 0;
+  double wall_s = 0, cpu_s = 0;
+  double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
+  std::uint32_t token_rounds = 0, token_hops = 0;
+  /// By rank; what the nodes sent of themselves. Totals are summed from these.
+  std::vector<control::NodeStats> per_node;
+};
+
+/// One line of JSON.
+std::string statistics_json(const Statistics& statistics);
+
+/// The statistics with the time and CPU that the command itself used: wall_s replaced, cpu_s added
+/// to. `text` must come from statistics_json.
+std::string with_command_times(const std::string& text, double wall_s, double cpu_s);
+
+}  // namespace graycube

@@ -1,0 +1,6 @@
+#include "fuzz/proto_fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  graycube::fuzz_batch(std::as_bytes(std::span(data, size)));
+  return 0;
+}

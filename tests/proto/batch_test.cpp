@@ -1,0 +1,347 @@
+#include "proto/batch.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <functional>
+
+#include "fuzz/proto_fuzz.hpp"
+#include "proto/bytes.hpp"
+#include "proto/random.hpp"
+
+using namespace graycube;
+using graycube::test::Random;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// As in fuzz_batch, so that the mutation tests start from accepted messages.
+constexpr BatchLimits kLimits{
+    .pixel_count = 4096, .tile_count = 64, .max_depth = 9, .columns = 4, .rows = 2, .nodes = 8};
+constexpr BatchStamp kStamp{
+    .job = 3, .epoch = 2, .sender = 5, .incarnation = 77, .sequence = 1ull << 40};
+
+RayTask some_ray(Random& random) {
+  RayTask task;
+  task.ray = {random.vec(), random.unit()};
+  task.t = random.not_negative();
+  task.t_max = random.chance(2) ? kInf : random.not_negative();
+  task.weight = random.rgb();
+  task.pixel = static_cast<std::uint32_t>(random.below(4096));
+  task.kind = static_cast<RayKind>(random.below(kRayKinds));
+  task.credit_exponent = static_cast<std::uint8_t>(random.below(256));
+  task.depth = static_cast<std::uint16_t>(random.below(10));
+  task.region = {static_cast<std::uint16_t>(random.below(4)),
+                 static_cast<std::uint16_t>(random.below(2))};
+  return task;
+}
+
+std::vector<RayTask> some_rays(Random& random, std::size_t count) {
+  std::vector<RayTask> rays;
+  for (std::size_t i = 0; i < count; ++i) rays.push_back(some_ray(random));
+  return rays;
+}
+
+TileCredit some_credit(Random& random) {
+  TileCredit c{static_cast<std::uint32_t>(random.below(64)), {}};
+  for (int i = 0; i < 20; ++i) c.credit.add_power(static_cast<int>(random.below(256)));
+  return c;
+}
+
+Contribution some_light(Random& random) {
+  const auto value = [&] { return static_cast<std::int64_t>(random.below((1ull << 62) + 1)); };
+  return {static_cast<std::uint32_t>(random.below(4096)), {value(), value(), value()}};
+}
+
+/// One message of every type.
+std::vector<Bytes> one_of_each(Random& random) {
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> light;
+  for (int i = 0; i < 3; ++i) credits.push_back(some_credit(random));
+  for (int i = 0; i < 4; ++i) light.push_back(some_light(random));
+  return {encode_rays(kStamp, some_rays(random, 3)),
+          encode_contributions(kStamp, credits, light),
+          encode_link_credit(kStamp, 65536),
+          encode_token(kStamp, {true, -12, 3, 20, 99}),
+          encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
+          encode_signal(kStamp, BatchType::kGreeting),
+          encode_signal(kStamp, BatchType::kGreetingAck),
+          encode_signal(kStamp, BatchType::kGoodbye),
+          encode_signal(kStamp, BatchType::kGoodbyeAck)};
+}
+
+template <class T>
+Bytes with(Bytes bytes, std::size_t offset, T value) {
+  store_little(bytes.data() + offset, value);
+  return bytes;
+}
+
+BatchError error_of(const BatchResult& result) {
+  REQUIRE(std::holds_alternative<BatchError>(result));
+  return std::get<BatchError>(result);
+}
+
+BatchResult decode_rays_of(const Bytes& bytes) {
+  std::vector<RayTask> rays;
+  return decode_rays(bytes, kLimits, rays);
+}
+
+}  // namespace
+
+TEST_CASE("a batch's header lies at the offsets that FORMAT.md gives") {
+  Random random(1);
+  const Bytes bytes = encode_rays(kStamp, some_rays(random, 2));
+  REQUIRE(bytes.size() == 44 + 2 * 100);
+  CHECK(std::memcmp(bytes.data(), "GCB1", 4) == 0);
+  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 1);
+  CHECK(load_little<std::uint8_t>(bytes.data() + 6) == 1);
+  CHECK(load_little<std::uint8_t>(bytes.data() + 7) == 0);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 8) == 3);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 12) == 2);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 16) == 5);
+  CHECK(load_little<std::uint64_t>(bytes.data() + 20) == 1ull << 40);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 28) == 2);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 0);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 200);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 40) == 77);
+}
+
+TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
+  RayTask task;
+  task.ray = {{1, 2, 3}, {0, 0.6, 0.8}};
+  task.t = 4;
+  task.t_max = 5;
+  task.weight = {0.25, 0.5, 0.75};
+  task.pixel = 0x01020304;
+  task.kind = RayKind::kReflection;
+  task.credit_exponent = 130;
+  task.depth = 0x0506;
+  task.region = {0x0708, 0x090A};
+  const Bytes bytes = encode_rays(kStamp, std::span(&task, 1));
+  const std::byte* at = bytes.data() + 44;
+  const double expected[] = {1, 2, 3, 0, 0.6, 0.8, 4, 5, 0.25, 0.5, 0.75};
+  for (std::size_t i = 0; i < std::size(expected); ++i)
+    CHECK(load_little<double>(at + 8 * i) == expected[i]);
+  CHECK(load_little<std::uint32_t>(at + 88) == 0x01020304);
+  CHECK(load_little<std::uint8_t>(at + 92) == 2);
+  CHECK(load_little<std::uint8_t>(at + 93) == 130);
+  CHECK(load_little<std::uint16_t>(at + 94) == 0x0506);
+  CHECK(load_little<std::uint16_t>(at + 96) == 0x0708);
+  CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
+}
+
+TEST_CASE("rays keep every bit on the wire") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const auto rays = some_rays(random, random.below(40));
+    std::vector<RayTask> again(7);
+    const BatchResult result = decode_rays(encode_rays(kStamp, rays), kLimits, again);
+    REQUIRE(std::holds_alternative<BatchHeader>(result));
+    CHECK(std::get<BatchHeader>(result).stamp == kStamp);
+    CHECK(std::get<BatchHeader>(result).count == rays.size());
+    REQUIRE(again.size() == rays.size());
+    // No padding before the last field: memcmp compares all bits.
+    static_assert(offsetof(RayTask, region) + sizeof(RegionIndex) == kRayBytes);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      CHECK(std::memcmp(&again[i], &rays[i], kRayBytes) == 0);
+  }
+}
+
+TEST_CASE("contributions and their credit come back as sent") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    std::vector<TileCredit> credits, credits_again;
+    std::vector<Contribution> light, light_again;
+    for (std::uint64_t n = random.below(9); n > 0; --n) credits.push_back(some_credit(random));
+    for (std::uint64_t n = random.below(9); n > 0; --n) light.push_back(some_light(random));
+    const Bytes bytes = encode_contributions(kStamp, credits, light);
+    CHECK(bytes.size() == contribution_batch_bytes(credits.size(), light.size()));
+    const BatchResult result = decode_contributions(bytes, kLimits, credits_again, light_again);
+    REQUIRE(std::holds_alternative<BatchHeader>(result));
+    CHECK(credits_again == credits);
+    CHECK(light_again == light);
+  }
+}
+
+TEST_CASE("grants, tokens, assignments and signals come back as sent") {
+  std::uint64_t granted = 0;
+  REQUIRE(decode_link_credit(encode_link_credit(kStamp, 123456), kLimits, granted).index() == 0);
+  CHECK(granted == 123456);
+  TokenRecord token;
+  const TokenRecord sent{true, -5'000'000'000, 17, 300, 1ull << 33};
+  REQUIRE(decode_token(encode_token(kStamp, sent), kLimits, token).index() == 0);
+  CHECK(token == sent);
+  const std::vector<std::uint32_t> tiles{63, 0, 5};
+  std::vector<std::uint32_t> tiles_again;
+  REQUIRE(decode_assignment(encode_assignment(kStamp, tiles), kLimits, tiles_again).index() == 0);
+  CHECK(tiles_again == tiles);
+  for (const auto type : {BatchType::kGreeting, BatchType::kGreetingAck, BatchType::kGoodbye,
+                          BatchType::kGoodbyeAck}) {
+    const BatchResult result = decode_signal(encode_signal(kStamp, type), kLimits);
+    REQUIRE(std::holds_alternative<BatchHeader>(result));
+    CHECK(std::get<BatchHeader>(result).type == type);
+  }
+}
+
+TEST_CASE("the frontal may send batches, a rank that doesn't exist may not") {
+  BatchStamp stamp = kStamp;
+  stamp.sender = kFrontalRank;
+  std::vector<std::uint32_t> tiles;
+  CHECK(decode_assignment(encode_assignment(stamp, {}), kLimits, tiles).index() == 0);
+  stamp.sender = kLimits.nodes;
+  CHECK(error_of(decode_assignment(encode_assignment(stamp, {}), kLimits, tiles)) ==
+        BatchError::kBadValue);
+}
+
+TEST_CASE("a damaged header is refused, and the error says what is wrong") {
+  Random random(2);
+  const Bytes good = encode_rays(kStamp, some_rays(random, 2));
+  REQUIRE(peek_header(good).index() == 0);
+  CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
+  CHECK(error_of(peek_header(with(good, 4, std::uint16_t{2}))) == BatchError::kBadVersion);
+  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
+  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{10}))) == BatchError::kBadType);
+  CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
+  CHECK(error_of(peek_header(with(good, 28, std::uint32_t{3}))) == BatchError::kBadLength);
+  CHECK(error_of(peek_header(with(good, 32, std::uint32_t{1}))) == BatchError::kBadLength);
+  CHECK(error_of(peek_header(with(good, 36, std::uint32_t{199}))) == BatchError::kBadLength);
+  // 2^30 · 100 ≡ 0 (mod 2^32): a product in 32 bits would look small; so would (2^30 + 2) · 100.
+  CHECK(error_of(peek_header(with(good, 28, std::uint32_t{(1u << 30) + 2}))) ==
+        BatchError::kBadLength);
+  CHECK(to_string(BatchError::kBadLength) == "bad length");
+}
+
+TEST_CASE("a batch of another type than expected is refused by every decoder") {
+  Random random(3);
+  const std::vector<Bytes> messages = one_of_each(random);
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    INFO("message " << i);
+    // fuzz_batch aborts when two decoders accept the same bytes.
+    CHECK(fuzz_batch(messages[i]));
+  }
+  std::uint64_t granted = 0;
+  CHECK(error_of(decode_link_credit(messages[0], kLimits, granted)) == BatchError::kBadType);
+  CHECK(error_of(decode_signal(messages[0], kLimits)) == BatchError::kBadType);
+}
+
+TEST_CASE("a message beyond its largest size is refused before its records are read") {
+  const std::size_t rays = kMaxRaysPerBatch + 1;
+  Bytes bytes(ray_batch_bytes(rays));
+  const Bytes head = encode_signal(kStamp, BatchType::kGreeting);
+  std::memcpy(bytes.data(), head.data(), head.size());
+  bytes = with(with(with(bytes, 6, std::uint8_t{1}), 28, static_cast<std::uint32_t>(rays)), 36,
+               static_cast<std::uint32_t>(rays * kRayBytes));
+  CHECK(error_of(decode_rays_of(bytes)) == BatchError::kTooLarge);
+  Random random(4);
+  CHECK(decode_rays_of(encode_rays(kStamp, some_rays(random, kMaxRaysPerBatch))).index() == 0);
+}
+
+TEST_CASE("rays with values that no ray can have are refused") {
+  Random random(5);
+  auto good = some_rays(random, 2);
+  REQUIRE(decode_rays_of(encode_rays(kStamp, good)).index() == 0);
+  using Change = std::function<void(RayTask&)>;
+  const std::pair<const char*, Change> changes[] = {
+      {"origin is NaN", [](RayTask& r) { r.ray.origin.y = kNan; }},
+      {"origin is infinite", [](RayTask& r) { r.ray.origin.z = -kInf; }},
+      {"direction is NaN", [](RayTask& r) { r.ray.direction.x = kNan; }},
+      {"direction is infinite", [](RayTask& r) { r.ray.direction.x = kInf; }},
+      {"direction is zero", [](RayTask& r) { r.ray.direction = {}; }},
+      {"direction is too long", [](RayTask& r) { r.ray.direction = 1.001 * r.ray.direction; }},
+      {"t is NaN", [](RayTask& r) { r.t = kNan; }},
+      {"t is negative", [](RayTask& r) { r.t = -1e-300; }},
+      {"t is infinite", [](RayTask& r) { r.t = kInf; }},
+      {"t_max is NaN", [](RayTask& r) { r.t_max = kNan; }},
+      {"t_max is negative", [](RayTask& r) { r.t_max = -1; }},
+      {"weight is NaN", [](RayTask& r) { r.weight.r = kNan; }},
+      {"weight is infinite", [](RayTask& r) { r.weight.g = kInf; }},
+      {"weight is negative", [](RayTask& r) { r.weight.b = -1e-9; }},
+      {"pixel is outside the picture", [](RayTask& r) { r.pixel = 4096; }},
+      {"kind is unknown", [](RayTask& r) { r.kind = static_cast<RayKind>(4); }},
+      {"depth is beyond the job's", [](RayTask& r) { r.depth = 10; }},
+      {"column is outside the grid", [](RayTask& r) { r.region.column = 4; }},
+      {"row is outside the grid", [](RayTask& r) { r.region.row = 2; }},
+  };
+  for (const auto& [name, change] : changes) {
+    INFO(name);
+    auto bad = good;
+    change(bad[1]);
+    std::vector<RayTask> rays(5);
+    CHECK(error_of(decode_rays(encode_rays(kStamp, bad), kLimits, rays)) == BatchError::kBadValue);
+    CHECK(rays.empty());
+  }
+  BatchLimits narrow = kLimits;
+  narrow.max_exponent = 100;
+  good[0].credit_exponent = 101;
+  std::vector<RayTask> rays;
+  CHECK(error_of(decode_rays(encode_rays(kStamp, good), narrow, rays)) == BatchError::kBadValue);
+}
+
+TEST_CASE("contributions with values that nobody can have made are refused") {
+  const auto decode_one = [](const TileCredit& credit, const Contribution& light) {
+    std::vector<TileCredit> credits;
+    std::vector<Contribution> contributions;
+    return decode_contributions(
+        encode_contributions(kStamp, std::span(&credit, 1), std::span(&light, 1)), kLimits, credits,
+        contributions);
+  };
+  constexpr std::int64_t kMost = std::int64_t{1} << 62;
+  CHECK(decode_one({63, Credit::from_words({1, 0, 0, 0, 2})}, {4095, {0, kMost, 1}}).index() == 0);
+  CHECK(error_of(decode_one({64, {}}, {})) == BatchError::kBadValue);
+  CHECK(error_of(decode_one({0, Credit::from_words({1ull << 39, 0, 0, 0, 0})}, {})) ==
+        BatchError::kBadValue);
+  CHECK(error_of(decode_one({0, Credit::from_words({0, 0, 0, 0, 1})}, {})) ==
+        BatchError::kBadValue);
+  CHECK(error_of(decode_one({}, {4096, {}})) == BatchError::kBadValue);
+  CHECK(error_of(decode_one({}, {0, {-1, 0, 0}})) == BatchError::kBadValue);
+  CHECK(error_of(decode_one({}, {0, {0, 0, kMost + 1}})) == BatchError::kBadValue);
+}
+
+TEST_CASE("grants, tokens and assignments with values out of range are refused") {
+  std::uint64_t granted = 5;
+  CHECK(error_of(decode_link_credit(encode_link_credit(kStamp, kMaxLinkCreditBytes + 1), kLimits,
+                                    granted)) == BatchError::kBadValue);
+  CHECK(granted == 5);
+  TokenRecord token;
+  CHECK(error_of(decode_token(with(encode_token(kStamp, {}), 44, std::uint8_t{2}), kLimits,
+                              token)) == BatchError::kBadValue);
+  std::vector<std::uint32_t> tiles(3);
+  CHECK(error_of(decode_assignment(encode_assignment(kStamp, std::vector<std::uint32_t>{1, 64}),
+                                   kLimits, tiles)) == BatchError::kBadValue);
+  CHECK(tiles.empty());
+}
+
+TEST_CASE("a batch cut anywhere, or with a byte too many, is refused") {
+  Random random(6);
+  for (Bytes bytes : one_of_each(random)) {
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      CHECK_FALSE(fuzz_batch(std::span(bytes).first(size)));
+    }
+    bytes.push_back(std::byte{0});
+    CHECK_FALSE(fuzz_batch(bytes));
+  }
+}
+
+TEST_CASE("mutated batches are refused or survive a round trip") {
+  int accepted = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    for (const Bytes& bytes : one_of_each(random)) {
+      accepted += fuzz_batch(test::mutated(bytes, random)) ? 1 : 0;
+    }
+  }
+  // Many flips hit a weight or a stamp and leave a batch valid; else the test would prove little.
+  CHECK(accepted > 1000);
+}
+
+TEST_CASE("control text is not taken for a batch") {
+  const char text[] = "{\"graycube\":1}";
+  CHECK_FALSE(looks_like_batch(std::as_bytes(std::span(text))));
+  CHECK(looks_like_batch(encode_signal(kStamp, BatchType::kGreeting)));
+  CHECK_FALSE(looks_like_batch({}));
+}

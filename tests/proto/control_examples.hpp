@@ -1,0 +1,113 @@
+// One message of every type, with every optional field set.
+#pragma once
+
+#include <vector>
+
+#include "proto/control.hpp"
+
+namespace graycube::test {
+
+inline control::NodeStats example_stats() {
+  control::NodeStats s;
+  s.rank = 3;
+  s.gray = 2;
+  s.pid = 4711;
+  s.cpu_s = 1.25;
+  s.busy_s = 1.0;
+  s.idle_s = 0.1;
+  s.blocked_s = 1.0 / 3;
+  s.rays_in = 1'000'000'000'000;
+  s.rays_out = 7;
+  s.queue_peak = 12;
+  s.primitives = 103;
+  s.peak_rss_bytes = 1ull << 40;
+  s.primary = 65536;
+  s.shadow = 157297;
+  s.reflection = 20349;
+  s.refraction = 10879;
+  s.malformed_drops = 1;
+  return s;
+}
+
+inline control::JobOptions example_options() {
+  control::JobOptions o;
+  o.algorithm = Algorithm::kMacro;
+  o.grain = Grain::kLine;
+  o.shadows = ShadowMode::kLocal;
+  o.partition = PartitionMode::kBalanced;
+  o.scatter = 2;
+  o.flow = FlowMode::kBlocking;
+  o.queue = 64;
+  o.threads = 4;
+  o.timeout_s = 90.5;
+  o.width = 640;
+  o.height = 480;
+  o.samples = 2;
+  o.max_depth = 0;
+  return o;
+}
+
+inline control::JobInfo example_job() {
+  control::JobInfo j;
+  j.job = 9;
+  j.state = JobState::kRendering;
+  j.scene = "Bücher \"&\" \\ 100 % 図.json";
+  j.algorithm = Algorithm::kRoth;
+  j.nodes = 8;
+  j.fraction = 0.375;
+  j.eta_s = 12.5;
+  j.rounds = 4;
+  j.submitted_s = 1.7e9;
+  j.started_s = 1.7e9 + 0.25;
+  j.finished_s = 1.7e9 + 3;
+  j.message = "node 3 is lost, its macro-region goes to rank 3's replacement";
+  j.tiles = 64;
+  j.tiles_whole = 24;
+  return j;
+}
+
+inline std::vector<ControlMessage> example_messages() {
+  using namespace control;
+  const GridLayout grid{4, 2, 2, {-1, 16, 40}, {24}};
+  const RawObject stats{
+      R"({"graycube":"0.1.0","nodes":8,"rays":{"primary":65536},"per_node":[{"rank":0}]})"};
+  return {
+      Hello{3, 4711, 77, "ipc:///tmp/gc/3", 2, "0.1.0"},
+      Ready{9, 1, 103, 40, 812, 0.02},
+      EpochAck{9, 2},
+      TokenRound{9, 1, 3, 24, true, -5},
+      Terminated{9, 1, 4, 32, 1000},
+      NodeReport{9, 1, example_stats()},
+      NodeProgress{9, 12345},
+      Pong{18446744073709551615ull},
+      NodeError{0, "out of memory"},
+      Goodbye{},
+      Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
+      Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536},
+      Prepare{9, 2},
+      Start{9, 2, {77, 4294967295u}},
+      Finish{9},
+      Ping{5},
+      Shutdown{},
+      Submit{"plate.json", example_options()},
+      Status{9},
+      List{},
+      Watch{9},
+      Cancel{9},
+      Nodes{},
+      Fetch{9, 100, 20},
+      Down{},
+      Accepted{9},
+      example_job(),
+      Jobs{{example_job(), JobInfo{.job = 10, .scene = "b"}}},
+      Progress{9, JobState::kDone, 1, 0.0, 64, 64, 4, TokenProgress{4, 32}},
+      NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
+      Done{9, stats},
+      Picture{9, 640, 480, 100, 20},
+      Failed{9, FailureCode::kBadInput, {{"/objects/0/csg", "unknown type"}}},
+      Bye{},
+  };
+}
+
+}  // namespace graycube::test

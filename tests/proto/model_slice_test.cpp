@@ -1,0 +1,309 @@
+#include "proto/model_slice.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "fuzz/proto_fuzz.hpp"
+#include "proto/bytes.hpp"
+#include "proto/random.hpp"
+
+using namespace graycube;
+using graycube::test::Random;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+using Kind = TreeNode::Kind;
+
+Aabb some_box(Random& random) {
+  if (random.chance(5)) return Aabb::everything();
+  if (random.chance(9)) return Aabb::nothing();
+  Aabb box{random.vec(), random.vec()};
+  if (random.chance(3)) box.hi.y = Aabb::kInf;
+  return box;
+}
+
+Primitive some_primitive(Random& random, const Model& model) {
+  Primitive p;
+  p.kind = static_cast<PrimitiveKind>(random.below(kPrimitiveKinds));
+  p.material = static_cast<std::uint32_t>(random.below(model.materials.size()));
+  if (p.kind == PrimitiveKind::kPolyhedron && !model.planes.empty()) {
+    p.first_plane = static_cast<std::uint32_t>(random.below(model.planes.size()));
+    p.plane_count =
+        static_cast<std::uint32_t>(1 + random.below(model.planes.size() - p.first_plane));
+  }
+  for (double& v : p.v) v = random.chance(2) ? 0.0 : random.any_finite();
+  if (random.chance(2)) {
+    for (auto& row : p.to_local.m) {
+      for (double& v : row) v = random.any_finite();
+    }
+  }
+  p.bounds = some_box(random);
+  return p;
+}
+
+/// Appends a tree of at most `depth` levels.
+void append_tree(Random& random, Model& model, int depth) {
+  const std::size_t root = model.nodes.size();
+  if (depth == 1 || random.chance(3)) {
+    const auto primitive = static_cast<std::uint32_t>(random.below(model.primitives.size()));
+    model.nodes.push_back({random.chance(3) ? Kind::kInvertedLeaf : Kind::kLeaf, primitive, 1});
+    return;
+  }
+  model.nodes.push_back({random.chance(2) ? Kind::kAnd : Kind::kOr, 0, 1});
+  for (std::uint64_t n = 1 + random.below(4); n > 0; --n) append_tree(random, model, depth - 1);
+  model.nodes[root].size = static_cast<std::uint32_t>(model.nodes.size() - root);
+}
+
+RenderSettings some_settings(Random& random) {
+  RenderSettings s;
+  s.image = {static_cast<std::uint32_t>(1 + random.below(4096)),
+             static_cast<std::uint32_t>(1 + random.below(4096)),
+             static_cast<std::uint32_t>(1 + random.below(64))};
+  s.camera = {random.chance(2) ? Projection::kPerspective : Projection::kOrthographic,
+              {0, 2, random.uniform(-9, -1)},
+              {random.uniform(-1, 1), 0, 0},
+              {0, 1, 0},
+              random.uniform(1, 179),
+              random.uniform(0.1, 9),
+              random.chance(2) ? Handedness::kLeft : Handedness::kRight};
+  s.background = random.rgb();
+  s.ambient = random.rgb();
+  s.max_depth = static_cast<std::uint32_t>(random.below(kMaxDepth + 1));
+  s.min_weight = random.not_negative();
+  for (std::uint64_t n = random.below(4); n > 0; --n) {
+    s.lights.push_back(
+        {random.vec(), random.rgb(), random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare});
+  }
+  return s;
+}
+
+Model some_model(std::uint64_t seed) {
+  Random random(seed);
+  Model model;
+  model.settings = some_settings(random);
+  model.delta = random.not_negative();
+  for (std::uint64_t n = 1 + random.below(3); n > 0; --n) {
+    model.materials.push_back({random.rgb(), random.not_negative(), random.not_negative(),
+                               random.not_negative(), random.not_negative(), random.not_negative(),
+                               random.uniform(0, 1), random.uniform(0.1, 3),
+                               static_cast<ShadingModel>(random.below(3))});
+  }
+  for (std::uint64_t n = random.below(5); n > 0; --n)
+    model.planes.push_back({random.vec(), random.any_finite()});
+  for (std::uint64_t n = 1 + random.below(6); n > 0; --n) {
+    model.primitives.push_back(some_primitive(random, model));
+  }
+  std::uint32_t id = 0;
+  for (std::uint64_t n = random.below(4); n > 0; --n) {
+    Object object;
+    object.id = id + static_cast<std::uint32_t>(random.below(5));
+    object.first_node = static_cast<std::uint32_t>(model.nodes.size());
+    append_tree(random, model, 4);
+    object.node_count = static_cast<std::uint32_t>(model.nodes.size()) - object.first_node;
+    object.bounds = some_box(random);
+    id = object.id + 1;
+    model.objects.push_back(object);
+  }
+  return model;
+}
+
+/// Two objects, (0 ∧ (1 ∨ ¬0)) and 1: nodes 0 … 4 and 5.
+Model small_model() {
+  Model model;
+  model.settings.image = {4, 3, 1};
+  model.settings.camera = {Projection::kPerspective, {0, 0, -5}, {0, 0, 0}, {0, 1, 0}, 40, 0,
+                           Handedness::kRight};
+  model.materials.resize(1);
+  model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
+  model.primitives.resize(2);
+  model.primitives[0].v = {1, 2, 3, 0.5, 0, 0};
+  model.primitives[0].bounds = {{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}};
+  model.primitives[1].kind = PrimitiveKind::kPolyhedron;
+  model.primitives[1].plane_count = 2;
+  model.nodes = {{Kind::kAnd, 0, 5},  {Kind::kLeaf, 0, 1},         {Kind::kOr, 0, 3},
+                 {Kind::kLeaf, 1, 1}, {Kind::kInvertedLeaf, 0, 1}, {Kind::kLeaf, 1, 1}};
+  model.objects = {{2, 0, 5, {}}, {7, 5, 1, {}}};
+  return model;
+}
+
+ModelError error_of(const Bytes& bytes) {
+  auto result = decode_model(bytes);
+  REQUIRE(std::holds_alternative<ModelError>(result));
+  return std::get<ModelError>(result);
+}
+
+}  // namespace
+
+TEST_CASE("any model comes back equal, and bit for bit the same when encoded again") {
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    INFO("seed " << seed);
+    const Model model = some_model(seed);
+    const Bytes bytes = encode_model(model);
+    CHECK(bytes.size() == encoded_model_bytes(model));
+    const auto result = decode_model(bytes);
+    if (const auto* error = std::get_if<ModelError>(&result))
+      FAIL(error->where << ": " << error->why);
+    CHECK(std::get<Model>(result) == model);
+    // Equality takes −0 for +0; the bytes don't.
+    CHECK(encode_model(std::get<Model>(result)) == bytes);
+  }
+}
+
+TEST_CASE("a model without solids, lights or materials comes back") {
+  Model model;
+  model.settings = small_model().settings;
+  const auto result = decode_model(encode_model(model));
+  REQUIRE(std::holds_alternative<Model>(result));
+  CHECK(std::get<Model>(result) == model);
+}
+
+TEST_CASE("a sphere takes 87 bytes: no matrix, no planes") {
+  Model model = small_model();
+  const std::size_t before = encoded_model_bytes(model);
+  model.primitives.push_back(model.primitives[0]);
+  CHECK(encoded_model_bytes(model) - before == 7 + 4 * 8 + 6 * 8);
+}
+
+TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives") {
+  const Bytes bytes = encode_model(small_model());
+  CHECK(std::memcmp(bytes.data(), "GCM1", 4) == 0);
+  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 1);
+  const std::uint32_t counts[] = {0, 1, 2, 2, 6, 2};
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(load_little<std::uint32_t>(bytes.data() + 8 + 4 * i) == counts[i]);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 4);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 3);
+  CHECK(load_little<double>(bytes.data() + 48 + 16) == -5);
+  // Settings end at 204; a material of 81 bytes, two planes, then the first primitive.
+  const std::byte* primitive = bytes.data() + 204 + 81 + 64;
+  CHECK(load_little<std::uint8_t>(primitive) == 0);
+  CHECK(load_little<std::uint16_t>(primitive + 1) == (0x0F | 0x80));
+  CHECK(load_little<double>(primitive + 7 + 24) == 0.5);
+}
+
+TEST_CASE("a broken model is refused, and the error names the part") {
+  using Change = std::function<void(Model&)>;
+  const std::tuple<const char*, const char*, Change> changes[] = {
+      {"image", "size", [](Model& m) { m.settings.image.width = 0; }},
+      {"image", "size",
+       [](Model& m) {
+         m.settings.image = {16384, 16384, 1};
+       }},
+      {"image", "samples", [](Model& m) { m.settings.image.samples = 65; }},
+      {"camera", "fov", [](Model& m) { m.settings.camera.fov_degrees = 180; }},
+      {"camera", "view", [](Model& m) { m.settings.camera.look_at = m.settings.camera.eye; }},
+      {"camera", "view",
+       [](Model& m) {
+         m.settings.camera.up = {0, 0, 3};
+       }},
+      {"camera", "finite", [](Model& m) { m.settings.camera.eye.x = Aabb::kInf; }},
+      {"camera", "width",
+       [](Model& m) { m.settings.camera.projection = Projection::kOrthographic; }},
+      {"settings", "range", [](Model& m) { m.settings.max_depth = 1001; }},
+      {"settings", "range", [](Model& m) { m.settings.ambient.g = -1; }},
+      {"settings", "range", [](Model& m) { m.delta = std::nan(""); }},
+      {"light 0", "range",
+       [](Model& m) {
+         m.settings.lights.push_back({{0, 0, 0}, {-1, 0, 0}, {}});
+       }},
+      {"light 0", "falloff",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, static_cast<Falloff>(2)});
+       }},
+      {"material 0", "range", [](Model& m) { m.materials[0].transmit = 1.5; }},
+      {"material 0", "range", [](Model& m) { m.materials[0].ior = 0; }},
+      {"material 0", "range", [](Model& m) { m.materials[0].diffuse = std::nan(""); }},
+      {"material 0", "shading",
+       [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
+      {"plane 1", "finite", [](Model& m) { m.planes[1].offset = Aabb::kInf; }},
+      {"primitive 0", "kind",
+       [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(9); }},
+      {"primitive 0", "material", [](Model& m) { m.primitives[0].material = 1; }},
+      {"primitive 0", "finite", [](Model& m) { m.primitives[0].v[3] = std::nan(""); }},
+      {"primitive 0", "finite", [](Model& m) { m.primitives[0].to_local.m[1][2] = Aabb::kInf; }},
+      {"primitive 0", "finite", [](Model& m) { m.primitives[0].bounds.lo.x = std::nan(""); }},
+      {"primitive 1", "plane", [](Model& m) { m.primitives[1].plane_count = 3; }},
+      {"primitive 1", "plane", [](Model& m) { m.primitives[1].first_plane = 0xFFFFFFFF; }},
+      {"node 1", "primitive", [](Model& m) { m.nodes[1].primitive = 2; }},
+      {"node 2", "children", [](Model& m) { m.nodes[2].size = 1; }},
+      {"node 2", "parent", [](Model& m) { m.nodes[2].size = 4; }},
+      {"node 0", "root", [](Model& m) { m.nodes[0].size = 4; }},
+      {"node 5", "kind", [](Model& m) { m.nodes[5].kind = static_cast<Kind>(4); }},
+      {"object 1", "increase", [](Model& m) { m.objects[1].id = 2; }},
+      {"object 0", "follow", [](Model& m) { m.objects[0].first_node = 1; }},
+      {"object 1", "follow", [](Model& m) { m.objects[1].first_node = 4; }},
+      {"object 1", "nodes", [](Model& m) { m.objects[1].node_count = 2; }},
+      {"object 1", "nodes", [](Model& m) { m.objects[1].node_count = 0; }},
+      {"object 1", "bounds", [](Model& m) { m.objects[1].bounds.hi.z = std::nan(""); }},
+      {"nodes", "no object", [](Model& m) { m.objects.pop_back(); }},
+  };
+  REQUIRE(decode_model(encode_model(small_model())).index() == 0);
+  for (const auto& [where, why, change] : changes) {
+    Model model = small_model();
+    change(model);
+    const ModelError error = error_of(encode_model(model));
+    INFO(where << ": " << why << " expected, " << error.where << ": " << error.why);
+    CHECK(error.where == where);
+    CHECK(error.why.find(why) != std::string::npos);
+  }
+}
+
+TEST_CASE("counts beyond the bytes are refused before memory is taken") {
+  const Bytes good = encode_model(small_model());
+  for (std::size_t field = 0; field < 6; ++field) {
+    for (const std::uint32_t count : {1000u, 4000u, 1u << 20, 0xFFFFFFFFu}) {
+      Bytes bytes = good;
+      store_little(bytes.data() + 8 + 4 * field, count);
+      CHECK(error_of(bytes).where == "header");
+    }
+  }
+}
+
+TEST_CASE("trees nested more deeply than the limit are neither sent nor accepted") {
+  const auto nested = [](std::uint32_t depth) {
+    Model model = small_model();
+    model.nodes.clear();
+    for (std::uint32_t i = 0; i + 1 < depth; ++i) model.nodes.push_back({Kind::kAnd, 0, depth - i});
+    model.nodes.push_back({Kind::kLeaf, 0, 1});
+    model.objects = {{0, 0, depth, {}}};
+    return model;
+  };
+  CHECK(fits_model_limits(nested(kMaxModelTreeDepth)));
+  CHECK_FALSE(fits_model_limits(nested(kMaxModelTreeDepth + 1)));
+  REQUIRE(decode_model(encode_model(nested(kMaxModelTreeDepth))).index() == 0);
+  // The same count of nodes, flat, with the deep ones written over them.
+  const Model deep = nested(kMaxModelTreeDepth + 1);
+  Model flat = deep;
+  for (std::size_t i = 1; i < flat.nodes.size(); ++i) flat.nodes[i] = {Kind::kLeaf, 0, 1};
+  Bytes bytes = encode_model(flat);
+  REQUIRE(decode_model(bytes).index() == 0);
+  std::byte* at = bytes.data() + bytes.size() - 60 - 5 * flat.nodes.size();
+  for (std::size_t i = 0; i + 1 < deep.nodes.size(); ++i) {
+    store_little(at + 5 * i, static_cast<std::uint8_t>(Kind::kAnd));
+    store_little(at + 5 * i + 1, deep.nodes[i].size);
+  }
+  CHECK(error_of(bytes).why == "nested too deeply");
+}
+
+TEST_CASE("a model cut anywhere is refused, and so is one with a byte too many") {
+  Bytes bytes = encode_model(small_model());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    CHECK_FALSE(fuzz_model(std::span(bytes).first(size)));
+  }
+  bytes.push_back(std::byte{0});
+  CHECK(error_of(bytes).where == "end");
+}
+
+TEST_CASE("mutated models are refused or survive a round trip") {
+  int accepted = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Bytes bytes = encode_model(some_model(seed));
+    Random random(seed);
+    for (int i = 0; i < 100; ++i) {
+      INFO("seed " << seed << ", mutation " << i);
+      accepted += fuzz_model(test::mutated(bytes, random)) ? 1 : 0;
+    }
+  }
+  CHECK(accepted > 1000);
+}

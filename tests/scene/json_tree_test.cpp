@@ -1,0 +1,183 @@
+#include "scene/json_tree.hpp"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace graycube;
+
+namespace {
+
+/// The tree as the library would have it, to compare with what the library read itself.
+nlohmann::json to_library(const JsonTree& tree, JsonIndex at) {
+  switch (tree.kind(at)) {
+    case JsonKind::kNull:
+      return nullptr;
+    case JsonKind::kFalse:
+      return false;
+    case JsonKind::kTrue:
+      return true;
+    case JsonKind::kNumber:
+      return tree.number(at);
+    case JsonKind::kString:
+      return std::string(tree.string(at));
+    case JsonKind::kArray: {
+      auto array = nlohmann::json::array();
+      for (JsonIndex c = tree.first_child(at); c != tree.end(at); c = tree.next(c))
+        array.push_back(to_library(tree, c));
+      return array;
+    }
+    case JsonKind::kObject: {
+      auto object = nlohmann::json::object();
+      for (JsonIndex c = tree.first_child(at); c != tree.end(at); c = tree.next(c))
+        object[std::string(tree.key(c))] = to_library(tree, c);
+      return object;
+    }
+  }
+  return nullptr;
+}
+
+std::uint64_t bits(double v) { return std::bit_cast<std::uint64_t>(v); }
+
+double number_in(const std::string& text) {
+  const JsonTree tree(text);
+  INFO(text);
+  REQUIRE_FALSE(tree.syntax_error());
+  REQUIRE(tree.kind(0) == JsonKind::kNumber);
+  return tree.number(0);
+}
+
+/// Random JSON, mostly valid, from pieces that go wrong in every way when they meet.
+std::string random_json(std::mt19937_64& random, int depth) {
+  static const std::vector<std::string> kScalars = {
+      "0", "-0", "1.5", "-2e3", "1E+2", "0.1e-7", "null", "true", "false", "\"\"", "\"a\\nb\\u00e9\"",
+      "\"\\ud83d\\ude00\"", "\"\xC3\xA9\"", "9007199254740993", "123456789012345678901234567890.5"};
+  static const std::vector<std::string> kBroken = {
+      "01", "1.", ".5", "-", "+1", "1e", "tru", "nan", "\"\\x\"", "\"\\ud83d\"", "\"\\udc00\"", "\"\xC0\x80\"",
+      "\"\xED\xA0\x80\"", "\"\xF5\x80\x80\x80\"", "\"\t\"", "\"open", "[1,]", "{\"a\" 1}", "{a:1}", "[1 2]", "",
+      "\"\\u12g4\"", "\"\xE2\x82\"", "{\"a\":1,}"};
+  const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  if (pick(60) == 0) return kBroken[pick(kBroken.size())];
+  if (depth == 0 || pick(3) == 0) return kScalars[pick(kScalars.size())];
+  const bool object = pick(2) == 0;
+  std::string text(1, object ? '{' : '[');
+  const std::size_t count = pick(4);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) text += pick(2) == 0 ? "," : " ,\n\t";
+    if (object) text += "\"k" + std::to_string(i) + (pick(5) == 0 ? "\\u0041" : "") + "\":";
+    text += random_json(random, depth - 1);
+  }
+  return text + (object ? '}' : ']');
+}
+
+}  // namespace
+
+TEST_CASE("a JSON tree holds what an independent parser reads, and refuses what that refuses") {
+  std::mt19937_64 random(20240601);
+  int refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string text = random_json(random, 4);
+    INFO(text);
+    const JsonTree tree(text);
+    const auto expected = nlohmann::json::parse(text, nullptr, false);
+    REQUIRE(tree.syntax_error().has_value() == expected.is_discarded());
+    if (expected.is_discarded()) {
+      ++refused;
+      continue;
+    }
+    REQUIRE(to_library(tree, 0) == expected);
+  }
+  // Both outcomes must have been exercised.
+  REQUIRE(refused > 1000);
+  REQUIRE(refused < 19000);
+}
+
+TEST_CASE("every double is read back from its digits, in any of the usual forms") {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 100000; ++i) {
+    const double v = std::bit_cast<double>(random());
+    if (!std::isfinite(v)) continue;
+    char text[64];
+    for (const char* form : {"%.17g", "%.25e"}) {
+      std::snprintf(text, sizeof text, form, v);
+      REQUIRE(bits(number_in(text)) == bits(v));
+    }
+  }
+  for (int i = 0; i < 100000; ++i) {
+    // Short decimals take another way through the parser.
+    const std::int64_t mantissa = static_cast<std::int64_t>(random() >> 8) % 1000000000000;
+    const int decimals = static_cast<int>(random() % 13);
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%lld.%0*llu", (random() & 1) != 0 ? "-" : "",
+                  static_cast<long long>(mantissa / 1000), decimals + 1,
+                  static_cast<unsigned long long>(mantissa % 1000));
+    REQUIRE(bits(number_in(text)) == bits(std::strtod(text, nullptr)));
+  }
+}
+
+TEST_CASE("numbers beyond a double become infinity, numbers too small become zero") {
+  REQUIRE(number_in("1e999") == INFINITY);
+  REQUIRE(number_in("-1e999") == -INFINITY);
+  REQUIRE(number_in("123456e400") == INFINITY);
+  REQUIRE(number_in("1" + std::string(400, '0')) == INFINITY);
+  REQUIRE(number_in("1e-999") == 0);
+  REQUIRE(std::signbit(number_in("-1e-999")));
+  REQUIRE(number_in("0." + std::string(400, '0') + "1") == 0);
+  REQUIRE(number_in("0." + std::string(400, '0') + "1e401") == 1);
+  REQUIRE(number_in("1" + std::string(400, '0') + "e-400") == 1);
+  REQUIRE(number_in("1e99999999999999999999999") == INFINITY);
+  REQUIRE(number_in("1e-99999999999999999999999") == 0);
+  REQUIRE(number_in("0e999") == 0);
+  REQUIRE(number_in("5e-324") == 5e-324);
+}
+
+TEST_CASE("pointers escape tildes and slashes and count from zero") {
+  const std::string text = R"({"a/b": [1, {"~": [true]}], "": 2})";
+  const JsonTree tree(text);
+  REQUIRE_FALSE(tree.syntax_error());
+  REQUIRE(tree.pointer(0) == "");
+  REQUIRE(tree.pointer(1) == "/a~1b");
+  REQUIRE(tree.pointer(2) == "/a~1b/0");
+  REQUIRE(tree.pointer(4) == "/a~1b/1/~0");
+  REQUIRE(tree.pointer(5) == "/a~1b/1/~0/0");
+  REQUIRE(tree.pointer(6) == "/");
+}
+
+TEST_CASE("nesting and string length are limited") {
+  const auto nested = [](std::uint32_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  const std::string deepest = nested(kMaxJsonNesting), too_deep = nested(kMaxJsonNesting + 1);
+  REQUIRE_FALSE(JsonTree(deepest).syntax_error());
+  REQUIRE(JsonTree(too_deep).syntax_error()->message.find("deeper") != std::string::npos);
+  const std::string longest = '"' + std::string(kMaxJsonString, 'x') + '"';
+  const std::string too_long = '"' + std::string(kMaxJsonString + 1, 'x') + '"';
+  const std::string too_long_escaped = "\"\\n" + std::string(kMaxJsonString, 'x') + '"';
+  REQUIRE_FALSE(JsonTree(longest).syntax_error());
+  REQUIRE(JsonTree(too_long).syntax_error()->message.find("longer") != std::string::npos);
+  REQUIRE(JsonTree(too_long_escaped).syntax_error()->message.find("longer") != std::string::npos);
+}
+
+TEST_CASE("a text cut anywhere is a syntax error with a place, never a crash") {
+  const std::string text = R"({"a": [1.5e-3, "x\u00e9\ud83d\ude00", {"b": null}], "c": true})";
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    const std::string cut = text.substr(0, length);
+    const JsonTree tree(cut);
+    REQUIRE(tree.syntax_error());
+    REQUIRE(tree.syntax_error()->offset <= cut.size());
+    REQUIRE(tree.pointer(tree.syntax_error()->value).size() < cut.size() + 2);
+  }
+}
+
+TEST_CASE("text positions count lines and bytes from one") {
+  const auto positions = text_positions("ab\n\ncd", {0, 1, 2, 3, 4, 5, 6});
+  const std::vector<std::pair<int, int>> expected = {{1, 1}, {1, 2}, {1, 3}, {2, 1}, {3, 1}, {3, 2}, {3, 3}};
+  REQUIRE(positions.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    REQUIRE(positions[i].line == static_cast<std::uint64_t>(expected[i].first));
+    REQUIRE(positions[i].column == static_cast<std::uint64_t>(expected[i].second));
+  }
+}
