@@ -84,6 +84,7 @@ void Node::on_welcome(const control::Welcome& m) {
     outgoing_.push_back(
         {links_[bit].peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreeting))});
   }
+  for (const Bytes& greeting : std::exchange(early_greetings_, {})) on_neighbour(greeting);
 }
 
 void Node::on_load(const control::Load& m, const Bytes& slice) {
@@ -173,6 +174,12 @@ void Node::on_neighbour(const Bytes& batch) {
     return drop("batch", to_string(*error));
   }
   const auto& header = std::get<BatchHeader>(peeked);
+  if (!cube_) {
+    // A neighbour may have heard the frontal's welcome first. Anything else is for a dead predecessor.
+    const bool keep = header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
+    if (keep) early_greetings_.push_back(batch);
+    return;
+  }
   const std::uint32_t bit = bit_of(Rank{header.stamp.sender});
   if (bit >= links_.size()) return drop("batch", "not from a neighbour");
   Link& link = links_[bit];
@@ -219,6 +226,13 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     drop("rays", to_string(*error));
     return send_control(control::NodeError{
         job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
+  }
+  const bool mine = std::all_of(rays.begin(), rays.end(),
+                                [&](const RayTask& r) { return domain_->holds(r.region); });
+  if (!mine) {
+    drop("rays", "for another macro-region");
+    return send_control(control::NodeError{
+        job_, "node " + std::to_string(link.peer.value) + " sent rays for another node"});
   }
   ring_.message_received();
   stats_.rays_in += header.count;
@@ -310,6 +324,8 @@ void Node::adopt_domain(WorkResult& result) {
   limits_.pixel_count = std::uint64_t{settings.image.width} * settings.image.height;
   limits_.tile_count = plan_->tile_count();
   limits_.max_depth = settings.max_depth;
+  limits_.columns = domain_->grid() != nullptr ? domain_->grid()->columns() : 1;
+  limits_.rows = domain_->grid() != nullptr ? domain_->grid()->rows() : 1;
   limits_.nodes = cube_->nodes();
   state_ = State::kReady;
   forget_rays();

@@ -114,6 +114,7 @@ class Node {
   std::optional<Hypercube> cube_;
   std::vector<std::string> endpoints_;
   std::vector<Link> links_;  // by bit
+  std::vector<Bytes> early_greetings_;
   std::vector<std::uint32_t> incarnations_;
   std::vector<Outgoing> outgoing_;
   bool shut_down_ = false;

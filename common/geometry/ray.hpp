@@ -10,6 +10,7 @@ struct Ray {
   Vec3 direction;
 
   constexpr Vec3 at(double t) const { return origin + t * direction; }
+  friend constexpr bool operator==(const Ray&, const Ray&) = default;
 };
 
 }  // namespace graycube

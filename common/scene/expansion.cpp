@@ -12,10 +12,12 @@ namespace {
 
 constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return b > kMany - a ? kMany : a + b; }
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
+  return b > kMany - a ? kMany : a + b;
+}
 
-/// Finds cycles by depth-first search and gives the shapes in an order in which each comes after all that it
-/// uses. Its own stack: chains of refs may be as long as the file.
+/// Finds cycles by depth-first search and gives the shapes in an order in which each comes after
+/// all that it uses. Its own stack: chains of refs may be as long as the file.
 class ShapeOrder {
  public:
   ShapeOrder(ErrorReport& errors, const NameTable& names, std::vector<TreeSummary>& shapes)
@@ -65,7 +67,8 @@ class ShapeOrder {
     if (!errors_.has_room()) return errors_.count();
     constexpr std::ptrdiff_t kMaxNamed = 16;
     const auto name = [&](std::uint32_t s) { return quoted(names_.names()[s]); };
-    auto first = std::find_if(path_.begin(), path_.end(), [&](const Step& s) { return s.shape == use.shape; });
+    auto first = std::find_if(path_.begin(), path_.end(),
+                              [&](const Step& s) { return s.shape == use.shape; });
     std::string text = "shapes refer to one another in a cycle: ";
     const auto named = std::min(kMaxNamed, path_.end() - first);
     for (auto s = first; s != first + named; ++s) text += name(s->shape) + " -> ";
@@ -109,7 +112,8 @@ class Expander {
     JsonIndex bare_leaf = 0;
   };
 
-  /// The tree with its refs expanded; `on_bare` is told of uses that leave a leaf without a material.
+  /// The tree with its refs expanded; `on_bare` is told of uses that leave a leaf without a
+  /// material.
   template <typename OnBare>
   Expanded expand(const TreeSummary& summary, const OnBare& on_bare) {
     Expanded e{summary.leaves, summary.nodes, summary.depth, summary.bare_leaf};

@@ -1,5 +1,6 @@
-// What a scene becomes when its refs are expanded: how many leaves, how deep, and whether every leaf gets a
-// material. Computed from summaries, without expanding anything: a file of a few lines can name 2^100 leaves.
+// What a scene becomes when its refs are expanded: how many leaves, how deep, and whether every
+// leaf gets a material. Computed from summaries, without expanding anything: a file of a few lines
+// can name 2^100 leaves.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +32,10 @@ struct TreeSummary {
   std::vector<ShapeUse> uses;
 };
 
-/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves or nodes than kMaxLeaves and
-/// kMaxExpandedNodes, and uses of shapes whose leaves stay without a material. Bare leaves of the objects'
-/// own trees are the caller's to report. `objects_at` is where the number of leaves is complained of.
+/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves or nodes than kMaxLeaves
+/// and kMaxExpandedNodes, and uses of shapes whose leaves stay without a material. Bare leaves of
+/// the objects' own trees are the caller's to report. `objects_at` is where the number of leaves is
+/// complained of.
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,
                      std::vector<TreeSummary>& shapes, const std::vector<TreeSummary>& objects,
                      JsonIndex objects_at);

@@ -49,7 +49,8 @@ bool JsonAccess::members(JsonIndex at, std::string_view owner, std::span<const K
   if (!is_object(at)) return false;
   for (JsonIndex m = tree.first_child(at); m != tree.end(at); m = tree.next(m)) {
     const std::string_view key = tree.key(m);
-    const auto rule = std::find_if(keys.begin(), keys.end(), [&](const KeyRule& k) { return k.name == key; });
+    const auto rule =
+        std::find_if(keys.begin(), keys.end(), [&](const KeyRule& k) { return k.name == key; });
     if (rule == keys.end()) {
       unknown_key(m, owner, keys);
       continue;

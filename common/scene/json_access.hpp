@@ -1,5 +1,5 @@
-// Typed access to a JSON tree. Whatever isn't as expected is reported, with what was expected and what was
-// found, and the caller goes on: so one run finds all errors.
+// Typed access to a JSON tree. Whatever isn't as expected is reported, with what was expected and
+// what was found, and the caller goes on: so one run finds all errors.
 #pragma once
 
 #include <array>
@@ -44,15 +44,18 @@ struct Word {
 
 class JsonAccess {
  public:
-  JsonAccess(const JsonTree& read_from, ErrorReport& report_to) : tree(read_from), errors(report_to) {}
+  JsonAccess(const JsonTree& read_from, ErrorReport& report_to)
+      : tree(read_from), errors(report_to) {}
 
   /// Reports "expected WHAT, found …"; false.
   bool wrong(JsonIndex at, std::string_view what);
   bool is_object(JsonIndex at);
   bool is_array(JsonIndex at);
-  /// `owner` ("a sphere") goes into messages. out[k] is the member called keys[k].name, 0 when absent. Reports
-  /// unknown, duplicate and missing keys; false when a required one is missing or this is no object.
-  bool members(JsonIndex at, std::string_view owner, std::span<const KeyRule> keys, std::span<JsonIndex> out);
+  /// `owner` ("a sphere") goes into messages. out[k] is the member called keys[k].name, 0 when
+  /// absent. Reports unknown, duplicate and missing keys; false when a required one is missing or
+  /// this is no object.
+  bool members(JsonIndex at, std::string_view owner, std::span<const KeyRule> keys,
+               std::span<JsonIndex> out);
 
   /// The functions below leave `out` alone when they return false.
   bool read(JsonIndex at, double& out, const NumberRule& rule = kAnyNumber);
@@ -91,7 +94,8 @@ class JsonAccess {
 
  private:
   void unknown_key(JsonIndex at, std::string_view owner, std::span<const KeyRule> keys);
-  bool read_three(JsonIndex at, std::string_view what, const NumberRule& rule, std::array<double, 3>& out);
+  bool read_three(JsonIndex at, std::string_view what, const NumberRule& rule,
+                  std::array<double, 3>& out);
 };
 
 }  // namespace graycube

@@ -1,61 +1,16 @@
 #include "scene/json_parser.hpp"
 
-#include <array>
 #include <bit>
 #include <charconv>
-#include <cmath>
-#include <limits>
+#include <system_error>
 #include <utility>
+
+#include "scene/json_number.hpp"
 
 namespace graycube {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Powers of ten that a double holds exactly.
-constexpr std::array<double, 23> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-/// The digits of a number's text, gathered while its grammar is checked.
-struct Decimal {
-  std::uint64_t mantissa = 0;
-  int digits = 0;           // significant ones, leading zeros not counted
-  std::size_t fraction_digits = 0;  // after the point
-  bool has_exponent = false;
-
-  /// Takes the digits that `text` begins with from position `at` on; returns the position after them.
-  std::size_t take(std::string_view text, std::size_t at) {
-    for (; at < text.size() && is_digit(text[at]); ++at) {
-      if (digits > 0 || text[at] != '0') ++digits;
-      if (digits <= 18) mantissa = mantissa * 10 + static_cast<std::uint64_t>(text[at] - '0');
-    }
-    return at;
-  }
-  /// One correctly rounded division of two exact doubles gives the nearest double (Clinger 1990).
-  bool is_easy() const {
-    return !has_exponent && digits <= 18 && mantissa <= (1ull << 53) && fraction_digits <= 22;
-  }
-};
-
-/// from_chars says "out of range" for both ends; the decimal exponent of the first digit tells which.
-double out_of_range_value(std::string_view number) {
-  const bool negative = number.front() == '-';
-  const std::size_t e = number.find_first_of("eE");
-  const std::string_view digits = number.substr(0, e);
-  const std::size_t first = digits.find_first_of("123456789");
-  const std::size_t point = std::min(digits.find('.'), digits.size());
-  const bool before_point = first != std::string_view::npos && first < point;
-  double exponent = before_point ? static_cast<double>(point - first) : -static_cast<double>(first - point);
-  if (e != std::string_view::npos) {
-    double written = 0;
-    for (const char c : number.substr(e + 1))
-      if (is_digit(c)) written = std::fmin(written * 10 + (c - '0'), 1e12);
-    exponent += number[e + 1] == '-' ? -written : written;
-  }
-  const double magnitude = exponent > 0 ? std::numeric_limits<double>::infinity() : 0.0;
-  return negative ? -magnitude : magnitude;
-}
 
 void append_utf8(std::string& out, std::uint32_t code) {
   const auto put = [&](std::uint32_t byte) { out.push_back(static_cast<char>(byte)); };
@@ -120,10 +75,8 @@ bool JsonParser::parse_value(std::uint32_t nesting) {
   value.begin = static_cast<std::uint32_t>(at_);
   value.next = self + 1;
   switch (peek()) {
-    case '{':
-      return parse_container(self, true, nesting);
-    case '[':
-      return parse_container(self, false, nesting);
+    case '{': return parse_container(self, true, nesting);
+    case '[': return parse_container(self, false, nesting);
     case '"': {
       Text text;
       if (!parse_string(text)) return false;
@@ -132,14 +85,10 @@ bool JsonParser::parse_value(std::uint32_t nesting) {
       value.string_is_decoded = text.decoded;
       return true;
     }
-    case 't':
-      return parse_word(self, "true", JsonKind::kTrue);
-    case 'f':
-      return parse_word(self, "false", JsonKind::kFalse);
-    case 'n':
-      return parse_word(self, "null", JsonKind::kNull);
-    default:
-      return parse_number(self);
+    case 't': return parse_word(self, "true", JsonKind::kTrue);
+    case 'f': return parse_word(self, "false", JsonKind::kFalse);
+    case 'n': return parse_word(self, "null", JsonKind::kNull);
+    default: return parse_number(self);
   }
 }
 
@@ -241,7 +190,8 @@ bool JsonParser::decode_string(std::size_t begin, Text& out) {
     decoded.append(text_.substr(from, at_ - from));
   }
   ++at_;
-  out = {static_cast<std::uint32_t>(tree_.decoded_.size()), static_cast<std::uint32_t>(decoded.size()), true};
+  out = {static_cast<std::uint32_t>(tree_.decoded_.size()),
+         static_cast<std::uint32_t>(decoded.size()), true};
   tree_.decoded_.push_back(std::move(decoded));
   return true;
 }
@@ -255,7 +205,8 @@ bool JsonParser::decode_escape(std::string& out) {
     ++at_;
     std::uint32_t code = 0;
     if (!read_hex4(code)) return false;
-    if (code >= 0xDC00 && code < 0xE000) return fail("a low surrogate without a high one before it");
+    if (code >= 0xDC00 && code < 0xE000)
+      return fail("a low surrogate without a high one before it");
     if (code >= 0xD800 && code < 0xDC00) {
       std::uint32_t low = 0;
       if (text_.substr(at_, 2) != "\\u") return fail("a high surrogate without a low one after it");
@@ -307,7 +258,7 @@ bool JsonParser::skip_utf8() {
 
 bool JsonParser::parse_number(JsonIndex self) {
   const std::size_t begin = at_;
-  Decimal decimal;
+  JsonDecimal decimal;
   if (peek() == '-') ++at_;
   if (!is_digit(peek())) {
     if (at_ > begin) return fail("expected a digit after '-', found " + found());
@@ -321,23 +272,16 @@ bool JsonParser::parse_number(JsonIndex self) {
     if (!is_digit(peek())) return fail("expected a digit after '.', found " + found());
     const std::size_t point = at_;
     at_ = decimal.take(text_, at_);
-    decimal.fraction_digits = at_ - point;
+    decimal.end_fraction(at_ - point);
   }
   if (peek() == 'e' || peek() == 'E') {
-    decimal.has_exponent = true;
+    decimal.expect_exponent();
     ++at_;
     if (peek() == '+' || peek() == '-') ++at_;
     if (!is_digit(peek())) return fail("expected a digit of the exponent, found " + found());
     while (is_digit(peek())) ++at_;
   }
-  const std::string_view number = text_.substr(begin, at_ - begin);
-  double result = 0;
-  if (decimal.is_easy()) {
-    result = static_cast<double>(decimal.mantissa) / kPowersOfTen[decimal.fraction_digits];
-    if (number.front() == '-') result = -result;
-  } else if (std::from_chars(number.data(), number.data() + number.size(), result).ec != std::errc{}) {
-    result = out_of_range_value(number);
-  }
+  const double result = decimal.value(text_.substr(begin, at_ - begin));
   tree_.values_[self].kind = JsonKind::kNumber;
   tree_.values_[self].payload = std::bit_cast<std::uint64_t>(result);
   return true;

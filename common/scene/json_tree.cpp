@@ -67,27 +67,23 @@ std::string JsonTree::pointer(JsonIndex i) const {
 
 std::string JsonTree::describe(JsonIndex i) const {
   switch (kind(i)) {
-    case JsonKind::kNull:
-      return "null";
-    case JsonKind::kFalse:
-      return "false";
-    case JsonKind::kTrue:
-      return "true";
-    case JsonKind::kArray:
-      return describe_array(i);
-    case JsonKind::kObject:
-      return "an object";
+    case JsonKind::kNull: return "null";
+    case JsonKind::kFalse: return "false";
+    case JsonKind::kTrue: return "true";
+    case JsonKind::kArray: return describe_array(i);
+    case JsonKind::kObject: return "an object";
     case JsonKind::kString: {
       std::string_view s = string(i);
       // A cut must not split a UTF-8 sequence.
       std::size_t length = std::min(s.size(), kMaxExcerpt);
-      while (length > 0 && length < s.size() && (static_cast<unsigned char>(s[length]) & 0xC0) == 0x80) --length;
+      while (length > 0 && length < s.size() &&
+             (static_cast<unsigned char>(s[length]) & 0xC0) == 0x80)
+        --length;
       std::string text(s.substr(0, length));
       if (length < s.size()) text += "…";
       return quoted(text);
     }
-    case JsonKind::kNumber:
-      break;
+    case JsonKind::kNumber: break;
   }
   const std::string_view rest = text_.substr(values_[i].begin, kMaxExcerpt);
   return std::string(rest.substr(0, rest.find_first_not_of("+-.eE0123456789")));
@@ -100,18 +96,21 @@ std::string JsonTree::describe_array(JsonIndex i) const {
     flat = kind(c) == JsonKind::kNumber && values_[c].begin - values_[i].begin < 2 * kMaxExcerpt;
   const std::string_view rest = text_.substr(values_[i].begin, 2 * kMaxExcerpt);
   const std::size_t close = rest.find(']');
-  if (flat && close != std::string_view::npos && rest.find('\n') > close) return std::string(rest.substr(0, close + 1));
+  if (flat && close != std::string_view::npos && rest.find('\n') > close)
+    return std::string(rest.substr(0, close + 1));
   return size(i) == 0 ? "an empty array" : "an array of " + std::to_string(size(i));
 }
 
-std::vector<TextPosition> text_positions(std::string_view text, const std::vector<std::uint64_t>& offsets) {
+std::vector<TextPosition> text_positions(std::string_view text,
+                                         const std::vector<std::uint64_t>& offsets) {
   std::vector<TextPosition> positions;
   positions.reserve(offsets.size());
   std::uint64_t line = 1;
   std::size_t line_begin = 0, searched = 0;
   for (const std::uint64_t offset : offsets) {
     const std::string_view before = text.substr(0, offset);
-    for (auto n = before.find('\n', searched); n != std::string_view::npos; n = before.find('\n', n + 1)) {
+    for (auto n = before.find('\n', searched); n != std::string_view::npos;
+         n = before.find('\n', n + 1)) {
       ++line;
       line_begin = n + 1;
     }

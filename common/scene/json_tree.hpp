@@ -1,8 +1,8 @@
-// JSON text as a compact tree: 24 bytes a value, strings left in the text. Scenes of a million primitives
-// are read through this one. A general library's event interface was measured at 60 MB/s and gives up at the
-// first number out of range; this reads several times as fast, knows where every value stands, and leaves
-// 1e999 to the reader, so that one such number doesn't hide all other errors. Tests compare it with the
-// library on random text.
+// JSON text as a compact tree: 24 bytes a value, strings left in the text. Scenes of a million
+// primitives are read through this one. A general library's event interface was measured at 60 MB/s
+// and gives up at the first number out of range; this reads several times as fast, knows where
+// every value stands, and leaves 1e999 to the reader, so that one such number doesn't hide all
+// other errors. Tests compare it with the library on random text.
 #pragma once
 
 #include <cstdint>
@@ -39,9 +39,10 @@ class JsonTree {
     std::string message;
   };
 
-  /// Reads RFC 8259 JSON (a UTF-8 byte order mark is skipped). `text` must outlive the tree and be no longer
-  /// than kMaxJsonBytes. Numbers are rounded to nearest; those beyond the range of a double become ±infinity.
-  /// Duplicate keys are kept, for the reader to find. After a syntax error the tree holds what came before.
+  /// Reads RFC 8259 JSON (a UTF-8 byte order mark is skipped). `text` must outlive the tree and be
+  /// no longer than kMaxJsonBytes. Numbers are rounded to nearest; those beyond the range of a
+  /// double become ±infinity. Duplicate keys are kept, for the reader to find. After a syntax error
+  /// the tree holds what came before.
   explicit JsonTree(std::string_view text);
 
   const std::optional<SyntaxError>& syntax_error() const { return syntax_error_; }
@@ -70,7 +71,8 @@ class JsonTree {
   friend class JsonParser;
 
   struct Value {
-    /// Numbers: the bits of the double. Strings: begin << 32 | length. Containers: the number of children.
+    /// Numbers: the bits of the double. Strings: begin << 32 | length. Containers: the number of
+    /// children.
     std::uint64_t payload = 0;
     std::uint32_t begin = 0;      // offset in the text
     std::uint32_t next = 0;       // index past the subtree
@@ -92,6 +94,7 @@ class JsonTree {
 };
 
 /// Positions of ascending offsets in `text`, in one pass.
-std::vector<TextPosition> text_positions(std::string_view text, const std::vector<std::uint64_t>& offsets);
+std::vector<TextPosition> text_positions(std::string_view text,
+                                         const std::vector<std::uint64_t>& offsets);
 
 }  // namespace graycube

@@ -16,7 +16,8 @@ namespace {
 const NodeRules* rules_for(JsonAccess& json, JsonIndex at) {
   if (!json.is_object(at)) return nullptr;
   JsonIndex type = 0;
-  for (JsonIndex m = json.tree.first_child(at); type == 0 && m != json.tree.end(at); m = json.tree.next(m))
+  for (JsonIndex m = json.tree.first_child(at); type == 0 && m != json.tree.end(at);
+       m = json.tree.next(m))
     if (json.tree.key(m) == "type") type = m;
   if (type == 0) {
     json.errors.add(at, "a CSG node needs the key \"type\"");
@@ -25,7 +26,8 @@ const NodeRules* rules_for(JsonAccess& json, JsonIndex at) {
   std::string_view written;
   if (!json.read(type, written)) return nullptr;
   const auto all = node_rules();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const NodeRules& r) { return r.name == written; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const NodeRules& r) { return r.name == written; });
   if (found != all.end()) return &*found;
   std::vector<std::string_view> names;
   for (const auto& r : all) names.push_back(r.name);
@@ -35,14 +37,10 @@ const NodeRules* rules_for(JsonAccess& json, JsonIndex at) {
 
 Operation operation_of(NodeType type) {
   switch (type) {
-    case NodeType::kIntersection:
-      return Operation::kIntersection;
-    case NodeType::kDifference:
-      return Operation::kDifference;
-    case NodeType::kComplement:
-      return Operation::kComplement;
-    default:
-      return Operation::kUnion;
+    case NodeType::kIntersection: return Operation::kIntersection;
+    case NodeType::kDifference: return Operation::kDifference;
+    case NodeType::kComplement: return Operation::kComplement;
+    default: return Operation::kUnion;
   }
 }
 
@@ -84,7 +82,8 @@ MaterialIndex CsgReader::read_material_name(JsonIndex at) {
 void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::uint32_t depth,
                           Context& context) {
   if (depth > kMaxTreeDepth)
-    return json_.errors.add(at, "the tree is deeper than " + std::to_string(kMaxTreeDepth) + " levels");
+    return json_.errors.add(at,
+                            "the tree is deeper than " + std::to_string(kMaxTreeDepth) + " levels");
   ++context.summary.nodes;
   context.summary.depth = std::max(context.summary.depth, depth);
   const NodeRules* rules = rules_for(json_, at);
@@ -105,7 +104,8 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
       auto& operation = out.value.emplace<OperationNode>();
       operation.operation = operation_of(rules->type);
       if (body == 0) return;
-      if (rules->type != NodeType::kComplement) return read_children(body, operation, has_material, depth, context);
+      if (rules->type != NodeType::kComplement)
+        return read_children(body, operation, has_material, depth, context);
       operation.children.resize(1);
       ++nodes_read_;
       return read_node(body, operation.children.front(), has_material, depth + 1, context);
@@ -119,16 +119,18 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
   }
 }
 
-void CsgReader::read_leaf(JsonIndex at, bool has_material, std::string_view owner, Context& context) {
+void CsgReader::read_leaf(JsonIndex at, bool has_material, std::string_view owner,
+                          Context& context) {
   ++context.summary.leaves;
   if (has_material) return;
   if (context.summary.bare_leaf == 0) context.summary.bare_leaf = at;
   if (context.reports_bare_leaves)
-    json_.errors.add(at, std::string(owner) + " without a material: neither it nor anything above it names one");
+    json_.errors.add(
+        at, std::string(owner) + " without a material: neither it nor anything above it names one");
 }
 
-void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_material, std::uint32_t depth,
-                              Context& context) {
+void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_material,
+                              std::uint32_t depth, Context& context) {
   if (!json_.is_array(at)) return;
   const std::uint32_t count = json_.tree.size(at);
   if (count == 0) {
@@ -146,8 +148,8 @@ void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_materia
   }
 }
 
-ReferenceNode CsgReader::read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
-                                        Context& context) {
+ReferenceNode CsgReader::read_reference(JsonIndex name, JsonIndex at, bool has_material,
+                                        std::uint32_t depth, Context& context) {
   const auto shape = look_up(json_, name, shapes_, "shape");
   if (!shape) return {};
   context.summary.uses.push_back({at, *shape, depth, has_material});

@@ -29,7 +29,8 @@ class CsgReader {
     bool reports_bare_leaves;
   };
 
-  void read_node(JsonIndex at, CsgNode& out, bool has_material, std::uint32_t depth, Context& context);
+  void read_node(JsonIndex at, CsgNode& out, bool has_material, std::uint32_t depth,
+                 Context& context);
   void read_leaf(JsonIndex at, bool has_material, std::string_view owner, Context& context);
   void read_children(JsonIndex at, OperationNode& out, bool has_material, std::uint32_t depth,
                      Context& context);

@@ -11,8 +11,12 @@ using Members = std::array<JsonIndex, kMaxNodeKeys>;
 constexpr std::size_t kOwn = kCommonKeys;  // position of a type's first own key
 
 template <typename... Keys>
-constexpr NodeRules rules_of(NodeType type, std::string_view name, std::string_view owner, Keys... keys) {
-  return {name, owner, type, kOwn + sizeof...(keys),
+constexpr NodeRules rules_of(NodeType type, std::string_view name, std::string_view owner,
+                             Keys... keys) {
+  return {name,
+          owner,
+          type,
+          kOwn + sizeof...(keys),
           {{{"type", true}, {"transform"}, {"material"}, {keys, true}...}}};
 }
 
@@ -59,7 +63,8 @@ class LeafMembers {
 
 void check_axis_length(JsonAccess& json, JsonIndex top_at, const Vec3& base, const Vec3& top) {
   const double l = length(top - base);
-  if (!(l > 0) || !std::isfinite(l)) json.wrong(top_at, "a top at a finite, non-zero distance from the base");
+  if (!(l > 0) || !std::isfinite(l))
+    json.wrong(top_at, "a top at a finite, non-zero distance from the base");
 }
 
 SphereShape read_sphere(JsonAccess&, LeafMembers members) {
@@ -100,9 +105,13 @@ ConeShape read_cone(JsonAccess& json, LeafMembers members) {
 
 TorusShape read_torus(JsonAccess& json, LeafMembers members) {
   TorusShape t;
-  members.read(0, t.center).read_direction(1, t.axis).read(2, t.major, kPositive).read(3, t.minor, kPositive);
+  members.read(0, t.center)
+      .read_direction(1, t.axis)
+      .read(2, t.major, kPositive)
+      .read(3, t.minor, kPositive);
   if (members.good() && !(t.minor < t.major))
-    json.wrong(members.at(3), "a minor radius below the major one, " + json.tree.describe(members.at(2)));
+    json.wrong(members.at(3),
+               "a minor radius below the major one, " + json.tree.describe(members.at(2)));
   return t;
 }
 
@@ -150,7 +159,8 @@ void read_plane(JsonAccess& json, JsonIndex at, HalfSpaceShape& plane) {
   }
   plane = {{v[0], v[1], v[2]}, v[3]};
   const double l = length(plane.normal);
-  if (good && (!(l > 0) || !std::isfinite(l))) json.wrong(at, "a plane whose normal has a finite, non-zero length");
+  if (good && (!(l > 0) || !std::isfinite(l)))
+    json.wrong(at, "a plane whose normal has a finite, non-zero length");
 }
 
 PolyhedronShape read_polyhedron(JsonAccess& json, LeafMembers members) {
@@ -178,32 +188,15 @@ std::span<const NodeRules> node_rules() { return kRules; }
 void read_leaf_value(JsonAccess& json, NodeType type, const Members& members, CsgNode& out) {
   const LeafMembers leaf(json, members);
   switch (type) {
-    case NodeType::kSphere:
-      out.value = read_sphere(json, leaf);
-      return;
-    case NodeType::kBox:
-      out.value = read_box(json, leaf);
-      return;
-    case NodeType::kCylinder:
-      out.value = read_cylinder(json, leaf);
-      return;
-    case NodeType::kCone:
-      out.value = read_cone(json, leaf);
-      return;
-    case NodeType::kTorus:
-      out.value = read_torus(json, leaf);
-      return;
-    case NodeType::kHalfSpace:
-      out.value = read_half_space(json, leaf);
-      return;
-    case NodeType::kEllipsoid:
-      out.value = read_ellipsoid(json, leaf);
-      return;
-    case NodeType::kPolyhedron:
-      out.value = read_polyhedron(json, leaf);
-      return;
-    default:
-      GRAYCUBE_CHECK(false, "node type %d is no leaf", static_cast<int>(type));
+    case NodeType::kSphere: out.value = read_sphere(json, leaf); return;
+    case NodeType::kBox: out.value = read_box(json, leaf); return;
+    case NodeType::kCylinder: out.value = read_cylinder(json, leaf); return;
+    case NodeType::kCone: out.value = read_cone(json, leaf); return;
+    case NodeType::kTorus: out.value = read_torus(json, leaf); return;
+    case NodeType::kHalfSpace: out.value = read_half_space(json, leaf); return;
+    case NodeType::kEllipsoid: out.value = read_ellipsoid(json, leaf); return;
+    case NodeType::kPolyhedron: out.value = read_polyhedron(json, leaf); return;
+    default: GRAYCUBE_CHECK(false, "node type %d is no leaf", static_cast<int>(type));
   }
 }
 

@@ -45,7 +45,7 @@ struct NodeRules {
 std::span<const NodeRules> node_rules();
 
 /// Reads a leaf's own members (0 where absent, reported already) into `out`.
-void read_leaf_value(JsonAccess& json, NodeType type, const std::array<JsonIndex, kMaxNodeKeys>& members,
-                     CsgNode& out);
+void read_leaf_value(JsonAccess& json, NodeType type,
+                     const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out);
 
 }  // namespace graycube

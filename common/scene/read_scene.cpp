@@ -49,7 +49,8 @@ constexpr std::array<KeyRule, kRootKeys> kRootRules{{{"graycube", true},
 
 class SceneReader {
  public:
-  explicit SceneReader(std::string_view text) : text_(text), tree_(text), errors_(tree_), json_(tree_, errors_) {}
+  explicit SceneReader(std::string_view text)
+      : text_(text), tree_(text), errors_(tree_), json_(tree_, errors_) {}
 
   ReadResult read() {
     if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}};
@@ -63,8 +64,10 @@ class SceneReader {
   SceneError syntax_error() const {
     const auto& error = *tree_.syntax_error();
     const TextPosition p = text_positions(text_, {error.offset}).front();
-    return {tree_.pointer(error.value), "line " + std::to_string(p.line) + ", column " + std::to_string(p.column) +
-                                            ": " + error.message, p.line, p.column};
+    return {tree_.pointer(error.value),
+            "line " + std::to_string(p.line) + ", column " + std::to_string(p.column) + ": " +
+                error.message,
+            p.line, p.column};
   }
 
   void read_root() {
@@ -84,7 +87,8 @@ class SceneReader {
   }
 
   /// Enters the members' names; gives where each new one stands.
-  std::vector<JsonIndex> read_names(JsonIndex at, std::uint32_t limit, const char* what, NameTable& names) {
+  std::vector<JsonIndex> read_names(JsonIndex at, std::uint32_t limit, const char* what,
+                                    NameTable& names) {
     std::vector<JsonIndex> places;
     if (at == 0 || !json_.is_object(at)) return places;
     if (tree_.size(at) > limit) {
@@ -102,7 +106,8 @@ class SceneReader {
   }
 
   void read_materials() {
-    for (const JsonIndex at : read_names(root_[kMaterials], kMaxMaterials, "materials", material_names_)) {
+    for (const JsonIndex at :
+         read_names(root_[kMaterials], kMaxMaterials, "materials", material_names_)) {
       auto& named = scene_.materials.emplace_back();
       named.name = tree_.key(at);
       read_material(json_, at, named.material);
@@ -156,7 +161,9 @@ class SceneReader {
 
 ReadResult failure(std::string message) { return {std::nullopt, {{"", std::move(message)}}}; }
 
-std::string too_large() { return "the file is larger than " + std::to_string(kMaxSceneBytes) + " bytes"; }
+std::string too_large() {
+  return "the file is larger than " + std::to_string(kMaxSceneBytes) + " bytes";
+}
 
 }  // namespace
 
@@ -169,7 +176,8 @@ ReadResult read_scene_file(const std::filesystem::path& path) {
   // In pieces, since pipes have no size; a regular file's size is checked before memory is taken.
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return failure("cannot read the file: it is a directory");
+  if (std::filesystem::is_directory(path, error))
+    return failure("cannot read the file: it is a directory");
   const auto size = std::filesystem::file_size(path, error);
   const bool has_size = !error;
   if (has_size && size > kMaxSceneBytes) return failure(too_large());

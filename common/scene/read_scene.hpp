@@ -1,5 +1,5 @@
-// The scene reader. It finds all errors of a file in one run, each with its place; what it returns can be
-// compiled and rendered without further doubt about its values.
+// The scene reader. It finds all errors of a file in one run, each with its place; what it returns
+// can be compiled and rendered without further doubt about its values.
 #pragma once
 
 #include <cstdint>

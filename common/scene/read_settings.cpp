@@ -13,7 +13,8 @@ namespace {
 /// Below this sine of the angle between them, up counts as lying along the view.
 constexpr double kLeastUpSine = 1e-9;
 
-constexpr NumberRule kFieldOfView{.what = "an angle between 0 and 180 degrees", .min = 0, .max = 180, .open = true};
+constexpr NumberRule kFieldOfView{
+    .what = "an angle between 0 and 180 degrees", .min = 0, .max = 180, .open = true};
 
 void check_frame(JsonAccess& json, JsonIndex look_at_at, JsonIndex up_at, const Camera& camera) {
   const Vec3 view = camera.look_at - camera.eye;
@@ -28,7 +29,8 @@ void check_frame(JsonAccess& json, JsonIndex look_at_at, JsonIndex up_at, const 
 
 void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
   enum : std::size_t { kType, kPosition, kColor, kFalloff, kKeys };
-  constexpr std::array<KeyRule, kKeys> kRules{{{"type", true}, {"position", true}, {"color"}, {"falloff"}}};
+  constexpr std::array<KeyRule, kKeys> kRules{
+      {{"type", true}, {"position", true}, {"color"}, {"falloff"}}};
   constexpr std::array<Word<int>, 1> kTypes{{{"point", 0}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a light", kRules, member);
@@ -57,19 +59,27 @@ void read_image(JsonAccess& json, JsonIndex at, ImageSize& out) {
 
 void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
   enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kKeys };
-  constexpr std::array<KeyRule, kKeys> kRules{
-      {{"type", true}, {"eye", true}, {"look_at", true}, {"up", true}, {"fov"}, {"width"}, {"handedness"}}};
+  constexpr std::array<KeyRule, kKeys> kRules{{{"type", true},
+                                               {"eye", true},
+                                               {"look_at", true},
+                                               {"up", true},
+                                               {"fov"},
+                                               {"width"},
+                                               {"handedness"}}};
   std::array<JsonIndex, kKeys> member{};
   const bool complete = json.members(at, "the camera", kRules, member);
   json.read_word(member[kHandedness], out.handedness, kHandednessWords);
-  const bool type_known = member[kType] != 0 && json.read_word(member[kType], out.projection, kProjectionWords);
+  const bool type_known =
+      member[kType] != 0 && json.read_word(member[kType], out.projection, kProjectionWords);
   json.read_optional(member[kFov], out.fov_degrees, kFieldOfView);
   json.read_optional(member[kWidth], out.width, kPositive);
   if (type_known) {
     const bool perspective = out.projection == Projection::kPerspective;
-    const auto [wanted, unwanted] = perspective ? std::array{kFov, kWidth} : std::array{kWidth, kFov};
+    const auto [wanted, unwanted] =
+        perspective ? std::array{kFov, kWidth} : std::array{kWidth, kFov};
     const std::string kind = perspective ? "a perspective camera" : "an orthographic camera";
-    if (member[wanted] == 0) json.errors.add(at, kind + " needs the key " + quoted(kRules[wanted].name));
+    if (member[wanted] == 0)
+      json.errors.add(at, kind + " needs the key " + quoted(kRules[wanted].name));
     if (member[unwanted] != 0)
       json.errors.add(member[unwanted], kind + " has no key " + quoted(kRules[unwanted].name) +
                                             "; did you mean " + quoted(kRules[wanted].name) + "?");
@@ -91,9 +101,27 @@ void read_lights(JsonAccess& json, JsonIndex at, std::vector<PointLight>& out) {
 }
 
 void read_material(JsonAccess& json, JsonIndex at, Material& out) {
-  enum : std::size_t { kColor, kAmbient, kDiffuse, kSpecular, kShininess, kReflect, kTransmit, kIor, kModel, kKeys };
-  constexpr std::array<KeyRule, kKeys> kRules{{{"color"}, {"ambient"}, {"diffuse"}, {"specular"}, {"shininess"},
-                                               {"reflect"}, {"transmit"}, {"ior"}, {"model"}}};
+  enum : std::size_t {
+    kColor,
+    kAmbient,
+    kDiffuse,
+    kSpecular,
+    kShininess,
+    kReflect,
+    kTransmit,
+    kIor,
+    kModel,
+    kKeys
+  };
+  constexpr std::array<KeyRule, kKeys> kRules{{{"color"},
+                                               {"ambient"},
+                                               {"diffuse"},
+                                               {"specular"},
+                                               {"shininess"},
+                                               {"reflect"},
+                                               {"transmit"},
+                                               {"ior"},
+                                               {"model"}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a material", kRules, member);
   json.read_optional(member[kColor], out.color);

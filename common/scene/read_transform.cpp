@@ -7,7 +7,8 @@ namespace {
 
 /// One of the keys of a transform step.
 enum StepKey : std::size_t { kTranslate, kRotate, kScale, kMatrix, kStepKeys };
-constexpr std::array<KeyRule, kStepKeys> kStepRules{{{"translate"}, {"rotate"}, {"scale"}, {"matrix"}}};
+constexpr std::array<KeyRule, kStepKeys> kStepRules{
+    {{"translate"}, {"rotate"}, {"scale"}, {"matrix"}}};
 
 constexpr std::array<KeyRule, 2> kRotateRules{{{"axis", true}, {"angle", true}}};
 
@@ -74,7 +75,8 @@ std::optional<Affine> read_matrix(JsonAccess& json, JsonIndex at) {
   }
   if (!good) return std::nullopt;
   if (map.inverse()) return map;
-  json.errors.add(at, "expected an invertible matrix, found one that is singular to working precision");
+  json.errors.add(at,
+                  "expected an invertible matrix, found one that is singular to working precision");
   return std::nullopt;
 }
 
@@ -83,8 +85,9 @@ std::optional<Affine> read_step(JsonAccess& json, JsonIndex at) {
   json.members(at, "a transform step", kStepRules, member);
   if (json.tree.kind(at) != JsonKind::kObject) return std::nullopt;
   if (json.tree.size(at) != 1) {
-    json.errors.add(at, "expected one key (translate, rotate, scale or matrix) in a transform step, found " +
-                            std::to_string(json.tree.size(at)));
+    json.errors.add(
+        at, "expected one key (translate, rotate, scale or matrix) in a transform step, found " +
+                std::to_string(json.tree.size(at)));
     return std::nullopt;
   }
   if (member[kTranslate] != 0) {
@@ -112,7 +115,9 @@ std::optional<Affine> read_transform(JsonAccess& json, JsonIndex at) {
   if (!good || !whole) return std::nullopt;
   // Steps that are each fine may together overflow, or shear away all precision.
   if (whole->is_finite() && whole->inverse()) return whole;
-  json.errors.add(at, "expected an invertible map, found steps that together are singular to working precision");
+  json.errors.add(
+      at,
+      "expected an invertible map, found steps that together are singular to working precision");
   return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// The scene as plain values, close to the file (design contract: README, "Scene file"). Nothing here is
-// compiled, expanded or checked for meaning beyond what `read_scene` promises.
+// The scene as plain values, close to the file (design contract: README, "Scene file"). Nothing
+// here is compiled, expanded or checked for meaning beyond what `read_scene` promises.
 #pragma once
 
 #include <array>
@@ -83,8 +83,8 @@ struct ReferenceNode {
 };
 
 struct CsgNode {
-  std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape, TorusShape,
-               HalfSpaceShape, EllipsoidShape, PolyhedronShape>
+  std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
+               TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   std::optional<Affine> transform;

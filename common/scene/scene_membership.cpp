@@ -10,7 +10,8 @@ namespace {
 
 bool holds(const Scene& scene, const CsgNode& node, Vec3 p);
 
-/// The height of p above `base` along the axis to `top`, as a fraction, and its distance from the axis.
+/// The height of p above `base` along the axis to `top`, as a fraction, and its distance from the
+/// axis.
 struct AxialPosition {
   double height, distance;
 };
@@ -24,23 +25,22 @@ bool value_holds(const Scene& scene, const OperationNode& o, const Vec3& p) {
   const auto inside = [&](const CsgNode& child) { return holds(scene, child, p); };
   const auto first = o.children.begin(), last = o.children.end();
   switch (o.operation) {
-    case Operation::kUnion:
-      return std::any_of(first, last, inside);
-    case Operation::kIntersection:
-      return std::all_of(first, last, inside);
-    case Operation::kDifference:
-      return inside(*first) && std::none_of(first + 1, last, inside);
-    case Operation::kComplement:
-      return !inside(*first);
+    case Operation::kUnion: return std::any_of(first, last, inside);
+    case Operation::kIntersection: return std::all_of(first, last, inside);
+    case Operation::kDifference: return inside(*first) && std::none_of(first + 1, last, inside);
+    case Operation::kComplement: return !inside(*first);
   }
   return false;
 }
 bool value_holds(const Scene& scene, const ReferenceNode& r, const Vec3& p) {
   return holds(scene, scene.shapes[r.shape].node, p);
 }
-bool value_holds(const Scene&, const SphereShape& s, const Vec3& p) { return length(p - s.center) <= s.radius; }
+bool value_holds(const Scene&, const SphereShape& s, const Vec3& p) {
+  return length(p - s.center) <= s.radius;
+}
 bool value_holds(const Scene&, const BoxShape& b, const Vec3& p) {
-  return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z && p.z <= b.max.z;
+  return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
+         p.z <= b.max.z;
 }
 bool value_holds(const Scene&, const CylinderShape& c, const Vec3& p) {
   const auto [height, distance] = along_axis(c.base, c.top, p);
@@ -48,7 +48,8 @@ bool value_holds(const Scene&, const CylinderShape& c, const Vec3& p) {
 }
 bool value_holds(const Scene&, const ConeShape& c, const Vec3& p) {
   const auto [height, distance] = along_axis(c.base, c.top, p);
-  return height >= 0 && height <= 1 && distance <= c.base_radius + height * (c.top_radius - c.base_radius);
+  return height >= 0 && height <= 1 &&
+         distance <= c.base_radius + height * (c.top_radius - c.base_radius);
 }
 bool value_holds(const Scene&, const TorusShape& t, const Vec3& p) {
   const Vec3 axis = normalized(t.axis);
@@ -56,13 +57,16 @@ bool value_holds(const Scene&, const TorusShape& t, const Vec3& p) {
   const double outwards = length(p - t.center - height * axis) - t.major;
   return outwards * outwards + height * height <= t.minor * t.minor;
 }
-bool value_holds(const Scene&, const HalfSpaceShape& h, const Vec3& p) { return dot(h.normal, p) <= h.offset; }
+bool value_holds(const Scene&, const HalfSpaceShape& h, const Vec3& p) {
+  return dot(h.normal, p) <= h.offset;
+}
 bool value_holds(const Scene&, const EllipsoidShape& e, const Vec3& p) {
   // p = center + A q: q by Cramer's rule, the axes being A's columns.
   const Vec3 d = p - e.center;
   const auto& [a, b, c] = e.axes;
   const double whole = dot(a, cross(b, c));
-  const Vec3 q{dot(d, cross(b, c)) / whole, dot(a, cross(d, c)) / whole, dot(a, cross(b, d)) / whole};
+  const Vec3 q{dot(d, cross(b, c)) / whole, dot(a, cross(d, c)) / whole,
+               dot(a, cross(b, d)) / whole};
   return length(q) <= 1;
 }
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {

@@ -6,8 +6,8 @@
 
 namespace graycube {
 
-/// Whether the point lies in any object. Closed sets, up to rounding. The scene must be one that the reader
-/// could have given.
+/// Whether the point lies in any object. Closed sets, up to rounding. The scene must be one that
+/// the reader could have given.
 bool any_object_holds(const Scene& scene, const Vec3& point);
 
 }  // namespace graycube

@@ -36,13 +36,14 @@ std::optional<std::string_view> closest(std::string_view written,
   if (written.size() > kMaxComparedLength) return std::nullopt;
   std::optional<std::string_view> best;
   std::size_t best_distance = 0;
-  for (const auto candidate : candidates.first(std::min(candidates.size(), kMaxSpellingCandidates))) {
+  for (const auto candidate :
+       candidates.first(std::min(candidates.size(), kMaxSpellingCandidates))) {
     if (candidate.size() > kMaxComparedLength) continue;
     const std::size_t longer = std::max(written.size(), candidate.size());
     const std::size_t shorter = std::min(written.size(), candidate.size());
     const std::size_t near_enough = std::max<std::size_t>(1, (longer + 1) / 3);
-    const bool beginning = shorter >= kLeastBeginning &&
-                           written.substr(0, shorter) == candidate.substr(0, shorter);
+    const bool beginning =
+        shorter >= kLeastBeginning && written.substr(0, shorter) == candidate.substr(0, shorter);
     if (!beginning && longer - shorter > near_enough) continue;
     const std::size_t distance = edit_distance(written, candidate);
     if ((beginning || distance <= near_enough) && (!best || distance < best_distance)) {

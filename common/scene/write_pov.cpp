@@ -16,7 +16,8 @@ namespace {
 
 /// POV-Ray clamps its own limit to this.
 constexpr std::uint32_t kMaxPovTraceLevel = 256;
-/// POV-Ray's falloff is 2 / (1 + (d / f)²): with a small f this is 2 f² / d² but for f² / d² of itself.
+/// POV-Ray's falloff is 2 / (1 + (d / f)²): with a small f this is 2 f² / d² but for f² / d² of
+/// itself.
 constexpr double kFadeDistance = 1e-4;
 
 class PovWriter {
@@ -38,8 +39,8 @@ class PovWriter {
   }
 
  private:
-  /// POV-Ray's union keeps the surfaces inside it, its merge does not, but is slower. They can be seen
-  /// through a transparent surface, or by an eye that is inside.
+  /// POV-Ray's union keeps the surfaces inside it, its merge does not, but is slower. They can be
+  /// seen through a transparent surface, or by an eye that is inside.
   static bool inner_surfaces_show(const Scene& scene) {
     for (const auto& m : scene.materials)
       if (m.material.transmit > 0) return true;
@@ -75,8 +76,9 @@ class PovWriter {
   void write_header() {
     const RenderSettings& s = scene_.settings;
     const std::uint32_t samples = s.image.samples;
-    text_ += "// povray +INAME.pov +ONAME.png +FN16 File_Gamma=1.0 +W" + std::to_string(s.image.width * samples) +
-             " +H" + std::to_string(s.image.height * samples) + " -A -D -P -GA\n";
+    text_ += "// povray +INAME.pov +ONAME.png +FN16 File_Gamma=1.0 +W" +
+             std::to_string(s.image.width * samples) + " +H" +
+             std::to_string(s.image.height * samples) + " -A -D -P -GA\n";
     if (samples > 1) {
       const std::string n = std::to_string(samples);
       text_ += "// then take the mean of every block of " + n + " x " + n + " pixels\n";
@@ -88,8 +90,10 @@ class PovWriter {
       level = kMaxPovTraceLevel;
       warnings_.push_back("POV-Ray follows at most " + std::to_string(level) + " generations");
     }
-    if (s.min_weight > 0) warnings_.push_back("POV-Ray's adc_bailout, written for min_weight, weighs rays otherwise");
-    text_ += "#version 3.7;\nglobal_settings { assumed_gamma 1.0 max_trace_level " + std::to_string(level);
+    if (s.min_weight > 0)
+      warnings_.push_back("POV-Ray's adc_bailout, written for min_weight, weighs rays otherwise");
+    text_ += "#version 3.7;\nglobal_settings { assumed_gamma 1.0 max_trace_level " +
+             std::to_string(level);
     item(" adc_bailout ", s.min_weight);
     text_ += " ambient_light rgb ";
     color(s.ambient);
@@ -129,7 +133,8 @@ class PovWriter {
     const auto& [name, m] = scene_.materials[index];
     if (m.model != ShadingModel::kPhong)
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
-                          std::string(word_of(kShadingModelWords, m.model)) + " model; written as phong");
+                          std::string(word_of(kShadingModelWords, m.model)) +
+                          " model; written as phong");
     const std::string number_text = std::to_string(index);
     text_ += "#declare M" + number_text + " = texture { pigment { rgbt ";
     numbers({m.color.r, m.color.g, m.color.b, m.transmit});
@@ -185,8 +190,8 @@ class PovWriter {
     text_ += " }";
   }
 
-  /// Whether POV-Ray's object for the node comes with a texture from below. Another would be laid over it,
-  /// where the format says that the nearest material wins.
+  /// Whether POV-Ray's object for the node comes with a texture from below. Another would be laid
+  /// over it, where the format says that the nearest material wins.
   bool is_covered(const CsgNode& node) const {
     const auto* ref = std::get_if<ReferenceNode>(&node.value);
     const auto* operation = std::get_if<OperationNode>(&node.value);
@@ -201,8 +206,8 @@ class PovWriter {
   void write_matrix(const Affine& map) {
     const auto& m = map.m;
     text_ += " matrix ";
-    numbers({m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2], m[0][3], m[1][3],
-             m[2][3]});
+    numbers({m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2],
+             m[0][3], m[1][3], m[2][3]});
   }
   void write_matrix(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
     text_ += " matrix ";

@@ -26,7 +26,8 @@ class SceneWriter {
     text_ += '1';
     write_settings();
     start_line("materials");
-    list('{', '}', scene_.materials, [&](const NamedMaterial& m) { key(m.name), write(m.material); });
+    list('{', '}', scene_.materials,
+         [&](const NamedMaterial& m) { key(m.name), write(m.material); });
     start_line("shapes");
     list('{', '}', scene_.shapes, [&](const NamedShape& s) { key(s.name), write(s.node); });
     start_line("objects");
@@ -185,7 +186,8 @@ class SceneWriter {
   }
 
   std::string_view material_name(MaterialIndex index) const {
-    GRAYCUBE_CHECK(index < scene_.materials.size(), "material %u of %zu", index, scene_.materials.size());
+    GRAYCUBE_CHECK(index < scene_.materials.size(), "material %u of %zu", index,
+                   scene_.materials.size());
     return scene_.materials[index].name;
   }
 
@@ -225,7 +227,8 @@ class SceneWriter {
     text_ += ']';
   }
   void write_value(const ReferenceNode& r) {
-    GRAYCUBE_CHECK(r.shape < scene_.shapes.size(), "shape %u of %zu", r.shape, scene_.shapes.size());
+    GRAYCUBE_CHECK(r.shape < scene_.shapes.size(), "shape %u of %zu", r.shape,
+                   scene_.shapes.size());
     text_ += "\"ref\"";
     member("shape", std::string_view(scene_.shapes[r.shape].name));
   }

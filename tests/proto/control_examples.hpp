@@ -72,7 +72,7 @@ inline std::vector<ControlMessage> example_messages() {
   const RawObject stats{
       R"({"graycube":"0.1.0","nodes":8,"rays":{"primary":65536},"per_node":[{"rank":0}]})"};
   return {
-      Hello{3, 4711, 77, "ipc:///tmp/gc/3", 2, "0.1.0"},
+      Hello{3, 4711, 77, "ipc:///run/graycube/3", 2, "0.1.0"},
       Ready{9, 1, 103, 40, 812, 0.02},
       EpochAck{9, 2},
       TokenRound{9, 1, 3, 24, true, -5},

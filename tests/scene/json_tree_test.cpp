@@ -16,16 +16,11 @@ namespace {
 /// The tree as the library would have it, to compare with what the library read itself.
 nlohmann::json to_library(const JsonTree& tree, JsonIndex at) {
   switch (tree.kind(at)) {
-    case JsonKind::kNull:
-      return nullptr;
-    case JsonKind::kFalse:
-      return false;
-    case JsonKind::kTrue:
-      return true;
-    case JsonKind::kNumber:
-      return tree.number(at);
-    case JsonKind::kString:
-      return std::string(tree.string(at));
+    case JsonKind::kNull: return nullptr;
+    case JsonKind::kFalse: return false;
+    case JsonKind::kTrue: return true;
+    case JsonKind::kNumber: return tree.number(at);
+    case JsonKind::kString: return std::string(tree.string(at));
     case JsonKind::kArray: {
       auto array = nlohmann::json::array();
       for (JsonIndex c = tree.first_child(at); c != tree.end(at); c = tree.next(c))
@@ -54,13 +49,45 @@ double number_in(const std::string& text) {
 
 /// Random JSON, mostly valid, from pieces that go wrong in every way when they meet.
 std::string random_json(std::mt19937_64& random, int depth) {
-  static const std::vector<std::string> kScalars = {
-      "0", "-0", "1.5", "-2e3", "1E+2", "0.1e-7", "null", "true", "false", "\"\"", "\"a\\nb\\u00e9\"",
-      "\"\\ud83d\\ude00\"", "\"\xC3\xA9\"", "9007199254740993", "123456789012345678901234567890.5"};
-  static const std::vector<std::string> kBroken = {
-      "01", "1.", ".5", "-", "+1", "1e", "tru", "nan", "\"\\x\"", "\"\\ud83d\"", "\"\\udc00\"", "\"\xC0\x80\"",
-      "\"\xED\xA0\x80\"", "\"\xF5\x80\x80\x80\"", "\"\t\"", "\"open", "[1,]", "{\"a\" 1}", "{a:1}", "[1 2]", "",
-      "\"\\u12g4\"", "\"\xE2\x82\"", "{\"a\":1,}"};
+  static const std::vector<std::string> kScalars = {"0",
+                                                    "-0",
+                                                    "1.5",
+                                                    "-2e3",
+                                                    "1E+2",
+                                                    "0.1e-7",
+                                                    "null",
+                                                    "true",
+                                                    "false",
+                                                    "\"\"",
+                                                    "\"a\\nb\\u00e9\"",
+                                                    "\"\\ud83d\\ude00\"",
+                                                    "\"\xC3\xA9\"",
+                                                    "9007199254740993",
+                                                    "123456789012345678901234567890.5"};
+  static const std::vector<std::string> kBroken = {"01",
+                                                   "1.",
+                                                   ".5",
+                                                   "-",
+                                                   "+1",
+                                                   "1e",
+                                                   "tru",
+                                                   "nan",
+                                                   "\"\\x\"",
+                                                   "\"\\ud83d\"",
+                                                   "\"\\udc00\"",
+                                                   "\"\xC0\x80\"",
+                                                   "\"\xED\xA0\x80\"",
+                                                   "\"\xF5\x80\x80\x80\"",
+                                                   "\"\t\"",
+                                                   "\"open",
+                                                   "[1,]",
+                                                   "{\"a\" 1}",
+                                                   "{a:1}",
+                                                   "[1 2]",
+                                                   "",
+                                                   "\"\\u12g4\"",
+                                                   "\"\xE2\x82\"",
+                                                   "{\"a\":1,}"};
   const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   if (pick(60) == 0) return kBroken[pick(kBroken.size())];
   if (depth == 0 || pick(3) == 0) return kScalars[pick(kScalars.size())];
@@ -149,7 +176,9 @@ TEST_CASE("pointers escape tildes and slashes and count from zero") {
 }
 
 TEST_CASE("nesting and string length are limited") {
-  const auto nested = [](std::uint32_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  const auto nested = [](std::uint32_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
   const std::string deepest = nested(kMaxJsonNesting), too_deep = nested(kMaxJsonNesting + 1);
   REQUIRE_FALSE(JsonTree(deepest).syntax_error());
   REQUIRE(JsonTree(too_deep).syntax_error()->message.find("deeper") != std::string::npos);
@@ -174,7 +203,8 @@ TEST_CASE("a text cut anywhere is a syntax error with a place, never a crash") {
 
 TEST_CASE("text positions count lines and bytes from one") {
   const auto positions = text_positions("ab\n\ncd", {0, 1, 2, 3, 4, 5, 6});
-  const std::vector<std::pair<int, int>> expected = {{1, 1}, {1, 2}, {1, 3}, {2, 1}, {3, 1}, {3, 2}, {3, 3}};
+  const std::vector<std::pair<int, int>> expected = {{1, 1}, {1, 2}, {1, 3}, {2, 1},
+                                                     {3, 1}, {3, 2}, {3, 3}};
   REQUIRE(positions.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     REQUIRE(positions[i].line == static_cast<std::uint64_t>(expected[i].first));

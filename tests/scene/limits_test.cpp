@@ -11,7 +11,9 @@ namespace {
 
 const std::string kSphere = R"({"type": "sphere", "center": [0,0,0], "radius": 1})";
 
-std::string ref(int shape) { return R"({"type": "ref", "shape": "s)" + std::to_string(shape) + "\"}"; }
+std::string ref(int shape) {
+  return R"({"type": "ref", "shape": "s)" + std::to_string(shape) + "\"}";
+}
 
 /// A union of `count` times the same node.
 std::string union_of(const std::string& node, int count) {
@@ -30,13 +32,18 @@ std::string below(const std::string& node, std::uint32_t levels) {
 /// Shapes s0 = a sphere, each next one a union of `count` refs to the one before.
 std::string doubling_shapes(int levels, int count) {
   std::string text = R"({"s0": )" + kSphere;
-  for (int i = 1; i <= levels; ++i) text += ",\"s" + std::to_string(i) + "\": " + union_of(ref(i - 1), count);
+  for (int i = 1; i <= levels; ++i)
+    text += ",\"s" + std::to_string(i) + "\": " + union_of(ref(i - 1), count);
   return text + "}";
 }
 
-std::string object_of(const std::string& csg) { return R"([{"material": "red", "csg": )" + csg + "}]"; }
+std::string object_of(const std::string& csg) {
+  return R"([{"material": "red", "csg": )" + csg + "}]";
+}
 
-std::vector<SceneError> errors_of(const SceneText& scene) { return read_scene_text(scene.text()).errors; }
+std::vector<SceneError> errors_of(const SceneText& scene) {
+  return read_scene_text(scene.text()).errors;
+}
 
 }  // namespace
 
@@ -62,7 +69,9 @@ TEST_CASE("levels are counted through refs") {
 
 TEST_CASE("leaves are counted without expanding refs") {
   const auto scene = [](int levels, int count) {
-    return SceneText().with("shapes", doubling_shapes(levels, count)).with("objects", object_of(ref(levels)));
+    return SceneText()
+        .with("shapes", doubling_shapes(levels, count))
+        .with("objects", object_of(ref(levels)));
   };
   // 8^7 = 2^21 leaves are few enough, 8^9 = 2^27 are not; 2^100 overflow every counter.
   REQUIRE(errors_of(scene(7, 8)).empty());
@@ -77,7 +86,9 @@ TEST_CASE("leaves are counted without expanding refs") {
 }
 
 TEST_CASE("unused shapes don't count towards the leaves") {
-  REQUIRE(errors_of(SceneText().with("shapes", doubling_shapes(9, 8)).with("objects", object_of(ref(1)))).empty());
+  REQUIRE(errors_of(
+              SceneText().with("shapes", doubling_shapes(9, 8)).with("objects", object_of(ref(1))))
+              .empty());
 }
 
 TEST_CASE("a chain of refs as long as the file is no deep recursion") {
@@ -100,7 +111,8 @@ TEST_CASE("lights are limited") {
 TEST_CASE("the planes of a polyhedron are limited") {
   std::string planes = "[0,1,0,1]";
   for (std::uint32_t i = 0; i < kMaxPlanes; ++i) planes += ",[0,1,0,1]";
-  const auto errors = errors_of(SceneText::of_csg(R"({"type": "polyhedron", "planes": [)" + planes + "]}"));
+  const auto errors =
+      errors_of(SceneText::of_csg(R"({"type": "polyhedron", "planes": [)" + planes + "]}"));
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].message.find("1 to 65536 planes, found an array of 65537") != std::string::npos);
 }

@@ -20,7 +20,8 @@ class RandomScene {
     scene_ = {};
     settings(scene_.settings);
     const auto materials = 1 + below(4);
-    for (std::size_t i = 0; i < materials; ++i) scene_.materials.push_back({name("material", i), material()});
+    for (std::size_t i = 0; i < materials; ++i)
+      scene_.materials.push_back({name("material", i), material()});
     const auto shapes = below(4);
     for (std::size_t i = 0; i < shapes; ++i) {
       // A shape may use those before it.
@@ -36,27 +37,35 @@ class RandomScene {
  private:
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
   /// All 53 bits in use, over many magnitudes.
-  double positive() { return std::ldexp(1 + std::generate_canonical<double, 53>(random_), static_cast<int>(below(40)) - 20); }
+  double positive() {
+    return std::ldexp(1 + std::generate_canonical<double, 53>(random_),
+                      static_cast<int>(below(40)) - 20);
+  }
   double number() { return below(8) == 0 ? 0 : below(2) == 0 ? positive() : -positive(); }
   double fraction() { return std::generate_canonical<double, 53>(random_); }
   Vec3 vector() { return {number(), number(), number()}; }
   Vec3 direction() { return {positive(), number(), number()}; }
   Rgb color() { return {positive(), positive(), below(2) == 0 ? 0 : positive()}; }
-  MaterialIndex some_material() { return static_cast<MaterialIndex>(below(scene_.materials.size())); }
+  MaterialIndex some_material() {
+    return static_cast<MaterialIndex>(below(scene_.materials.size()));
+  }
 
   std::string name(const std::string& kind, std::size_t i) {
-    static const char* const kOddities[] = {"", " \"quoted\"", "\\", "/~1", "\n\t\x01", "\xC3\xA9", "\xF0\x9F\x98\x80"};
+    static const char* const kOddities[] = {"",         " \"quoted\"",     "\\", "/~1", "\n\t\x01",
+                                            "\xC3\xA9", "\xF0\x9F\x98\x80"};
     return kind + std::to_string(i) + kOddities[below(std::size(kOddities))];
   }
 
   void settings(RenderSettings& s) {
-    s.image = {static_cast<std::uint32_t>(1 + below(500)), static_cast<std::uint32_t>(1 + below(500)),
+    s.image = {static_cast<std::uint32_t>(1 + below(500)),
+               static_cast<std::uint32_t>(1 + below(500)),
                static_cast<std::uint32_t>(1 + below(8))};
     s.camera.projection = below(2) == 0 ? Projection::kPerspective : Projection::kOrthographic;
     s.camera.eye = vector();
     s.camera.look_at = s.camera.eye + Vec3{2e6, fraction(), 1e6};
     s.camera.up = {fraction(), 1, fraction()};
-    (s.camera.projection == Projection::kPerspective ? s.camera.fov_degrees : s.camera.width) = 1 + 178 * fraction();
+    (s.camera.projection == Projection::kPerspective ? s.camera.fov_degrees : s.camera.width) =
+        1 + 178 * fraction();
     s.camera.handedness = below(2) == 0 ? Handedness::kRight : Handedness::kLeft;
     s.background = color();
     s.ambient = color();
@@ -64,12 +73,14 @@ class RandomScene {
     s.min_weight = fraction();
     const auto lights = below(4);
     for (std::size_t i = 0; i < lights; ++i)
-      s.lights.push_back({vector(), color(), below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare});
+      s.lights.push_back(
+          {vector(), color(), below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare});
   }
 
   Material material() {
-    return {color(), positive(), positive(), positive(), positive(), positive(), fraction(), positive(),
-            static_cast<ShadingModel>(below(3))};
+    return {color(),    positive(), positive(),
+            positive(), positive(), positive(),
+            fraction(), positive(), static_cast<ShadingModel>(below(3))};
   }
 
   /// Scales, mirrors and shears, never far from the identity.
@@ -104,28 +115,26 @@ class RandomScene {
     const Vec3 corner = vector();
     const double major = positive();
     switch (below(scene_.shapes.empty() ? 8 : 9)) {
-      case 0:
-        node.value = SphereShape{vector(), positive()};
-        return;
+      case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
-        node.value = BoxShape{corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
+        node.value =
+            BoxShape{corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
         return;
       case 2:
         node.value = CylinderShape{corner, corner + direction() + Vec3{1, 0, 0}, positive()};
         return;
       case 3:
-        node.value = ConeShape{corner, below(3) == 0 ? 0 : positive(), corner + direction() + Vec3{1, 0, 0}, positive()};
+        node.value = ConeShape{corner, below(3) == 0 ? 0 : positive(),
+                               corner + direction() + Vec3{1, 0, 0}, positive()};
         return;
       case 4:
         node.value = TorusShape{vector(), direction(), major, major * (0.1 + 0.8 * fraction())};
         return;
-      case 5:
-        node.value = HalfSpaceShape{direction(), number()};
-        return;
+      case 5: node.value = HalfSpaceShape{direction(), number()}; return;
       case 6:
         // Axes of like lengths: very unequal ones are, to working precision, dependent.
-        node.value =
-            EllipsoidShape{vector(), {{{1 + fraction(), 0, 0}, {fraction(), 2, 0}, {fraction(), fraction(), 3}}}};
+        node.value = EllipsoidShape{
+            vector(), {{{1 + fraction(), 0, 0}, {fraction(), 2, 0}, {fraction(), fraction(), 3}}}};
         return;
       case 7:
         node.value = PolyhedronShape{};

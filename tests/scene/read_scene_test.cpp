@@ -43,7 +43,8 @@ void require_near(const Vec3& a, const Vec3& b) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() / ("graycube-read-" + std::to_string(std::random_device()()))) {
+      : path_(std::filesystem::temp_directory_path() /
+              ("graycube-read-" + std::to_string(std::random_device()()))) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
@@ -80,20 +81,28 @@ TEST_CASE("every setting is read") {
   const Scene scene = read(
       SceneText()
           .with("image", R"({"width": 300, "height": 200, "samples": 3})")
-          .with("camera", R"({"type": "orthographic", "eye": [1,2,3], "look_at": [4,5,7], "up": [0,0,1],
+          .with("camera",
+                R"({"type": "orthographic", "eye": [1,2,3], "look_at": [4,5,7], "up": [0,0,1],
                               "width": 12.5, "handedness": "left"})")
           .with("background", "[0.25,0.5,2]")
           .with("ambient", "[0.5,1,0]")
           .with("max_depth", "12")
           .with("min_weight", "0.125")
-          .with("lights", R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
+          .with(
+              "lights",
+              R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
                               {"type": "point", "position": [0,0,9]}])")
-          .with("materials", R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
+          .with(
+              "materials",
+              R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
                                  "reflect": 8, "transmit": 0.5, "ior": 1.5, "model": "torrance_sparrow"},
                                  "hall": {"model": "hall_greenberg"}})"));
   const RenderSettings& s = scene.settings;
   CHECK(s.image == ImageSize{300, 200, 3});
-  CHECK(s.camera == Camera{Projection::kOrthographic, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0, 12.5, Handedness::kLeft});
+  CHECK(
+      s.camera ==
+      Camera{
+          Projection::kOrthographic, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0, 12.5, Handedness::kLeft});
   CHECK(s.background == Rgb{0.25, 0.5, 2});
   CHECK(s.ambient == Rgb{0.5, 1, 0});
   CHECK(s.max_depth == 12);
@@ -102,22 +111,30 @@ TEST_CASE("every setting is read") {
   CHECK(s.lights[0] == PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::kInverseSquare});
   CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone});
   REQUIRE(scene.materials.size() == 2);
-  CHECK(scene.materials[0].material == Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});
+  CHECK(scene.materials[0].material ==
+        Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});
   CHECK(scene.materials[1].material.model == ShadingModel::kHallGreenberg);
 }
 
 TEST_CASE("every kind of leaf is read") {
-  CHECK(leaf<SphereShape>(R"({"type": "sphere", "center": [1,2,3], "radius": 4})") == SphereShape{{1, 2, 3}, 4});
-  CHECK(leaf<BoxShape>(R"({"type": "box", "min": [1,2,3], "max": [4,5,6]})") == BoxShape{{1, 2, 3}, {4, 5, 6}});
-  CHECK(leaf<CylinderShape>(R"({"type": "cylinder", "base": [1,2,3], "top": [4,5,6], "radius": 7})") ==
+  CHECK(leaf<SphereShape>(R"({"type": "sphere", "center": [1,2,3], "radius": 4})") ==
+        SphereShape{{1, 2, 3}, 4});
+  CHECK(leaf<BoxShape>(R"({"type": "box", "min": [1,2,3], "max": [4,5,6]})") ==
+        BoxShape{{1, 2, 3}, {4, 5, 6}});
+  CHECK(leaf<CylinderShape>(
+            R"({"type": "cylinder", "base": [1,2,3], "top": [4,5,6], "radius": 7})") ==
         CylinderShape{{1, 2, 3}, {4, 5, 6}, 7});
-  CHECK(leaf<ConeShape>(R"({"type": "cone", "base": [1,2,3], "base_radius": 0, "top": [4,5,6], "top_radius": 7})") ==
-        ConeShape{{1, 2, 3}, 0, {4, 5, 6}, 7});
-  CHECK(leaf<TorusShape>(R"({"type": "torus", "center": [1,2,3], "axis": [0,0,2], "major": 3, "minor": 1})") ==
+  CHECK(
+      leaf<ConeShape>(
+          R"({"type": "cone", "base": [1,2,3], "base_radius": 0, "top": [4,5,6], "top_radius": 7})") ==
+      ConeShape{{1, 2, 3}, 0, {4, 5, 6}, 7});
+  CHECK(leaf<TorusShape>(
+            R"({"type": "torus", "center": [1,2,3], "axis": [0,0,2], "major": 3, "minor": 1})") ==
         TorusShape{{1, 2, 3}, {0, 0, 2}, 3, 1});
   CHECK(leaf<HalfSpaceShape>(R"({"type": "half_space", "normal": [0,3,4], "offset": -5})") ==
         HalfSpaceShape{{0, 3, 4}, -5});
-  CHECK(leaf<EllipsoidShape>(R"({"type": "ellipsoid", "center": [1,2,3], "axes": [[1,0,0],[0,2,0],[0,1,3]]})") ==
+  CHECK(leaf<EllipsoidShape>(
+            R"({"type": "ellipsoid", "center": [1,2,3], "axes": [[1,0,0],[0,2,0],[0,1,3]]})") ==
         EllipsoidShape{{1, 2, 3}, {{{1, 0, 0}, {0, 2, 0}, {0, 1, 3}}}});
   CHECK(leaf<PolyhedronShape>(R"({"type": "polyhedron", "planes": [[1,0,0,4],[0,2,0,5]]})") ==
         PolyhedronShape{{{{1, 0, 0}, 4}, {{0, 2, 0}, 5}}});
@@ -148,14 +165,17 @@ TEST_CASE("transforms are applied in the order of the list") {
   require_near(transformed(R"([{"scale": 2}, {"translate": [1,0,0]}])", {1, 1, 1}), {3, 2, 2});
   require_near(transformed(R"([{"scale": [1,2,-3]}])", {1, 1, 1}), {1, 2, -3});
   // The right-hand rule: a quarter turn about z takes x to y.
-  require_near(transformed(R"([{"rotate": {"axis": [0,0,5], "angle": 90}}])", {1, 0, 0}), {0, 1, 0});
-  require_near(transformed(R"([{"matrix": [[0,1,0,7],[1,0,0,8],[0,0,1,9]]}])", {1, 2, 3}), {9, 9, 12});
-  require_near(transformed(R"([{"matrix": [[1,0,0,7],[0,1,0,8],[0,0,1,9],[0,0,0,1]]}])", {0, 0, 0}), {7, 8, 9});
+  require_near(transformed(R"([{"rotate": {"axis": [0,0,5], "angle": 90}}])", {1, 0, 0}),
+               {0, 1, 0});
+  require_near(transformed(R"([{"matrix": [[0,1,0,7],[1,0,0,8],[0,0,1,9]]}])", {1, 2, 3}),
+               {9, 9, 12});
+  require_near(transformed(R"([{"matrix": [[1,0,0,7],[0,1,0,8],[0,0,1,9],[0,0,0,1]]}])", {0, 0, 0}),
+               {7, 8, 9});
 }
 
 TEST_CASE("an empty list of transforms is none") {
-  const Scene scene =
-      read(SceneText::of_csg(R"({"type": "sphere", "center": [0,0,0], "radius": 1, "transform": []})"));
+  const Scene scene = read(
+      SceneText::of_csg(R"({"type": "sphere", "center": [0,0,0], "radius": 1, "transform": []})"));
   CHECK_FALSE(scene.objects.at(0).csg.transform);
 }
 
@@ -177,8 +197,9 @@ TEST_CASE("a file reads as its text does") {
 
 TEST_CASE("a file that can't be read is an error, not an exception") {
   CHECK(read_scene_file("/nonexistent/scene.json").errors.at(0).message == "there is no such file");
-  CHECK(read_scene_file(std::filesystem::temp_directory_path()).errors.at(0).message.find("directory") !=
-        std::string::npos);
+  CHECK(read_scene_file(std::filesystem::temp_directory_path())
+            .errors.at(0)
+            .message.find("directory") != std::string::npos);
   const TemporaryFile empty("");
   CHECK(read_scene_file(empty.path()).errors.size() == 1);
 }
@@ -188,7 +209,8 @@ TEST_CASE("a file beyond the size limit is refused before it is read") {
   std::error_code error;
   std::filesystem::resize_file(sparse.path(), kMaxSceneBytes + 1, error);
   if (error) return;  // the file system keeps no such files
-  CHECK(read_scene_file(sparse.path()).errors.at(0).message.find("larger than") != std::string::npos);
+  CHECK(read_scene_file(sparse.path()).errors.at(0).message.find("larger than") !=
+        std::string::npos);
 }
 
 TEST_CASE("every example scene reads without errors") {
@@ -202,7 +224,7 @@ TEST_CASE("every example scene reads without errors") {
     CHECK(result.scene);
     CHECK(std::filesystem::file_size(entry.path()) < 200 * 1024);
   }
-  for (const char* name : {"first.json", "mirrors.json", "glass.json", "tori.json", "engine_block.json", "ortho.json",
-                           "scatter1000.json"})
+  for (const char* name : {"first.json", "mirrors.json", "glass.json", "tori.json",
+                           "engine_block.json", "ortho.json", "scatter1000.json"})
     CHECK(names.count(name) == 1);
 }

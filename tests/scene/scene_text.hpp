@@ -19,7 +19,8 @@ class SceneText {
   }
   std::string text() const {
     std::string all = "{";
-    for (const auto& [key, json] : parts_) all += (all.size() > 1 ? ",\n" : "\n") + ("\"" + key + "\": ") + json;
+    for (const auto& [key, json] : parts_)
+      all += (all.size() > 1 ? ",\n" : "\n") + ("\"" + key + "\": ") + json;
     return all + "\n}";
   }
 
@@ -32,7 +33,8 @@ class SceneText {
   std::map<std::string, std::string> parts_{
       {"graycube", "1"},
       {"image", R"({"width": 8, "height": 6})"},
-      {"camera", R"({"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40})"},
+      {"camera",
+       R"({"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40})"},
       {"lights", "[]"},
       {"materials", R"({"red": {"color": [1,0,0]}, "glass": {}})"},
       {"shapes", R"({"ball": {"type": "sphere", "center": [0,0,0], "radius": 1}})"},

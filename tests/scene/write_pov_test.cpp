@@ -41,37 +41,49 @@ TEST_CASE("the first line of a POV-Ray scene is the command that renders it") {
 TEST_CASE("settings become POV-Ray's, with one trace level more than max_depth") {
   const auto text = pov_of(SceneText().with("max_depth", "7").with("ambient", "[1,0.5,0]")).text;
   require_holds(text,
-                "global_settings { assumed_gamma 1.0 max_trace_level 8 adc_bailout 0 ambient_light rgb <1,0.5,0> }");
+                "global_settings { assumed_gamma 1.0 max_trace_level 8 adc_bailout 0 ambient_light "
+                "rgb <1,0.5,0> }");
 }
 
 TEST_CASE("handedness decides where the picture's right is") {
   const auto camera = [](const std::string& handedness) {
-    return pov_of(SceneText().with("camera",
-                                   R"({"type": "orthographic", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,3,1],
-                                       "width": 4, "handedness": ")" + handedness + "\"}")).text;
+    return pov_of(
+               SceneText().with(
+                   "camera",
+                   R"({"type": "orthographic", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,3,1],
+                                       "width": 4, "handedness": ")" +
+                       handedness + "\"}"))
+        .text;
   };
   require_holds(camera("right"), "direction <0,0,1> right <-4,0,0> up <0,3,0>");
   require_holds(camera("left"), "direction <0,0,1> right <4,0,0> up <0,3,0>");
 }
 
 TEST_CASE("every leaf has its POV-Ray object") {
-  require_holds(csg_text(R"({"type": "sphere", "center": [1,2,3], "radius": 4})"), "sphere { <1,2,3>, 4 texture { M0 } }");
-  require_holds(csg_text(R"({"type": "box", "min": [1,2,3], "max": [4,5,6]})"), "box { <1,2,3>, <4,5,6> ");
+  require_holds(csg_text(R"({"type": "sphere", "center": [1,2,3], "radius": 4})"),
+                "sphere { <1,2,3>, 4 texture { M0 } }");
+  require_holds(csg_text(R"({"type": "box", "min": [1,2,3], "max": [4,5,6]})"),
+                "box { <1,2,3>, <4,5,6> ");
   require_holds(csg_text(R"({"type": "cylinder", "base": [1,2,3], "top": [4,5,6], "radius": 7})"),
                 "cylinder { <1,2,3>, <4,5,6>, 7 ");
-  require_holds(csg_text(R"({"type": "cone", "base": [1,2,3], "base_radius": 0, "top": [4,5,6], "top_radius": 7})"),
-                "cone { <1,2,3>, 0, <4,5,6>, 7 ");
-  require_holds(csg_text(R"({"type": "half_space", "normal": [0,3,4], "offset": -5})"), "plane { <0,0.6,0.8>, -1 ");
-  require_holds(csg_text(R"({"type": "ellipsoid", "center": [1,2,3], "axes": [[4,0,0],[0,5,0],[0,1,6]]})"),
-                "sphere { <0,0,0>, 1 matrix <4,0,0,0,5,0,0,1,6,1,2,3> ");
+  require_holds(
+      csg_text(
+          R"({"type": "cone", "base": [1,2,3], "base_radius": 0, "top": [4,5,6], "top_radius": 7})"),
+      "cone { <1,2,3>, 0, <4,5,6>, 7 ");
+  require_holds(csg_text(R"({"type": "half_space", "normal": [0,3,4], "offset": -5})"),
+                "plane { <0,0.6,0.8>, -1 ");
+  require_holds(
+      csg_text(R"({"type": "ellipsoid", "center": [1,2,3], "axes": [[4,0,0],[0,5,0],[0,1,6]]})"),
+      "sphere { <0,0,0>, 1 matrix <4,0,0,0,5,0,0,1,6,1,2,3> ");
   require_holds(csg_text(R"({"type": "polyhedron", "planes": [[2,0,0,4],[0,1,0,5]]})"),
                 "intersection {\nplane { <1,0,0>, 2 }\nplane { <0,1,0>, 5 } texture");
 }
 
 TEST_CASE("a torus lies about its axis") {
   // The middle row of the matrix is the image of POV-Ray's own axis, y.
-  require_holds(csg_text(R"({"type": "torus", "center": [7,8,9], "axis": [0,0,2], "major": 3, "minor": 1})"),
-                "torus { 3, 1 matrix <1,0,0,0,0,1,0,-1,0,7,8,9> ");
+  require_holds(
+      csg_text(R"({"type": "torus", "center": [7,8,9], "axis": [0,0,2], "major": 3, "minor": 1})"),
+      "torus { 3, 1 matrix <1,0,0,0,0,1,0,-1,0,7,8,9> ");
 }
 
 TEST_CASE("matrices are transposed, and follow the node's own placement") {
@@ -81,28 +93,33 @@ TEST_CASE("matrices are transposed, and follow the node's own placement") {
 }
 
 TEST_CASE("a complement is its child inverted") {
-  require_holds(csg_text(R"({"type": "complement", "child": {"type": "sphere", "center": [0,0,0], "radius": 1}})"),
-                "object { sphere { <0,0,0>, 1 } inverse texture { M0 } }");
+  require_holds(
+      csg_text(
+          R"({"type": "complement", "child": {"type": "sphere", "center": [0,0,0], "radius": 1}})"),
+      "object { sphere { <0,0,0>, 1 } inverse texture { M0 } }");
 }
 
 TEST_CASE("shapes are declared before they are used") {
-  const auto text = pov_of(SceneText()
-                               .with("shapes", R"({"late": {"type": "union", "children": [{"type": "ref", "shape":
+  const auto text =
+      pov_of(
+          SceneText()
+              .with("shapes", R"({"late": {"type": "union", "children": [{"type": "ref", "shape":
                                      "early"}, {"type": "ref", "shape": "early"}]}, "early": {"type": "sphere",
                                      "center": [0,0,0], "radius": 1}})")
-                               .with("objects", R"([{"material": "red", "csg": {"type": "ref", "shape": "late"}}])"))
-                        .text;
+              .with("objects", R"([{"material": "red", "csg": {"type": "ref", "shape": "late"}}])"))
+          .text;
   REQUIRE(text.find("#declare S1") < text.find("#declare S0"));
   require_holds(text, "union {\nobject { S1 }\nobject { S1 } }");
   require_holds(text, "object { S0 texture { M0 } }");
 }
 
 TEST_CASE("a use doesn't paint over a shape's own material") {
-  const auto text = pov_of(SceneText()
-                               .with("shapes", R"({"s": {"type": "sphere", "center": [0,0,0], "radius": 1,
+  const auto text =
+      pov_of(SceneText()
+                 .with("shapes", R"({"s": {"type": "sphere", "center": [0,0,0], "radius": 1,
                                      "material": "glass"}, "t": {"type": "ref", "shape": "s"}})")
-                               .with("objects", R"([{"material": "red", "csg": {"type": "ref", "shape": "t"}}])"))
-                        .text;
+                 .with("objects", R"([{"material": "red", "csg": {"type": "ref", "shape": "t"}}])"))
+          .text;
   require_holds(text, "\nobject { S1 }\n");
 }
 
@@ -116,26 +133,35 @@ TEST_CASE("unions are merges where their inner surfaces could be seen") {
   // The eye is at distance 5.
   require_holds(pov_of(SceneText().with("objects", with_radius("1"))).text, "union {");
   require_holds(pov_of(SceneText().with("objects", with_radius("6"))).text, "merge {");
-  require_holds(pov_of(SceneText().with("objects", with_radius("1")).with("materials", R"({"red": {"transmit": 0.5}})")).text,
+  require_holds(pov_of(SceneText()
+                           .with("objects", with_radius("1"))
+                           .with("materials", R"({"red": {"transmit": 0.5}})"))
+                    .text,
                 "merge {");
 }
 
 TEST_CASE("transparent materials carry an interior") {
-  const auto text = pov_of(SceneText::of_csg(R"({"type": "ref", "shape": "ball"})")
-                               .with("materials", R"({"red": {"transmit": 0.5, "ior": 1.25, "reflect": 0.125}})")).text;
-  require_holds(text, "pigment { rgbt <1,1,1,0.5> } finish { ambient 0.1 diffuse 0.9 phong 0 phong_size 1 reflection { 0.125 } }");
+  const auto text =
+      pov_of(SceneText::of_csg(R"({"type": "ref", "shape": "ball"})")
+                 .with("materials", R"({"red": {"transmit": 0.5, "ior": 1.25, "reflect": 0.125}})"))
+          .text;
+  require_holds(text,
+                "pigment { rgbt <1,1,1,0.5> } finish { ambient 0.1 diffuse 0.9 phong 0 phong_size "
+                "1 reflection { 0.125 } }");
   require_holds(text, "#declare I0 = interior { ior 1.25 }");
   require_holds(text, "object { S0 texture { M0 } interior { I0 } }");
 }
 
 TEST_CASE("what POV-Ray can't compute is told") {
   REQUIRE(pov_of(SceneText()).warnings.empty());
-  const auto warned = [](const std::string& key, const std::string& json, const std::string& fragment) {
+  const auto warned = [](const std::string& key, const std::string& json,
+                         const std::string& fragment) {
     const auto warnings = pov_of(SceneText().with(key, json)).warnings;
     REQUIRE(warnings.size() == 1);
     require_holds(warnings[0], fragment);
   };
-  warned("materials", R"({"m": {"model": "torrance_sparrow"}})", "material \"m\": POV-Ray has no torrance_sparrow");
+  warned("materials", R"({"m": {"model": "torrance_sparrow"}})",
+         "material \"m\": POV-Ray has no torrance_sparrow");
   warned("materials", R"({"m": {"model": "hall_greenberg"}})", "hall_greenberg");
   warned("image", R"({"width": 8, "height": 6, "samples": 2})", "2 times as large");
   warned("min_weight", "0.25", "adc_bailout");

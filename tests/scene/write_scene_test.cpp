@@ -36,7 +36,8 @@ TEST_CASE("objects are written one to a line") {
   const auto lines = [](int objects) {
     std::string list;
     for (int i = 0; i < objects; ++i)
-      list += std::string(i > 0 ? "," : "") + R"({"material": "red", "csg": {"type": "union", "children": [
+      list += std::string(i > 0 ? "," : "") +
+              R"({"material": "red", "csg": {"type": "union", "children": [
         {"type": "ref", "shape": "ball"}, {"type": "ref", "shape": "ball", "transform": [{"scale": 2}]}]}})";
     const auto scene = read_scene_text(SceneText().with("objects", "[" + list + "]").text()).scene;
     const std::string text = write_scene_text(scene.value());

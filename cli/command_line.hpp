@@ -1,0 +1,85 @@
+// What the command line asks for. The only file that knows CLI11 is command_line.cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "cli/outputs.hpp"
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+struct RenderCommand {
+  std::string scene;
+  Outputs outputs;
+  control::JobOptions options;
+  std::uint32_t nodes = 1, threads = 1;
+  bool is_quiet = false;
+};
+
+struct SubmitCommand {
+  std::string connect, scene;
+  Outputs outputs;
+  control::JobOptions options;
+  /// 0: whatever the farm has.
+  std::uint32_t nodes = 0;
+  bool is_quiet = false, waits = false;
+};
+
+struct UpCommand {
+  std::string listen, state;
+  std::uint32_t nodes = 1, threads = 1;
+};
+
+struct JobsCommand {
+  std::string connect;
+};
+struct StatusCommand {
+  std::string connect;
+  std::uint32_t job = 0;
+  bool as_json = false;
+};
+struct WatchCommand {
+  std::string connect;
+  std::uint32_t job = 0;
+};
+struct CancelCommand {
+  std::string connect;
+  std::uint32_t job = 0;
+};
+struct FetchCommand {
+  std::string connect;
+  std::uint32_t job = 0;
+  Outputs outputs;
+};
+struct NodesCommand {
+  std::string connect;
+};
+struct DownCommand {
+  std::string connect;
+};
+struct CheckCommand {
+  std::string scene;
+};
+struct CompareCommand {
+  std::string scene;
+  std::uint32_t nodes = 1;
+};
+struct ConvertCommand {
+  std::string in, out;
+};
+/// `--help` and `--version`, of any command.
+struct PrintCommand {
+  std::string text;
+};
+
+using Command =
+    std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
+                 CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
+                 CompareCommand, ConvertCommand, PrintCommand>;
+
+/// Throws a usage failure. The arguments are as main gets them, the command's own name first.
+Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace graycube

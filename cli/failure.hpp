@@ -1,0 +1,45 @@
+// How the command says that something went wrong, and with which status it then ends.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace graycube {
+
+/// The command's exit status (README, "Exit status").
+enum class ExitStatus : int { kDone = 0, kFailed = 1, kBadInput = 2 };
+
+/// One line on standard error: `graycube: WHAT: WHERE: WHY`. An empty part is left out.
+struct Problem {
+  std::string what, where, why;
+  friend bool operator==(const Problem&, const Problem&) = default;
+};
+
+/// Ends the command; main prints the problems and nothing else.
+class Failure : public std::exception {
+ public:
+  Failure(ExitStatus status, std::vector<Problem> problems)
+      : status_(status), problems_(std::move(problems)) {}
+  Failure(ExitStatus status, Problem problem)
+      : Failure(status, std::vector<Problem>{std::move(problem)}) {}
+
+  ExitStatus status() const { return status_; }
+  const std::vector<Problem>& problems() const { return problems_; }
+  const char* what() const noexcept override { return "the command failed"; }
+
+ private:
+  ExitStatus status_;
+  std::vector<Problem> problems_;
+};
+
+/// A command line that means nothing: `graycube: usage: WHERE: WHY`, exit status 2.
+Failure usage_failure(std::string where, std::string why);
+
+/// The line of a problem, without its end; control characters become spaces, so that a line stays one.
+std::string line_of(const Problem& problem);
+
+/// The line on standard error.
+void print(const Problem& problem);
+
+}  // namespace graycube

@@ -1,0 +1,184 @@
+#include "cli/frontal_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <thread>
+
+#include "cli/interrupts.hpp"
+
+extern "C" char** environ;
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds kStartLimit{30};
+constexpr std::chrono::milliseconds kPollInterval{5};
+constexpr std::size_t kMaxLine = 4096;
+
+Failure cannot_start(const std::string& why) {
+  return {ExitStatus::kFailed, Problem{"farm", "graycube-frontal", why}};
+}
+
+fs::path frontal_program() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw cannot_start("can't find it: /proc/self/exe: " + error.message());
+  fs::path program = self.parent_path() / "graycube-frontal";
+  if (::access(program.c_str(), X_OK) != 0) {
+    throw cannot_start("not found beside this command, in " + self.parent_path().string());
+  }
+  return program;
+}
+
+/// posix_spawn's two sets of instructions.
+class SpawnPlan {
+ public:
+  explicit SpawnPlan(int output) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    ::posix_spawnattr_init(&attributes_);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF |
+                                                 POSIX_SPAWN_SETSIGMASK);
+    ::posix_spawnattr_setpgroup(&attributes_, 0);
+    sigset_t signals;
+    ::sigemptyset(&signals);
+    ::posix_spawnattr_setsigmask(&attributes_, &signals);
+    for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::sigaddset(&signals, s);
+    ::posix_spawnattr_setsigdefault(&attributes_, &signals);
+  }
+  ~SpawnPlan() {
+    ::posix_spawn_file_actions_destroy(&actions_);
+    ::posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// The folder of a private frontal's sockets, which one that had to be killed leaves behind.
+void remove_socket_folder(const std::string& endpoint) {
+  constexpr std::string_view ipc = "ipc://";
+  if (!endpoint.starts_with(ipc)) return;
+  const fs::path folder = fs::path(endpoint.substr(ipc.size())).parent_path();
+  std::error_code ignored;
+  if (folder.parent_path() == fs::temp_directory_path(ignored) &&
+      folder.filename().string().starts_with("graycube-")) {
+    fs::remove_all(folder, ignored);
+  }
+}
+
+}  // namespace
+
+FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments) {
+  const std::string program = frontal_program().string();
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start(std::strerror(errno));
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  const SpawnPlan plan(pipe[1]);
+  const int error = ::posix_spawn(&pid_, program.c_str(), &plan.actions_, &plan.attributes_,
+                                  argv.data(), environ);
+  ::close(pipe[1]);
+  output_ = pipe[0];
+  if (error != 0) {
+    ::close(output_);
+    throw cannot_start(std::strerror(error));
+  }
+}
+
+FrontalProcess::~FrontalProcess() {
+  stop();
+  ::close(output_);
+}
+
+const std::string& FrontalProcess::wait_until_listening() {
+  constexpr std::string_view prefix = "listening ";
+  const auto until = std::chrono::steady_clock::now() + kStartLimit;
+  std::string line;
+  while (std::chrono::steady_clock::now() < until) {
+    throw_if_interrupted();
+    std::array<pollfd, 2> waits{{{output_, POLLIN, 0}, {wakeup_descriptor(), POLLIN, 0}}};
+    if (::poll(waits.data(), waits.size(), 100) <= 0) continue;
+    clear_wakeup();
+    if (waits[0].revents == 0) continue;
+    char c = 0;
+    if (::read(output_, &c, 1) != 1) {
+      // Its output is at its end, so it is about to be; its own message tells why.
+      while (!has_ended() && std::chrono::steady_clock::now() < until) {
+        std::this_thread::sleep_for(kPollInterval);
+      }
+      throw ended();
+    }
+    if (c != '\n') {
+      if (line.size() < kMaxLine) line += c;
+    } else if (line.starts_with(prefix)) {
+      endpoint_ = line.substr(prefix.size());
+      return endpoint_;
+    } else {
+      line.clear();
+    }
+  }
+  throw cannot_start("it does not start to listen");
+}
+
+bool FrontalProcess::has_ended() {
+  if (!has_ended_ && pid_ > 0 && ::waitpid(pid_, &wait_status_, WNOHANG) == pid_) {
+    has_ended_ = true;
+  }
+  return has_ended_;
+}
+
+int FrontalProcess::exit_status() const {
+  return WIFEXITED(wait_status_) ? WEXITSTATUS(wait_status_) : 128 + WTERMSIG(wait_status_);
+}
+
+Failure FrontalProcess::ended() const {
+  const std::string how = WIFSIGNALED(wait_status_)
+                              ? "killed by signal " + std::to_string(WTERMSIG(wait_status_))
+                              : "ended with status " + std::to_string(exit_status());
+  return cannot_start(how);
+}
+
+void FrontalProcess::check_running() {
+  if (has_ended()) throw ended();
+}
+
+void FrontalProcess::request_stop() noexcept {
+  if (has_ended() || is_stop_requested_) return;
+  is_stop_requested_ = true;
+  ::kill(pid_, SIGTERM);
+}
+
+void FrontalProcess::stop() noexcept {
+  request_stop();
+  const auto until = std::chrono::steady_clock::now() + kStopGrace;
+  while (!has_ended() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(kPollInterval);
+  }
+  const bool was_killed =
+      !has_ended_ || WIFSIGNALED(wait_status_);
+  if (!was_killed) return;
+  // Its nodes are in its group; what it could not put away is put away here.
+  ::kill(-pid_, SIGKILL);
+  while (!has_ended_ && ::waitpid(pid_, &wait_status_, 0) == -1 && errno == EINTR) {
+  }
+  has_ended_ = true;
+  remove_socket_folder(endpoint_);
+}
+
+}  // namespace graycube

@@ -1,0 +1,51 @@
+// A graycube-frontal that this command has started, and ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/failure.hpp"
+
+namespace graycube {
+
+/// A frontal that has not ended so long after it was asked to is ended by force, with its nodes.
+inline constexpr std::chrono::milliseconds kStopGrace{3000};
+
+class FrontalProcess {
+ public:
+  /// Starts the graycube-frontal beside this command, in a process group of its own: a terminal's Ctrl-C
+  /// reaches only the command, which then ends things in order. Throws a Failure.
+  explicit FrontalProcess(const std::vector<std::string>& arguments);
+  /// Stops it.
+  ~FrontalProcess();
+  FrontalProcess(const FrontalProcess&) = delete;
+  FrontalProcess& operator=(const FrontalProcess&) = delete;
+
+  /// Waits for it to say where it listens. Throws a Failure when it ends instead, or an interrupt's.
+  const std::string& wait_until_listening();
+  /// Throws a Failure when it has ended.
+  void check_running();
+  bool has_ended();
+  /// Its exit status, 128 + the signal's number if that ended it; once it has ended.
+  int exit_status() const;
+
+  /// Asks it to stop, without waiting.
+  void request_stop() noexcept;
+  /// Stops it and waits for it to have gone, by force after the grace.
+  void stop() noexcept;
+
+ private:
+  Failure ended() const;
+
+  pid_t pid_ = -1;
+  int output_ = -1;
+  bool has_ended_ = false, is_stop_requested_ = false;
+  int wait_status_ = 0;
+  std::string endpoint_;
+};
+
+}  // namespace graycube

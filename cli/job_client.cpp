@@ -1,0 +1,99 @@
+#include "cli/job_client.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "proto/picture_rows.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+namespace {
+
+/// After so long without news the frontal is asked whether it is still there.
+constexpr std::chrono::seconds kQuiet{2};
+
+Bytes bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+  return Bytes(bytes.begin(), bytes.end());
+}
+
+Failure nonsense(std::uint32_t job) {
+  return {ExitStatus::kFailed,
+          Problem{"fetch", "job " + std::to_string(job), "the frontal sent no proper picture"}};
+}
+
+bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_t first) {
+  const bool is_size_possible = rows.width >= 1 && rows.width <= kMaxImageSide && rows.height >= 1 &&
+                                rows.height <= kMaxImageSide &&
+                                std::uint64_t{rows.width} * rows.height <= kMaxPixels;
+  const bool is_size_same =
+      first == 0 || (rows.width == picture.width && rows.height == picture.height);
+  return is_size_possible && is_size_same && rows.first_row == first && rows.rows >= 1 &&
+         rows.rows <= rows.height - first;
+}
+
+}  // namespace
+
+std::uint32_t submit_scene(FarmClient& farm, const SceneInput& scene,
+                           const control::JobOptions& options) {
+  const control::Submit request{scene.name, options};
+  return farm.ask<control::Accepted>(request, "submit", bytes_of(scene.text)).first.job;
+}
+
+std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& display) {
+  farm.send(control::Watch{job});
+  auto heard = FarmClient::Clock::now();
+  for (;;) {
+    const auto received = farm.receive(kQuiet);
+    if (!received) {
+      if (FarmClient::Clock::now() - heard > kLaterAnswer) throw farm.silence();
+      farm.send(control::Status{job});
+      continue;
+    }
+    heard = FarmClient::Clock::now();
+    const ControlMessage& m = received->message;
+    if (const auto* progress = std::get_if<control::Progress>(&m)) {
+      if (progress->job == job) display.show(*progress);
+    } else if (const auto* done = std::get_if<control::Done>(&m)) {
+      if (done->job == job) return done->stats.text;
+    } else if (const auto* failed = std::get_if<control::Failed>(&m)) {
+      throw failure_of(*failed, failed->code == FailureCode::kBadInput ? "scene" : "render");
+    } else if (std::holds_alternative<control::Bye>(m)) {
+      throw Failure(ExitStatus::kFailed, Problem{"render", "farm", "it has stopped"});
+    }
+  }
+}
+
+control::JobInfo job_info(FarmClient& farm, std::uint32_t job) {
+  return farm.ask<control::JobInfo>(control::Status{job}, "job").first;
+}
+
+Picture fetch_picture(FarmClient& farm, std::uint32_t job) {
+  Picture picture;
+  std::uint32_t row = 0;
+  do {
+    const control::Fetch request{job, row, picture.height == 0 ? kMaxImageSide
+                                                               : picture.height - row};
+    const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
+    std::vector<float> values;
+    if (!is_sound(rows, picture, row) ||
+        !decode_picture_rows(payload, rows.width, rows.rows, values)) {
+      throw nonsense(job);
+    }
+    picture.width = rows.width;
+    picture.height = rows.height;
+    picture.rgb.insert(picture.rgb.end(), values.begin(), values.end());
+    row += rows.rows;
+  } while (row < picture.height);
+  return picture;
+}
+
+std::string summary_text(const control::JobInfo& info) {
+  std::string text(to_string(info.algorithm));
+  text += " on " + std::to_string(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
+  text += ", " + std::to_string(info.rounds) +
+          (info.rounds == 1 ? " token round" : " token rounds");
+  return text;
+}
+
+}  // namespace graycube

@@ -1,0 +1,30 @@
+// One job of a farm, from submission to picture.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/farm_client.hpp"
+#include "cli/progress.hpp"
+#include "cli/scene_input.hpp"
+#include "film/film.hpp"
+
+namespace graycube {
+
+/// Submits a scene; its job.
+std::uint32_t submit_scene(FarmClient& farm, const SceneInput& scene,
+                           const control::JobOptions& options);
+
+/// Shows a job's progress until it is done; its statistics. Throws the Failure of a job that failed:
+/// `render: node 3 (process 4711): killed by signal 9`.
+std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& display);
+
+control::JobInfo job_info(FarmClient& farm, std::uint32_t job);
+
+/// A done job's picture. Throws a Failure also when the frontal sends nonsense.
+Picture fetch_picture(FarmClient& farm, std::uint32_t job);
+
+/// "roth on 8 nodes, 4 token rounds".
+std::string summary_text(const control::JobInfo& info);
+
+}  // namespace graycube

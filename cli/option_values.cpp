@@ -1,0 +1,140 @@
+#include "cli/option_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <thread>
+
+#include "cli/failure.hpp"
+#include "scene/spelling.hpp"
+#include "shading/settings.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr double kMaxSeconds = 366.0 * 24 * 3600;
+
+[[noreturn]] void expected(std::string_view option, const std::string& what,
+                           std::string_view found) {
+  throw usage_failure(std::string(option), "expected " + what + ", found " + quoted(found));
+}
+
+/// The whole text as a number; nothing when it isn't one or doesn't fit.
+template <typename Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string range(std::uint64_t least, std::uint64_t most) {
+  return std::to_string(least) + " to " + std::to_string(most);
+}
+
+template <typename Value>
+Value parse_choice(std::string_view option, std::string_view text, std::span<const Value> choices) {
+  std::vector<std::string_view> names;
+  for (const Value v : choices) {
+    if (text == to_string(v)) return v;
+    names.push_back(to_string(v));
+  }
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
+  }
+  throw usage_failure(std::string(option), "expected " + list + ", found " + quoted(text) +
+                                               did_you_mean(text, names));
+}
+
+/// A value of the command line's contract that this version can't do.
+template <typename Value>
+Value only(std::string_view option, Value value, Value built) {
+  if (value == built) return value;
+  throw usage_failure(std::string(option), std::string(to_string(value)) + " is not built yet; only " +
+                                               std::string(to_string(built)) + " is");
+}
+
+}  // namespace
+
+std::uint32_t parse_count(std::string_view option, std::string_view text, std::uint32_t least,
+                          std::uint32_t most) {
+  const auto value = number<std::uint32_t>(text);
+  if (!value || *value < least || *value > most) {
+    expected(option, "a whole number from " + range(least, most), text);
+  }
+  return *value;
+}
+
+std::uint32_t parse_nodes(std::string_view option, std::string_view text) {
+  const auto value = number<std::uint32_t>(text);
+  if (!value || !Hypercube::of_size(*value)) {
+    expected(option, "a power of two from " + range(1, kMaxNodes), text);
+  }
+  return *value;
+}
+
+PictureSize parse_size(std::string_view option, std::string_view text) {
+  const auto cross = text.find('x');
+  if (cross != std::string_view::npos) {
+    const auto width = number<std::uint32_t>(text.substr(0, cross));
+    const auto height = number<std::uint32_t>(text.substr(cross + 1));
+    const auto fits = [](std::uint32_t side) { return side >= 1 && side <= kMaxImageSide; };
+    if (width && height && fits(*width) && fits(*height)) {
+      if (std::uint64_t{*width} * *height <= kMaxPixels) return {*width, *height};
+      expected(option, "at most " + std::to_string(kMaxPixels) + " pixels", text);
+    }
+  }
+  expected(option, "WIDTHxHEIGHT in pixels, each " + range(1, kMaxImageSide), text);
+}
+
+double parse_seconds(std::string_view option, std::string_view text) {
+  const auto value = number<double>(text);
+  if (!value || !std::isfinite(*value) || *value <= 0 || *value > kMaxSeconds) {
+    expected(option, "a number of seconds above 0, at most a year", text);
+  }
+  return *value;
+}
+
+Algorithm parse_algorithm(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{Algorithm::kAuto, Algorithm::kSerial, Algorithm::kRoth,
+                                      Algorithm::kMacro};
+  return parse_choice<Algorithm>(option, text, choices);
+}
+
+Grain parse_grain(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{Grain::kPixel, Grain::kLine, Grain::kTile};
+  return parse_choice<Grain>(option, text, choices);
+}
+
+ShadowMode parse_shadows(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{ShadowMode::kHorizon, ShadowMode::kForward,
+                                      ShadowMode::kLocal};
+  return only(option, parse_choice<ShadowMode>(option, text, choices), ShadowMode::kForward);
+}
+
+PartitionMode parse_partition(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{PartitionMode::kRegular, PartitionMode::kBalanced};
+  return only(option, parse_choice<PartitionMode>(option, text, choices), PartitionMode::kRegular);
+}
+
+std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
+  const std::uint32_t value = parse_count(option, text, 1, 1024);
+  if (value != 1) throw usage_failure(std::string(option), "only 1 is built yet");
+  return value;
+}
+
+FlowMode parse_flow(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
+  return only(option, parse_choice<FlowMode>(option, text, choices), FlowMode::kCredit);
+}
+
+std::uint32_t default_nodes() {
+  return std::bit_floor(std::clamp(std::thread::hardware_concurrency(), 1u, kMaxNodes));
+}
+
+}  // namespace graycube

@@ -1,0 +1,40 @@
+// The values of options, from text. Each function throws a usage failure that names the option, what was
+// expected and what was found.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+struct PictureSize {
+  std::uint32_t width = 0, height = 0;
+  friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// A whole number in decimal digits, least … most.
+std::uint32_t parse_count(std::string_view option, std::string_view text, std::uint32_t least,
+                          std::uint32_t most);
+/// A power of two, 1 … kMaxNodes.
+std::uint32_t parse_nodes(std::string_view option, std::string_view text);
+/// "WxH" within the limits of a picture.
+PictureSize parse_size(std::string_view option, std::string_view text);
+/// More than 0, at most a year.
+double parse_seconds(std::string_view option, std::string_view text);
+
+Algorithm parse_algorithm(std::string_view option, std::string_view text);
+Grain parse_grain(std::string_view option, std::string_view text);
+/// Only what is built: forward, regular, 1, credit.
+ShadowMode parse_shadows(std::string_view option, std::string_view text);
+PartitionMode parse_partition(std::string_view option, std::string_view text);
+std::uint32_t parse_scatter(std::string_view option, std::string_view text);
+FlowMode parse_flow(std::string_view option, std::string_view text);
+
+/// The largest power of two not above the number of processors that this process may use.
+std::uint32_t default_nodes();
+
+}  // namespace graycube

@@ -1,0 +1,99 @@
+#include "cli/outputs.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "cli/failure.hpp"
+#include "film/picture_files.hpp"
+#include "film/whole_file.hpp"
+#include "version.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+using NamedPath = std::pair<const char*, const fs::path*>;
+
+std::array<NamedPath, 3> named(const Outputs& outputs) {
+  return {{{"-o", &outputs.exr}, {"--png", &outputs.png}, {"--stats", &outputs.stats}}};
+}
+
+void check_folder(const char* option, const fs::path& file) {
+  const std::string where = std::string(option) + " " + file.string();
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!file.has_filename() || fs::is_directory(file, error)) {
+    throw usage_failure(where, "expected a file name, found a folder");
+  }
+  if (!fs::is_directory(folder, error)) throw usage_failure(where, "the folder does not exist");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw usage_failure(where, "exists and is not a regular file");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw usage_failure(where, "the folder can't be written to");
+  }
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::absolute(a, error).lexically_normal() == fs::absolute(b, error).lexically_normal();
+}
+
+template <typename Write>
+void write(const char* option, const fs::path& path, const Write& write_it) {
+  if (path.empty()) return;
+  try {
+    write_it();
+  } catch (const PictureError& e) {
+    throw Failure(ExitStatus::kFailed, Problem{"output", option, e.what()});
+  }
+}
+
+}  // namespace
+
+void check_outputs(const Outputs& outputs, const fs::path& scene) {
+  const auto files = named(outputs);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [option, path] = files[i];
+    if (path->empty()) continue;
+    check_folder(option, *path);
+    if (is_same_file(*path, scene)) {
+      throw usage_failure(option, path->string() + " is the scene itself");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!files[j].second->empty() && is_same_file(*files[j].second, *path)) {
+        throw usage_failure(option, path->string() + " is also what " + files[j].first + " names");
+      }
+    }
+  }
+  if (outputs.exr.extension() == ".png") {
+    throw usage_failure("-o " + outputs.exr.string(), "writes OpenEXR; for PNG use --png");
+  }
+}
+
+fs::path default_exr(const fs::path& scene) { return scene.stem().string() + ".exr"; }
+
+void write_pictures(const Outputs& outputs, const Picture& picture, const std::string& scene) {
+  write("-o", outputs.exr, [&] { write_exr(outputs.exr, picture, {scene, kVersion}); });
+  write("--png", outputs.png, [&] { write_png(outputs.png, picture); });
+}
+
+void write_stats(const Outputs& outputs, const std::string& stats) {
+  if (!outputs.stats.empty()) write_text_file(outputs.stats, stats + "\n");
+}
+
+void write_text_file(const fs::path& path, const std::string& text) {
+  write(path.c_str(), path, [&] {
+    WholeFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+  });
+}
+
+}  // namespace graycube

@@ -1,0 +1,34 @@
+// The files that a render leaves.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "film/film.hpp"
+
+namespace graycube {
+
+/// Empty: not wanted.
+struct Outputs {
+  std::filesystem::path exr, png, stats;
+  bool none() const { return exr.empty() && png.empty() && stats.empty(); }
+};
+
+/// Before a long render: throws a usage failure when a file can't be written where it should go, two are the
+/// same, or one is the scene itself.
+void check_outputs(const Outputs& outputs, const std::filesystem::path& scene);
+
+/// SCENE's name without its ending, with ".exr", in the current folder.
+std::filesystem::path default_exr(const std::filesystem::path& scene);
+
+/// Writes the pictures, each whole or not at all. `scene` is the scene's name for the EXR's header. Throws a
+/// Failure of status 1.
+void write_pictures(const Outputs& outputs, const Picture& picture, const std::string& scene);
+
+/// Writes the statistics, if wanted.
+void write_stats(const Outputs& outputs, const std::string& stats);
+
+/// A text file, whole or not at all. Throws a Failure of status 1.
+void write_text_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace graycube

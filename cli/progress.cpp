@@ -1,0 +1,109 @@
+#include "cli/progress.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/interrupts.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr std::chrono::milliseconds kRedrawInterval{50};
+constexpr std::chrono::seconds kLineInterval{1};
+constexpr std::size_t kDefaultColumns = 80;
+constexpr std::size_t kMinBar = 5, kMaxBar = 40;
+
+std::string percent(double fraction) {
+  // Rounded down: 100 % is only what is complete.
+  const double p = std::floor(100 * std::clamp(fraction, 0.0, 1.0) + 1e-9);
+  return std::to_string(static_cast<int>(p)) + " %";
+}
+
+bool is_rendering(const control::Progress& p) { return p.state == JobState::kRendering; }
+
+/// What follows the percentage.
+std::string details(const control::Progress& p) {
+  std::string text;
+  if (p.eta_s) text += ", ETA " + duration_text(*p.eta_s);
+  if (p.tiles > 0) {
+    text += ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) +
+            " tiles whole";
+  }
+  if (p.rounds > 0) {
+    text += ", " + std::to_string(p.rounds) + (p.rounds == 1 ? " token round" : " token rounds");
+  }
+  return text;
+}
+
+std::size_t terminal_columns(std::FILE* stream) {
+  winsize size{};
+  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultColumns;
+  return size.ws_col;
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const double s = std::max(0.0, seconds);
+  if (s < 0.9995) return std::to_string(static_cast<int>(std::round(1000 * s))) + " ms";
+  const auto whole = static_cast<long long>(std::min(std::round(s), 1e15));
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) {
+    return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  }
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
+std::string progress_text(const control::Progress& p) {
+  std::string text(to_string(p.state));
+  if (is_rendering(p)) text += " " + percent(p.fraction);
+  return text + details(p);
+}
+
+std::string progress_bar(const control::Progress& p, std::size_t columns) {
+  const double fraction = is_rendering(p) ? std::clamp(p.fraction, 0.0, 1.0) : 0.0;
+  const std::string tail =
+      is_rendering(p) ? percent(fraction) + details(p) : std::string(to_string(p.state));
+  const std::size_t taken = tail.size() + 3;  // the bar's ends and a space
+  if (columns < taken + kMinBar + 1) return tail.substr(0, columns == 0 ? 0 : columns - 1);
+  const std::size_t length = std::min(kMaxBar, columns - 1 - taken);
+  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(length));
+  return "[" + std::string(filled, '#') + std::string(length - filled, '-') + "] " + tail;
+}
+
+ProgressDisplay::ProgressDisplay(std::FILE* stream, bool is_quiet)
+    : stream_(stream), is_quiet_(is_quiet), is_terminal_(::isatty(::fileno(stream)) == 1) {}
+
+ProgressDisplay::~ProgressDisplay() { clear(); }
+
+void ProgressDisplay::show(const control::Progress& p) {
+  if (is_quiet_) return;
+  const auto now = Clock::now();
+  const bool changed = !shown_ || shown_->state != p.state || shown_->rounds != p.rounds;
+  const auto interval = is_terminal_ ? Clock::duration(kRedrawInterval) : kLineInterval;
+  if (!changed && now - shown_at_ < interval) return;
+  if (!is_terminal_ && shown_ && *shown_ == p) return;
+  shown_ = p;
+  shown_at_ = now;
+  // ESC [ K erases the rest of the line.
+  const std::string text = is_terminal_
+                               ? "\r" + progress_bar(p, terminal_columns(stream_)) + "\x1b[K"
+                               : progress_text(p) + "\n";
+  std::fwrite(text.data(), 1, text.size(), stream_);
+  std::fflush(stream_);
+  is_line_open_ = is_terminal_;
+  note_terminal_line(is_line_open_);
+}
+
+void ProgressDisplay::clear() {
+  if (!is_line_open_) return;
+  std::fputs("\r\x1b[K", stream_);
+  std::fflush(stream_);
+  is_line_open_ = false;
+  note_terminal_line(false);
+}
+
+}  // namespace graycube

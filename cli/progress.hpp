@@ -1,0 +1,44 @@
+// How a render is getting on, for people: one line redrawn on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+/// "rendering 47 %, ETA 3 s, 30 of 64 tiles whole, 2 token rounds": what is known of it.
+std::string progress_text(const control::Progress& progress);
+
+/// The same behind a bar, for a terminal of so many columns.
+std::string progress_bar(const control::Progress& progress, std::size_t columns);
+
+/// "850 ms", "12 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
+class ProgressDisplay {
+ public:
+  /// Shows nothing when `is_quiet`.
+  ProgressDisplay(std::FILE* stream, bool is_quiet);
+  ~ProgressDisplay();
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  /// Shows it if it is time to, or the state or the token's rounds have changed.
+  void show(const control::Progress& progress);
+  /// Removes the terminal's line, so that something else may be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::FILE* stream_;
+  bool is_quiet_, is_terminal_;
+  bool is_line_open_ = false;
+  std::optional<control::Progress> shown_;
+  Clock::time_point shown_at_{};
+};
+
+}  // namespace graycube

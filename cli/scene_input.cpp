@@ -1,0 +1,141 @@
+#include "cli/scene_input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include "cli/failure.hpp"
+#include "scene/openscad.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/write_scene.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+Failure bad_scene(const fs::path& path, std::string why) {
+  return {ExitStatus::kBadInput, Problem{"scene", path.string(), std::move(why)}};
+}
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+std::string read_file(const fs::path& path, std::size_t most) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw bad_scene(path, "is a folder");
+  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
+  const auto system_error = [&] {
+    return bad_scene(path, std::generic_category().message(errno));
+  };
+  if (!file) throw system_error();
+  const auto too_large = [&] {
+    return bad_scene(path, "the file is larger than " + std::to_string(most) + " bytes");
+  };
+  if (const auto size = fs::file_size(path, error); !error && size > most) throw too_large();
+  std::string text;
+  std::array<char, 65536> chunk;
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+    if (text.size() + count > most) throw too_large();
+    text.append(chunk.data(), count);
+  }
+  if (std::ferror(file.get()) != 0) throw system_error();
+  return text;
+}
+
+/// "line 7: text" as FILE:7 and text.
+Problem located(const char* what, const fs::path& path, const std::string& message) {
+  constexpr std::string_view prefix = "line ";
+  const auto colon = message.find(": ");
+  if (!message.starts_with(prefix) || colon == std::string::npos) {
+    return {what, path.string(), message};
+  }
+  return {what, path.string() + ":" + message.substr(prefix.size(), colon - prefix.size()),
+          message.substr(colon + 2)};
+}
+
+void read_json(const fs::path& path, SceneInput& input) {
+  input.text = read_file(path, kMaxSubmitBytes);
+  ReadResult read = read_scene_text(input.text);
+  if (!read.scene) {
+    std::vector<Problem> problems;
+    for (const SceneError& e : read.errors) {
+      problems.push_back(
+          {"scene", path.string() + (e.pointer.empty() ? "" : ":" + e.pointer), e.message});
+    }
+    throw Failure(ExitStatus::kBadInput, std::move(problems));
+  }
+  input.scene = std::move(*read.scene);
+}
+
+void import_openscad(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
+  OpenscadOptions how;
+  how.image.width = options.width.value_or(how.image.width);
+  how.image.height = options.height.value_or(how.image.height);
+  how.max_depth = options.max_depth.value_or(how.max_depth);
+  OpenscadResult read = read_openscad_csg(read_file(path, kMaxOpenscadBytes), how);
+  for (const std::string& w : read.warnings) {
+    input.warnings.push_back(located("warning", path, w));
+  }
+  if (!read.scene) {
+    std::vector<Problem> problems;
+    for (const OpenscadError& e : read.errors) {
+      const std::string line = e.line > 0 ? ":" + std::to_string(e.line) : "";
+      problems.push_back({"scene", path.string() + line, e.message});
+    }
+    throw Failure(ExitStatus::kBadInput, std::move(problems));
+  }
+  input.scene = std::move(*read.scene);
+  input.text = write_scene_text(input.scene);
+}
+
+}  // namespace
+
+SceneInput read_scene_input(const fs::path& path, const control::JobOptions& options) {
+  SceneInput input;
+  input.name = path.filename().string();
+  if (path.extension() == ".csg") {
+    import_openscad(path, options, input);
+  } else if (path.extension() == ".json") {
+    read_json(path, input);
+  } else if (path.extension() == ".scad") {
+    throw bad_scene(path, "OpenSCAD must evaluate it first: openscad -o MODEL.csg MODEL.scad");
+  } else {
+    throw bad_scene(path, "expected a name ending in .json or .csg");
+  }
+  return input;
+}
+
+void apply_overrides(const control::JobOptions& options, RenderSettings& settings) {
+  ImageSize& image = settings.image;
+  image.width = options.width.value_or(image.width);
+  image.height = options.height.value_or(image.height);
+  image.samples = options.samples.value_or(image.samples);
+  settings.max_depth = options.max_depth.value_or(settings.max_depth);
+}
+
+void check_farm_limits(const SceneInput& input, const RenderSettings& settings) {
+  const auto refuse = [&](const char* what, std::uint32_t most, std::uint64_t found) {
+    throw Failure(ExitStatus::kBadInput,
+                  Problem{"scene", input.name + ":" + what,
+                          "only --algorithm serial takes more than " + std::to_string(most) +
+                              ", found " + std::to_string(found)});
+  };
+  if (settings.max_depth > kMaxCreditDepth) {
+    refuse("/max_depth", kMaxCreditDepth, settings.max_depth);
+  }
+  if (settings.lights.size() > kMaxCreditLights) {
+    refuse("/lights", kMaxCreditLights, settings.lights.size());
+  }
+  if (input.text.size() > kMaxSubmitBytes) {
+    throw Failure(ExitStatus::kBadInput,
+                  Problem{"scene", input.name, "larger than a farm takes; use --algorithm serial"});
+  }
+}
+
+}  // namespace graycube

@@ -1,0 +1,138 @@
+#include "simulation/farm.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "scene/compile_scene.hpp"
+#include "scene/read_scene.hpp"
+#include "trace/render_serial.hpp"
+
+using namespace graycube;
+using simulation::Farm;
+using simulation::FarmOptions;
+using simulation::Outcome;
+
+namespace {
+
+/// Mirrors, glass, a torus, a drilled box and a floor without end, small enough for hundreds of runs.
+std::string scene_text(unsigned width, unsigned height) {
+  return R"({"graycube": 1, "image": {"width": )" + std::to_string(width) + R"(, "height": )" +
+         std::to_string(height) + R"(},
+  "camera": {"type": "perspective", "eye": [0,3,-9], "look_at": [0,1,0], "up": [0,1,0], "fov": 60},
+  "background": [0.1,0.2,0.4], "max_depth": 4,
+  "lights": [{"type": "point", "position": [5,9,-6], "color": [0.6,0.6,0.6]},
+             {"type": "point", "position": [-2,0.5,-3], "color": [0.4,0.3,0.3]}],
+  "materials": {"floor": {"color": [0.7,0.7,0.6], "reflect": 0.3},
+                "mirror": {"color": [0.9,0.9,0.9], "diffuse": 0.2, "reflect": 0.8},
+                "glass": {"diffuse": 0.1, "transmit": 0.9, "reflect": 0.1, "ior": 1.5},
+                "red": {"color": [0.9,0.2,0.1], "specular": 0.5, "shininess": 20}},
+  "objects": [
+    {"material": "floor", "csg": {"type": "half_space", "normal": [0,1,0], "offset": 0}},
+    {"material": "mirror", "csg": {"type": "sphere", "center": [-2.5,1.2,1], "radius": 1.2}},
+    {"material": "glass", "csg": {"type": "sphere", "center": [0.3,1,-2.5], "radius": 0.9}},
+    {"material": "red", "csg": {"type": "torus", "center": [2.5,1,1.5], "axis": [1,1,0], "major": 1.2, "minor": 0.4}},
+    {"material": "red", "csg": {"type": "difference", "children": [
+       {"type": "box", "min": [-0.8,0,0.5], "max": [0.8,1.6,2]},
+       {"type": "cylinder", "base": [0,0.8,-1], "top": [0,0.8,3], "radius": 0.5}]}},
+    {"material": "mirror", "csg": {"type": "box", "min": [-5,0,4], "max": [5,4,4.2]}}]})";
+}
+
+Picture serial_picture(const std::string& text) {
+  const ReadResult read = read_scene_text(text);
+  REQUIRE(read.scene);
+  const Domain domain(compile_scene(*read.scene));
+  const ImageSize& image = domain.settings().image;
+  Film film(image.width, image.height, image.samples * image.samples);
+  render_serial(domain, {}, film);
+  return film.develop();
+}
+
+void check_same_picture(Farm& farm, const Outcome& outcome, std::uint32_t job,
+                        const Picture& expected) {
+  for (const std::string& v : outcome.violations) UNSCOPED_INFO(v);
+  CHECK(outcome.violations.empty());
+  if (outcome.failed && !outcome.failed->errors.empty()) {
+    UNSCOPED_INFO(outcome.failed->errors.front().where + ": " + outcome.failed->errors.front().why);
+  }
+  REQUIRE(outcome.done);
+  const Picture* picture = farm.store().picture(job);
+  REQUIRE(picture != nullptr);
+  CHECK(*picture == expected);
+}
+
+control::JobOptions with(Algorithm algorithm, Grain grain = Grain::kTile) {
+  control::JobOptions o;
+  o.algorithm = algorithm;
+  o.grain = grain;
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("macro gives the serial picture on 1 to 64 nodes, whatever the links' delays") {
+  const std::string text = scene_text(36, 24);
+  const Picture expected = serial_picture(text);
+  for (std::uint64_t seed = 1; seed <= 240; ++seed) {
+    FarmOptions options;
+    options.nodes = 1u << (seed % 7);
+    options.threads = static_cast<std::uint32_t>(1 + seed % 3);
+    options.seed = seed;
+    options.link_delay_s = seed % 2 == 0 ? 1e-3 : 1e-1;
+    INFO("seed " << seed << ", " << options.nodes << " nodes");
+    Farm farm(options);
+    check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), 1, expected);
+  }
+}
+
+TEST_CASE("roth gives the serial picture for every grain") {
+  const std::string text = scene_text(30, 20);
+  const Picture expected = serial_picture(text);
+  std::uint64_t seed = 1000;
+  for (const Grain grain : {Grain::kPixel, Grain::kLine, Grain::kTile}) {
+    for (const std::uint32_t nodes : {1u, 2u, 8u, 16u}) {
+      INFO("seed " << seed << ", " << nodes << " nodes");
+      Farm farm({.nodes = nodes, .threads = 2, .seed = seed++});
+      check_same_picture(farm, farm.render(text, with(Algorithm::kRoth, grain)), 1, expected);
+    }
+  }
+}
+
+TEST_CASE("a farm renders one job after another") {
+  Farm farm({.nodes = 8, .seed = 5});
+  std::uint32_t job = 0;
+  for (const unsigned width : {16u, 40u, 24u}) {
+    const std::string text = scene_text(width, 16);
+    const auto algorithm = width == 40 ? Algorithm::kRoth : Algorithm::kMacro;
+    check_same_picture(farm, farm.render(text, with(algorithm)), ++job, serial_picture(text));
+  }
+}
+
+TEST_CASE("a node's death fails the running job with its name, and the next job works") {
+  const std::string text = scene_text(36, 24);
+  const Picture expected = serial_picture(text);
+  std::set<std::string> messages;
+  int failed = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    INFO("seed " << seed);
+    Farm farm({.nodes = 8, .seed = seed});
+    const Rank victim{static_cast<std::uint32_t>(seed % 8)};
+    farm.kill_node_at(victim, 2e-3 * static_cast<double>(seed));
+    const Outcome outcome = farm.render(text, with(Algorithm::kMacro));
+    REQUIRE(outcome.ended);
+    if (outcome.failed) {
+      ++failed;
+      REQUIRE(outcome.failed->errors.size() == 1);
+      CHECK(outcome.failed->errors.front().where.find("node " + std::to_string(victim.value)) == 0);
+    }
+    check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), 2, expected);
+  }
+  CHECK(failed > 10);
+}
+
+TEST_CASE("a scene with mistakes fails with all of them") {
+  Farm farm({.nodes = 2, .seed = 9});
+  const Outcome outcome = farm.render(R"({"graycube": 1, "objects": 3})", with(Algorithm::kMacro));
+  REQUIRE(outcome.failed);
+  CHECK(outcome.failed->code == FailureCode::kBadInput);
+  CHECK(outcome.failed->errors.size() >= 3);
+}
