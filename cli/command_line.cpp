@@ -213,7 +213,7 @@ class Parser {
     auto& convert = declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
     add(*sub, "IN", "", ".json, .csg or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
-    add(*sub, "OUT", "", "From scenes .json (not from .json's own name) or .pov; from .exr .png",
+    add(*sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
         [&convert](const std::string& text) { convert.out = text; }, true);
   }
 
@@ -225,7 +225,7 @@ class Parser {
     if (extras.empty()) return usage_failure("", e.what());
     const std::string written = extras.front().substr(0, extras.front().find('='));
     if (!written.starts_with("-")) {
-      return usage_failure(sub->get_name(), "unexpected argument " + quoted(written));
+      return usage_failure(sub->get_name(), "unexpected argument " + graycube::quoted(written));
     }
     std::vector<std::string> names;
     for (const CLI::Option* o : sub->get_options()) {
@@ -233,7 +233,7 @@ class Parser {
     }
     const std::vector<std::string_view> candidates(names.begin(), names.end());
     return usage_failure(sub->get_name(),
-                         "unknown option " + quoted(written) + did_you_mean(written, candidates));
+                         "unknown option " + graycube::quoted(written) + did_you_mean(written, candidates));
   }
 
   CLI::App app_{"Graycube renders solid models by ray tracing, on a hypercube of processes.",
@@ -249,7 +249,7 @@ void check_command_name(int argc, const char* const* argv, Parser& parser) {
   const auto names = parser.command_names();
   if (std::find(names.begin(), names.end(), written) != names.end()) return;
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  throw usage_failure("", "unknown command " + quoted(written) + did_you_mean(written, candidates));
+  throw usage_failure("", "unknown command " + graycube::quoted(written) + did_you_mean(written, candidates));
 }
 
 /// Where client commands find the farm.

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -83,7 +84,8 @@ void remove_socket_folder(const std::string& endpoint) {
 
 }  // namespace
 
-FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments) {
+FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments)
+    : is_private_(std::find(arguments.begin(), arguments.end(), "--private") != arguments.end()) {
   const std::string program = frontal_program().string();
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start(std::strerror(errno));
@@ -170,15 +172,13 @@ void FrontalProcess::stop() noexcept {
   while (!has_ended() && std::chrono::steady_clock::now() < until) {
     std::this_thread::sleep_for(kPollInterval);
   }
-  const bool was_killed =
-      !has_ended_ || WIFSIGNALED(wait_status_);
-  if (!was_killed) return;
+  if (has_ended_ && !WIFSIGNALED(wait_status_)) return;
   // Its nodes are in its group; what it could not put away is put away here.
   ::kill(-pid_, SIGKILL);
   while (!has_ended_ && ::waitpid(pid_, &wait_status_, 0) == -1 && errno == EINTR) {
   }
   has_ended_ = true;
-  remove_socket_folder(endpoint_);
+  if (is_private_) remove_socket_folder(endpoint_);
 }
 
 }  // namespace graycube

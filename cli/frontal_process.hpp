@@ -43,7 +43,7 @@ class FrontalProcess {
 
   pid_t pid_ = -1;
   int output_ = -1;
-  bool has_ended_ = false, is_stop_requested_ = false;
+  bool has_ended_ = false, is_stop_requested_ = false, is_private_ = false;
   int wait_status_ = 0;
   std::string endpoint_;
 };

@@ -89,6 +89,8 @@ void catch_interrupts(const char* what, double timeout_s) {
 InterruptsHeld::InterruptsHeld() { holders.fetch_add(1); }
 InterruptsHeld::~InterruptsHeld() { holders.fetch_sub(1); }
 
+bool is_interrupted() { return noted.load() != 0; }
+
 void throw_if_interrupted() {
   if (const int signal = noted.load(); signal != 0) {
     throw Failure(ExitStatus::kFailed, Problem{command, "", reason(signal)});

@@ -18,6 +18,8 @@ class InterruptsHeld {
   InterruptsHeld& operator=(const InterruptsHeld&) = delete;
 };
 
+bool is_interrupted();
+
 /// Throws the Failure of an interrupt that was noted.
 void throw_if_interrupted();
 

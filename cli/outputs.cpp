@@ -23,22 +23,6 @@ std::array<NamedPath, 3> named(const Outputs& outputs) {
   return {{{"-o", &outputs.exr}, {"--png", &outputs.png}, {"--stats", &outputs.stats}}};
 }
 
-void check_folder(const char* option, const fs::path& file) {
-  const std::string where = std::string(option) + " " + file.string();
-  std::error_code error;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!file.has_filename() || fs::is_directory(file, error)) {
-    throw usage_failure(where, "expected a file name, found a folder");
-  }
-  if (!fs::is_directory(folder, error)) throw usage_failure(where, "the folder does not exist");
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
-    throw usage_failure(where, "exists and is not a regular file");
-  }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw usage_failure(where, "the folder can't be written to");
-  }
-}
-
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
@@ -57,15 +41,29 @@ void write(const char* option, const fs::path& path, const Write& write_it) {
 
 }  // namespace
 
+void check_output(const std::string& option, const fs::path& file, const fs::path& input) {
+  const std::string where = option + (option.empty() ? "" : " ") + file.string();
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!file.has_filename() || fs::is_directory(file, error)) {
+    throw usage_failure(where, "expected a file name, found a folder");
+  }
+  if (!fs::is_directory(folder, error)) throw usage_failure(where, "the folder does not exist");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw usage_failure(where, "exists and is not a regular file");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw usage_failure(where, "the folder can't be written to");
+  }
+  if (is_same_file(file, input)) throw usage_failure(where, "would replace the input");
+}
+
 void check_outputs(const Outputs& outputs, const fs::path& scene) {
   const auto files = named(outputs);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [option, path] = files[i];
     if (path->empty()) continue;
-    check_folder(option, *path);
-    if (is_same_file(*path, scene)) {
-      throw usage_failure(option, path->string() + " is the scene itself");
-    }
+    check_output(option, *path, scene);
     for (std::size_t j = 0; j < i; ++j) {
       if (!files[j].second->empty() && is_same_file(*files[j].second, *path)) {
         throw usage_failure(option, path->string() + " is also what " + files[j].first + " names");

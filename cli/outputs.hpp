@@ -14,8 +14,12 @@ struct Outputs {
   bool none() const { return exr.empty() && png.empty() && stats.empty(); }
 };
 
-/// Before a long render: throws a usage failure when a file can't be written where it should go, two are the
-/// same, or one is the scene itself.
+/// Throws a usage failure when a file can't be written where it should go, or is the input itself. `option`
+/// names it, and may be empty.
+void check_output(const std::string& option, const std::filesystem::path& file,
+                  const std::filesystem::path& input);
+
+/// The same for all files of a render, before it starts; also that no two are the same.
 void check_outputs(const Outputs& outputs, const std::filesystem::path& scene);
 
 /// SCENE's name without its ending, with ".exr", in the current folder.

@@ -129,9 +129,11 @@ void Node::on_finish(const control::Finish& m) {
   if (domain_) stats_.primitives = domain_->model().primitives.size();
   if (measure) measure(stats_);
   send_control(control::NodeReport{job_, epoch_, stats_});
+  // Late grants of credit are stale from here on.
   state_ = State::kNoJob;
   unbuilt_slice_.reset();
   domain_.reset();
+  plan_.reset();
   forget_rays();
 }
 

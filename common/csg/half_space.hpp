@@ -78,8 +78,8 @@ inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> f
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
-/// Bounds of the intersection of the half-spaces; infinite on sides where it is unbounded or its vertices
-/// lie farther out than 1e6 times the largest offset. Empty when the intersection is.
+/// Bounds of the intersection of the half-spaces. When it is unbounded, or a vertex lies farther out than some
+/// thousand times the largest offset, only faces across a world axis bound it.
 Aabb polyhedron_bounds(std::span<const Plane> faces);
 
 }  // namespace graycube::csg

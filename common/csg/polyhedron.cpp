@@ -32,16 +32,30 @@ Polygon clipped(const Polygon& polygon, const Plane& plane) {
   return r;
 }
 
-/// Beyond this multiple of the largest offset a vertex counts as infinitely far: bounds may always be too
-/// large, but clipping a larger square would lose the digits of the near vertices.
+/// Beyond half this multiple of the largest offset a vertex counts as infinitely far: bounds may always be
+/// too large, but clipping a larger square would lose the digits of the near vertices.
 constexpr double kReach = 1e4;
 /// Faces beyond this many make clipping every face by every other too slow; bounds stay infinite.
 constexpr std::size_t kMaxClippedFaces = 4096;
 
+/// What the faces across the world axes alone imply; infinite elsewhere.
+Aabb bounds_of_axis_faces(std::span<const Plane> faces) {
+  Aabb bounds;
+  for (const Plane& f : faces) {
+    for (int a = 0; a < 3; ++a) {
+      if (f.normal[(a + 1) % 3] != 0 || f.normal[(a + 2) % 3] != 0) continue;
+      if (f.normal[a] > 0) bounds.hi[a] = std::fmin(bounds.hi[a], f.offset);
+      if (f.normal[a] < 0) bounds.lo[a] = std::fmax(bounds.lo[a], -f.offset);
+    }
+  }
+  return bounds;
+}
+
 }  // namespace
 
 Aabb polyhedron_bounds(std::span<const Plane> faces) {
-  if (faces.size() > kMaxClippedFaces) return Aabb::everything();
+  const Aabb unclipped = bounds_of_axis_faces(faces);
+  if (faces.size() > kMaxClippedFaces) return unclipped;
   double scale = 0;
   for (const Plane& f : faces) scale = std::fmax(scale, std::fabs(f.offset));
   if (scale == 0) scale = 1;
@@ -58,14 +72,14 @@ Aabb polyhedron_bounds(std::span<const Plane> faces) {
         polygon = clipped(polygon, loose);
       }
     }
-    for (const Vec3& v : polygon) bounds.include(v);
+    for (const Vec3& v : polygon) {
+      // An unbounded solid may reach farther than its clipped faces in any direction, a half-space at once.
+      if (max_abs(v) > 0.5 * reach) return unclipped;
+      bounds.include(v);
+    }
   }
-  if (bounds.is_empty()) return bounds;
-  for (int a = 0; a < 3; ++a) {
-    bounds.lo[a] = bounds.lo[a] < -0.5 * reach ? -kInf : bounds.lo[a] - margin;
-    bounds.hi[a] = bounds.hi[a] > 0.5 * reach ? kInf : bounds.hi[a] + margin;
-  }
-  return bounds;
+  // No face within reach: the solid is empty, or all of it is farther away.
+  return bounds.is_empty() ? unclipped : bounds.grown(margin);
 }
 
 }  // namespace graycube::csg

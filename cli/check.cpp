@@ -1,0 +1,35 @@
+// graycube check: every error of a scene file, or what is in it.
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/scene_input.hpp"
+#include "scene/compile_scene.hpp"
+
+namespace graycube {
+namespace {
+
+std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural) {
+  return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+}  // namespace
+
+ExitStatus run(const CheckCommand& command) {
+  SceneInput input = read_scene_input(command.scene);
+  for (const Problem& warning : input.warnings) print(warning);
+  const std::size_t materials = input.scene.materials.size();
+  const Model model = compile_scene(input.scene);
+  const RenderSettings& s = model.settings;
+  std::string image = std::to_string(s.image.width) + " x " + std::to_string(s.image.height);
+  if (s.image.samples > 1) {
+    image += ", " + std::to_string(s.image.samples * s.image.samples) + " rays per pixel";
+  }
+  std::printf("%s: fine: %s, %s, %s, %s; picture %s\n", command.scene.c_str(),
+              counted(model.objects.size(), "object", "objects").c_str(),
+              counted(model.primitives.size(), "primitive", "primitives").c_str(),
+              counted(materials, "material", "materials").c_str(),
+              counted(s.lights.size(), "light", "lights").c_str(), image.c_str());
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

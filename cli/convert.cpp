@@ -1,0 +1,60 @@
+// graycube convert: one file into another, by the endings of their names.
+#include <filesystem>
+
+#include "cli/commands.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/scene_input.hpp"
+#include "film/picture_files.hpp"
+#include "scene/write_pov.hpp"
+#include "scene/write_scene.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+void convert_picture(const fs::path& in, const fs::path& out) {
+  Picture picture;
+  try {
+    picture = read_exr(in);
+  } catch (const PictureError& e) {
+    throw Failure(ExitStatus::kBadInput, Problem{"picture", "", e.what()});
+  }
+  const InterruptsHeld held;
+  write_pictures({{}, out, {}}, picture, "");
+}
+
+void convert_scene(const fs::path& in, const fs::path& out) {
+  const SceneInput input = read_scene_input(in);
+  for (const Problem& warning : input.warnings) print(warning);
+  std::string text;
+  if (out.extension() == ".pov") {
+    PovScene pov = write_pov(input.scene);
+    for (const std::string& warning : pov.warnings) print({"warning", out.string(), warning});
+    text = std::move(pov.text);
+  } else {
+    text = write_scene_text(input.scene);
+  }
+  const InterruptsHeld held;
+  write_text_file(out, text);
+}
+
+}  // namespace
+
+ExitStatus run(const ConvertCommand& command) {
+  catch_interrupts("convert", 0);
+  const fs::path in = command.in, out = command.out;
+  const auto from = in.extension(), to = out.extension();
+  const bool is_scene = from == ".json" || from == ".csg";
+  const bool is_known = (is_scene && (to == ".json" || to == ".pov")) ||
+                        (from == ".exr" && to == ".png");
+  if (!is_known) {
+    throw usage_failure("convert", "expected .json or .csg to .json or .pov, or .exr to .png; found " +
+                                       in.string() + " to " + out.string());
+  }
+  check_output("", out, in);
+  is_scene ? convert_scene(in, out) : convert_picture(in, out);
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

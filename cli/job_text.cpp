@@ -1,0 +1,81 @@
+#include "cli/job_text.hpp"
+
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "cli/progress.hpp"
+#include "cli/table.hpp"
+
+namespace graycube {
+namespace {
+
+std::string local_time(double unix_s) {
+  const auto seconds = static_cast<std::time_t>(unix_s);
+  std::tm parts{};
+  if (::localtime_r(&seconds, &parts) == nullptr) return "?";
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts);
+  return text.data();
+}
+
+std::string percent(double fraction) {
+  return std::to_string(static_cast<int>(std::floor(100 * fraction + 1e-9))) + " %";
+}
+
+std::string time_taken(const control::JobInfo& job) {
+  if (!job.started_s || !job.finished_s) return "-";
+  return duration_text(*job.finished_s - *job.started_s);
+}
+
+}  // namespace
+
+std::string jobs_text(const std::vector<control::JobInfo>& jobs) {
+  std::vector<std::vector<std::string>> rows{
+      {"JOB", "STATE", "DONE", "ALGORITHM", "ROUNDS", "SUBMITTED", "TOOK", "SCENE", "MESSAGE"}};
+  for (const control::JobInfo& job : jobs) {
+    rows.push_back({std::to_string(job.job), std::string(to_string(job.state)),
+                    percent(job.fraction), std::string(to_string(job.algorithm)),
+                    std::to_string(job.rounds), local_time(job.submitted_s), time_taken(job),
+                    job.scene, job.message});
+  }
+  return table_text(rows);
+}
+
+std::string job_text(const control::JobInfo& job) {
+  std::string text;
+  const auto line = [&](const char* name, const std::string& value) {
+    text += std::string(name) + ": " + value + "\n";
+  };
+  line("job", std::to_string(job.job));
+  line("scene", job.scene);
+  line("state", std::string(to_string(job.state)));
+  line("algorithm", std::string(to_string(job.algorithm)) + ", " + std::to_string(job.nodes) +
+                        (job.nodes == 1 ? " node" : " nodes"));
+  if (job.tiles > 0) {
+    line("tiles", std::to_string(job.tiles_whole) + " of " + std::to_string(job.tiles) +
+                      " whole (" + percent(job.fraction) + ")");
+  }
+  line("token rounds", std::to_string(job.rounds));
+  if (job.eta_s) line("ETA", duration_text(*job.eta_s));
+  line("submitted", local_time(job.submitted_s));
+  if (job.started_s) line("started", local_time(*job.started_s));
+  if (job.finished_s) line("finished", local_time(*job.finished_s));
+  if (job.started_s && job.finished_s) line("took", time_taken(job));
+  if (!job.message.empty()) line("message", job.message);
+  return text;
+}
+
+std::string nodes_text(const std::vector<control::NodeInfo>& nodes) {
+  std::vector<std::vector<std::string>> rows{
+      {"NODE", "GRAY", "PID", "STATE", "THREADS", "ENDPOINT"}};
+  for (const control::NodeInfo& node : nodes) {
+    rows.push_back({std::to_string(node.rank), std::to_string(node.gray),
+                    node.pid == 0 ? "-" : std::to_string(node.pid),
+                    std::string(to_string(node.state)), std::to_string(node.threads),
+                    node.endpoint.empty() ? "-" : node.endpoint});
+  }
+  return table_text(rows);
+}
+
+}  // namespace graycube

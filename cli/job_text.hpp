@@ -1,0 +1,20 @@
+// What clients print about jobs and nodes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+/// A table with a line for each job; times are local.
+std::string jobs_text(const std::vector<control::JobInfo>& jobs);
+
+/// A few lines, "name: value".
+std::string job_text(const control::JobInfo& job);
+
+/// A table with a line for each node.
+std::string nodes_text(const std::vector<control::NodeInfo>& nodes);
+
+}  // namespace graycube

@@ -1,0 +1,17 @@
+// graycube nodes: the processes of a farm.
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/farm_client.hpp"
+#include "cli/job_text.hpp"
+
+namespace graycube {
+
+ExitStatus run(const NodesCommand& command) {
+  FarmClient farm(command.connect);
+  const auto [list, payload] = farm.ask<control::NodeList>(control::Nodes{}, "nodes");
+  std::fputs(nodes_text(list.nodes).c_str(), stdout);
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

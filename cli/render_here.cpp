@@ -1,0 +1,100 @@
+#include "cli/render_here.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/cpu_time.hpp"
+#include "proto/statistics.hpp"
+#include "scene/compile_scene.hpp"
+#include "trace/render_serial.hpp"
+#include "version.hpp"
+
+namespace graycube {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::uint64_t peak_resident_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+control::Progress progress_at(double share, Clock::time_point started) {
+  control::Progress p;
+  p.state = JobState::kRendering;
+  p.fraction = share;
+  if (share > 0) p.eta_s = seconds_since(started) * (1 - share) / share;
+  return p;
+}
+
+std::uint64_t created(const RayCounts& rays, RayKind kind) {
+  return rays.created[static_cast<std::size_t>(kind)];
+}
+
+/// The only node of a serial render. What its threads did not spend tracing they spent waiting for the last.
+control::NodeStats node_stats(const SerialResult& r, double threads, double render_s) {
+  control::NodeStats n;
+  n.pid = static_cast<std::uint64_t>(::getpid());
+  n.cpu_s = own_cpu_seconds();
+  n.busy_s = r.busy_s;
+  n.idle_s = std::max(0.0, threads * render_s - r.busy_s);
+  n.peak_rss_bytes = peak_resident_bytes();
+  n.primary = created(r.rays, RayKind::kPrimary);
+  n.shadow = created(r.rays, RayKind::kShadow);
+  n.reflection = created(r.rays, RayKind::kReflection);
+  n.refraction = created(r.rays, RayKind::kRefraction);
+  n.skipped_by_horizon = r.rays.skipped_by_horizon;
+  n.non_finite = r.rounding.non_finite;
+  n.clamped = r.rounding.clamped;
+  return n;
+}
+
+}  // namespace
+
+Rendered render_here(SceneInput scene, const control::JobOptions& options, std::uint32_t threads,
+                     ProgressDisplay& display) {
+  Statistics s;
+  s.version = kVersion;
+  s.scene = scene.name;
+  s.algorithm = Algorithm::kSerial;
+  s.threads = threads;
+
+  const auto loading = Clock::now();
+  apply_overrides(options, scene.scene.settings);
+  Model model = compile_scene(scene.scene);
+  scene = {};
+  s.image = model.settings.image;
+  s.primitives = model.primitives.size();
+  s.objects = model.objects.size();
+  s.load_s = seconds_since(loading);
+
+  const auto building = Clock::now();
+  const Domain domain(std::move(model));
+  s.build_s = seconds_since(building);
+
+  const auto rendering = Clock::now();
+  Film film(s.image.width, s.image.height, s.image.samples * s.image.samples);
+  SerialOptions how;
+  how.threads = threads;
+  how.progress = [&](double share) {
+    display.show(progress_at(share, rendering));
+    return true;
+  };
+  const SerialResult result = render_serial(domain, how, film);
+  s.render_s = seconds_since(rendering);
+  s.per_node.push_back(node_stats(result, threads, s.render_s));
+  s.per_node.front().primitives = s.primitives;
+  display.clear();
+  return {film.develop(), statistics_json(s),
+          "serial, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads")};
+}
+
+}  // namespace graycube

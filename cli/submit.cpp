@@ -1,0 +1,58 @@
+// graycube submit: a scene for a running farm.
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/job_client.hpp"
+
+namespace graycube {
+namespace {
+
+void check_sense(const SubmitCommand& command) {
+  if (command.options.algorithm == Algorithm::kSerial) {
+    throw usage_failure("--algorithm serial", "needs no farm; use 'graycube render'");
+  }
+  if (!command.waits && !command.outputs.none()) {
+    throw usage_failure("submit", "without --wait there is nothing to write yet; get the picture "
+                                  "with 'graycube fetch JOB -o OUT.exr'");
+  }
+  check_outputs(command.outputs, command.scene);
+}
+
+void check_farm_size(FarmClient& farm, std::uint32_t expected) {
+  const auto nodes = farm.ask<control::NodeList>(control::Nodes{}, "farm").first.nodes.size();
+  if (nodes == expected) return;
+  throw usage_failure("-n " + std::to_string(expected),
+                      "the farm has " + std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"));
+}
+
+}  // namespace
+
+ExitStatus run(const SubmitCommand& command) {
+  catch_interrupts("submit", 0);
+  check_sense(command);
+  SceneInput scene = read_scene_input(command.scene, command.options);
+  for (const Problem& warning : scene.warnings) print(warning);
+  RenderSettings settings = scene.scene.settings;
+  apply_overrides(command.options, settings);
+  check_farm_limits(scene, settings);
+  FarmClient farm(command.connect);
+  if (command.nodes != 0) check_farm_size(farm, command.nodes);
+  const std::uint32_t job = submit_scene(farm, scene, command.options);
+  std::printf("%u\n", job);
+  std::fflush(stdout);
+  if (!command.waits) return ExitStatus::kDone;
+  ProgressDisplay display(stderr, command.is_quiet);
+  const std::string stats = follow_job(farm, job, display);
+  display.clear();
+  Picture picture;
+  if (!command.outputs.exr.empty() || !command.outputs.png.empty()) {
+    picture = fetch_picture(farm, job);
+  }
+  const InterruptsHeld held;
+  if (picture.height > 0) write_pictures(command.outputs, picture, scene.name);
+  write_stats(command.outputs, stats);
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

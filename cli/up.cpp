@@ -1,0 +1,99 @@
+// graycube up: a farm in the foreground.
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/farm_client.hpp"
+#include "cli/frontal_process.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/listener.hpp"
+#include "transport/endpoint.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kWatchInterval{500};
+
+/// The default endpoint's folder: the user's alone.
+void make_private_folder(const std::string& endpoint) {
+  const fs::path folder = fs::path(endpoint.substr(std::string("ipc://").size())).parent_path();
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    throw Failure(ExitStatus::kFailed, Problem{"farm", folder.string(), std::strerror(errno)});
+  }
+  struct stat status {};
+  if (::lstat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
+      status.st_uid != ::geteuid() || (status.st_mode & 0077) != 0) {
+    throw Failure(ExitStatus::kFailed,
+                  Problem{"farm", folder.string(),
+                          "expected a folder of this user that nobody else may enter"});
+  }
+}
+
+void refuse_second_farm(const std::string& endpoint) {
+  remove_stale_socket(endpoint);
+  if (!find_listener(endpoint).is_there) return;
+  FarmClient farm(endpoint);
+  farm.send(control::Nodes{});
+  const auto answer = farm.receive(kFirstAnswer);
+  throw Failure(ExitStatus::kFailed,
+                Problem{"farm", endpoint,
+                        answer ? "a farm is running there already; stop it with 'graycube down'"
+                               : "something listens there already, and it is no farm"});
+}
+
+std::vector<std::string> frontal_arguments(const UpCommand& command, const std::string& endpoint) {
+  std::vector<std::string> arguments{"--nodes",   std::to_string(command.nodes),
+                                     "--threads", std::to_string(command.threads),
+                                     "--listen",  endpoint};
+  if (!command.state.empty()) {
+    arguments.insert(arguments.end(), {"--state", command.state});
+  }
+  return arguments;
+}
+
+void print_usage_hint(const UpCommand& command, const std::string& endpoint, bool is_default) {
+  const std::string option = is_default ? "" : " --connect " + endpoint;
+  std::printf("farm of %u %s at %s; elsewhere: graycube submit SCENE%s; Ctrl-C or 'graycube down%s' "
+              "stops it\n",
+              command.nodes, command.nodes == 1 ? "node" : "nodes", endpoint.c_str(),
+              option.c_str(), option.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+ExitStatus run(const UpCommand& command) {
+  const bool is_default = command.listen.empty();
+  const std::string endpoint = is_default ? default_endpoint() : command.listen;
+  if (const auto problem = endpoint_problem(endpoint)) {
+    throw usage_failure("--listen " + endpoint, *problem);
+  }
+  catch_interrupts("up", 0);
+  if (is_default) make_private_folder(endpoint);
+  refuse_second_farm(endpoint);
+  const InterruptsHeld held;
+  FrontalProcess frontal(frontal_arguments(command, endpoint));
+  print_usage_hint(command, frontal.wait_until_listening(), is_default);
+  while (!frontal.has_ended()) {
+    if (is_interrupted()) {
+      frontal.stop();
+      return ExitStatus::kDone;
+    }
+    pollfd wait{wakeup_descriptor(), POLLIN, 0};
+    ::poll(&wait, 1, static_cast<int>(kWatchInterval.count()));
+    clear_wakeup();
+  }
+  if (frontal.exit_status() != 0) frontal.check_running();
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

@@ -1,0 +1,24 @@
+// graycube watch: a job's progress, the token's rounds included, until it ends.
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/job_client.hpp"
+
+namespace graycube {
+
+ExitStatus run(const WatchCommand& command) {
+  catch_interrupts("watch", 0);
+  FarmClient farm(command.connect);
+  job_info(farm, command.job);  // is there a farm, and such a job?
+  {
+    ProgressDisplay display(stdout, false);
+    follow_job(farm, command.job, display);
+  }
+  const control::JobInfo info = job_info(farm, command.job);
+  std::printf("%s: %s, %s\n", std::string(to_string(info.state)).c_str(), info.scene.c_str(),
+              summary_text(info).c_str());
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube
