@@ -10,9 +10,10 @@
 namespace graycube {
 namespace {
 
-/// White rounds with the same non-zero sum that are taken for a loss: a batch may sit in a buffer of the
-/// operating system while the token goes round several times.
-constexpr std::uint32_t kRoundsUntilLossHere = 16;
+/// White rounds with the same non-zero sum that are taken for a loss. A batch may be slow while the token
+/// goes round quickly, so after kFreeRounds of them each further round waits for the frontal's next ping.
+constexpr std::uint32_t kRoundsUntilLossHere = 32;
+constexpr std::uint32_t kFreeRounds = 1;
 /// A batch this small still goes out at once when its link is empty.
 constexpr std::size_t kLeastEagerRays = 32;
 
@@ -59,7 +60,8 @@ void Node::on_control(const Message& message) {
   if (const auto* start = std::get_if<control::Start>(&m)) return on_start(*start);
   if (const auto* finish = std::get_if<control::Finish>(&m)) return on_finish(*finish);
   if (const auto* ping = std::get_if<control::Ping>(&m)) {
-    return send_control(control::Pong{ping->sequence});
+    send_control(control::Pong{ping->sequence});
+    return pass_token(true);
   }
   if (std::holds_alternative<control::Shutdown>(m)) {
     send_control(control::Goodbye{});
@@ -444,8 +446,9 @@ bool Node::is_passive() const {
          std::all_of(links_.begin(), links_.end(), [](const Link& l) { return l.outbox.empty(); });
 }
 
-void Node::pass_token() {
+void Node::pass_token(bool is_pinged) {
   if (load_.algorithm != Algorithm::kMacro || state_ != State::kRendering) return;
+  if (ring_.stalled_rounds() > kFreeRounds && !is_pinged) return;
   const bool had_verdict = ring_.verdict().has_value();
   while (const auto token = ring_.try_pass(is_passive())) {
     const Rank next = cube_->ring_next(id_.rank);

@@ -106,7 +106,7 @@ class Node {
   void flush_contributions();
   void grant_credit(Link& link);
   void flush_on_idle();
-  void pass_token();
+  void pass_token(bool is_pinged = false);
   bool is_passive() const;
   void forget_rays();
 

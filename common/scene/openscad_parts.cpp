@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -42,13 +44,12 @@ CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   return {OperationNode{kind, std::move(children)}, std::nullopt, kInheritMaterial};
 }
 
-/// As a rule `parts` is still empty, and passing many parts up many levels then costs nothing.
-void append(std::vector<Part> more, std::vector<Part>& parts) {
-  if (parts.empty()) {
-    parts = std::move(more);
-    return;
-  }
-  for (Part& part : more) parts.push_back(std::move(part));
+/// Takes the parts from number `from` on away.
+std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
+  const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(from);
+  std::vector<Part> taken(std::make_move_iterator(begin), std::make_move_iterator(parts.end()));
+  parts.erase(begin, parts.end());
+  return taken;
 }
 
 const char* why_unsupported(const std::string& name) {
@@ -123,45 +124,47 @@ class Importer {
     add_all(module.children, inner, parts);
   }
 
-  /// One operand per child that takes part; those of nothing are empty.
-  std::vector<std::vector<Part>> operands(const ScadModule& module, const Surroundings& around) {
-    std::vector<std::vector<Part>> result;
-    for (const ScadModule& child : module.children) {
-      if (child.left_out) continue;
-      add(child, around, result.emplace_back());
-    }
-    return result;
-  }
-
+  /// Operands are gathered at the end of `parts`, where those of a difference that takes nothing
+  /// off are already in place: dissolving it costs nothing, however deep such operations nest.
   void add_difference(const ScadModule& module, const Surroundings& around,
                       std::vector<Part>& parts) {
-    std::vector<std::vector<Part>> all = operands(module, around);
-    if (all.empty() || all.front().empty()) return;
-    std::vector<Part> used;
-    for (std::size_t i = 1; i < all.size(); ++i) {
-      for (Part& part : all[i]) used.push_back(std::move(part));
+    const std::size_t first = parts.size();
+    std::size_t rest = first;
+    bool is_first = true;
+    for (const ScadModule& child : module.children) {
+      if (child.left_out) continue;
+      add(child, around, parts);
+      if (std::exchange(is_first, false)) rest = parts.size();
     }
-    if (used.empty()) {
-      append(std::move(all.front()), parts);
-      return;
-    }
-    const Reach reach = reach_of(all.front());
-    used.insert(used.begin(), united(std::move(all.front())));
+    if (rest == first) taken_from(parts, first);
+    if (rest == parts.size()) return;
+    std::vector<Part> used = taken_from(parts, rest);
+    used.insert(used.begin(), united(taken_from(parts, first)));
+    const Reach reach = used.front().reach;
     add_operation(Operation::kDifference, module, std::move(used), reach, parts);
   }
 
   void add_intersection(const ScadModule& module, const Surroundings& around,
                         std::vector<Part>& parts) {
-    std::vector<std::vector<Part>> all = operands(module, around);
-    if (all.empty() ||
-        std::any_of(all.begin(), all.end(), [](const auto& some) { return some.empty(); }))
-      return;
-    if (all.size() == 1) {
-      append(std::move(all.front()), parts);
+    const auto takes_part = [](const ScadModule& child) { return !child.left_out; };
+    const auto count = std::count_if(module.children.begin(), module.children.end(), takes_part);
+    if (count == 1) {
+      add_all(module.children, around, parts);
       return;
     }
     std::vector<Part> used;
-    for (std::vector<Part>& some : all) used.push_back(united(std::move(some)));
+    bool has_empty = count == 0;
+    for (const ScadModule& child : module.children) {
+      if (child.left_out) continue;
+      const std::size_t first = parts.size();
+      add(child, around, parts);
+      if (parts.size() == first) {
+        has_empty = true;
+      } else {
+        used.push_back(united(taken_from(parts, first)));
+      }
+    }
+    if (has_empty) return;
     Reach reach = used.front().reach;
     for (const Part& part : used) reach = intersection_of(reach, part.reach);
     if (reach.box().is_empty()) {
