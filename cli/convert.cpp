@@ -18,7 +18,7 @@ void convert_picture(const fs::path& in, const fs::path& out) {
   try {
     picture = read_exr(in);
   } catch (const PictureError& e) {
-    throw Failure(ExitStatus::kBadInput, Problem{"picture", "", e.what()});
+    throw Failure(ExitStatus::kBadInput, Problem{"picture", in.string(), e.what()});
   }
   const InterruptsHeld held;
   write_pictures({{}, out, {}}, picture, "");

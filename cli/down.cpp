@@ -36,6 +36,7 @@ ExitStatus run(const DownCommand& command) {
     }
     std::this_thread::sleep_for(kPollInterval);
   }
+  remove_stale_socket(command.connect);
   std::printf("the farm at %s has stopped\n", command.connect.c_str());
   return ExitStatus::kDone;
 }

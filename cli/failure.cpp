@@ -5,6 +5,7 @@
 namespace graycube {
 
 Failure usage_failure(std::string where, std::string why) {
+  if (where.empty()) where = "command line";
   return {ExitStatus::kBadInput, Problem{"usage", std::move(where), std::move(why)}};
 }
 

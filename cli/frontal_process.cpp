@@ -56,7 +56,7 @@ class SpawnPlan {
     sigset_t signals;
     ::sigemptyset(&signals);
     ::posix_spawnattr_setsigmask(&attributes_, &signals);
-    for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::sigaddset(&signals, s);
+    for (const int s : {SIGINT, SIGTERM, SIGPIPE}) ::sigaddset(&signals, s);
     ::posix_spawnattr_setsigdefault(&attributes_, &signals);
   }
   ~SpawnPlan() {

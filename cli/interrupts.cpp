@@ -27,11 +27,11 @@ static_assert(std::atomic<int>::is_always_lock_free);
 
 const char* reason(int signal) {
   switch (signal) {
-    case SIGINT: return "interrupted";
-    case SIGTERM: return "ended by SIGTERM";
-    case SIGHUP: return "the terminal has gone";
+    case SIGINT: return "SIGINT: interrupted";
+    case SIGTERM: return "SIGTERM: told to stop";
+    case SIGHUP: return "SIGHUP: the terminal has gone";
     case SIGALRM: return "--timeout: it did not end in time";
-    default: return "ended by a signal";
+    default: return "signal: told to stop";
   }
 }
 
@@ -80,6 +80,10 @@ void catch_interrupts(const char* what, double timeout_s) {
   action.sa_flags = SA_RESTART;
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM, SIGCHLD}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    // nohup's wish.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }
   ::signal(SIGPIPE, SIG_IGN);

@@ -1,4 +1,5 @@
 // graycube jobs: the newest jobs of a farm, oldest first.
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/commands.hpp"
@@ -9,8 +10,9 @@ namespace graycube {
 
 ExitStatus run(const JobsCommand& command) {
   FarmClient farm(command.connect);
-  const auto [jobs, payload] = farm.ask<control::Jobs>(control::List{}, "jobs");
-  std::fputs(jobs_text(jobs.jobs).c_str(), stdout);
+  auto jobs = farm.ask<control::Jobs>(control::List{}, "jobs").first.jobs;
+  std::sort(jobs.begin(), jobs.end(), [](const auto& a, const auto& b) { return a.job < b.job; });
+  std::fputs(jobs_text(jobs).c_str(), stdout);
   return ExitStatus::kDone;
 }
 

@@ -35,9 +35,9 @@ int guarded_main(int argc, char** argv) {
     for (const Problem& problem : failure.problems()) print(problem);
     status = failure.status();
   } catch (const std::bad_alloc&) {
-    print({"memory", "", "there is not enough"});
+    print({"memory", "this process", "there is not enough"});
   } catch (const std::exception& e) {
-    print({"internal error", "", e.what()});
+    print({"internal error", "this process", e.what()});
   }
   return static_cast<int>(status);
 }

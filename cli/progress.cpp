@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds kRedrawInterval{50};
 constexpr std::chrono::seconds kLineInterval{1};
 constexpr std::size_t kDefaultColumns = 80;
-constexpr std::size_t kMinBar = 5, kMaxBar = 40;
+constexpr std::size_t kMinBar = 5, kMaxBar = 30;
 
 std::string percent(double fraction) {
   // Rounded down: 100 % is only what is complete.
@@ -27,7 +27,7 @@ bool is_rendering(const control::Progress& p) { return p.state == JobState::kRen
 /// What follows the percentage.
 std::string details(const control::Progress& p) {
   std::string text;
-  if (p.eta_s) text += ", ETA " + duration_text(*p.eta_s);
+  if (p.eta_s && p.fraction < 1) text += ", ETA " + duration_text(*p.eta_s);
   if (p.tiles > 0) {
     text += ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) +
             " tiles whole";
@@ -49,6 +49,10 @@ std::size_t terminal_columns(std::FILE* stream) {
 std::string duration_text(double seconds) {
   const double s = std::max(0.0, seconds);
   if (s < 0.9995) return std::to_string(static_cast<int>(std::round(1000 * s))) + " ms";
+  if (s < 9.95) {
+    const auto tenths = static_cast<int>(std::round(10 * s));
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
+  }
   const auto whole = static_cast<long long>(std::min(std::round(s), 1e15));
   if (whole < 60) return std::to_string(whole) + " s";
   if (whole < 3600) {
@@ -67,11 +71,13 @@ std::string progress_bar(const control::Progress& p, std::size_t columns) {
   const double fraction = is_rendering(p) ? std::clamp(p.fraction, 0.0, 1.0) : 0.0;
   const std::string tail =
       is_rendering(p) ? percent(fraction) + details(p) : std::string(to_string(p.state));
-  const std::size_t taken = tail.size() + 3;  // the bar's ends and a space
-  if (columns < taken + kMinBar + 1) return tail.substr(0, columns == 0 ? 0 : columns - 1);
-  const std::size_t length = std::min(kMaxBar, columns - 1 - taken);
+  // Of fixed length, lest it jump about as the text behind it grows.
+  const std::size_t length = std::clamp(columns / 4, kMinBar, kMaxBar);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(length));
-  return "[" + std::string(filled, '#') + std::string(length - filled, '-') + "] " + tail;
+  std::string line = "[" + std::string(filled, '#') + std::string(length - filled, '-') + "] " + tail;
+  // A full line would wrap, and could not be redrawn.
+  line.resize(std::min(line.size(), columns == 0 ? 0 : columns - 1));
+  return line;
 }
 
 ProgressDisplay::ProgressDisplay(std::FILE* stream, bool is_quiet)

@@ -16,7 +16,7 @@ std::string progress_text(const control::Progress& progress);
 /// The same behind a bar, for a terminal of so many columns.
 std::string progress_bar(const control::Progress& progress, std::size_t columns);
 
-/// "850 ms", "12 s", "3 min 20 s", "2 h 5 min".
+/// "850 ms", "3.4 s", "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
 class ProgressDisplay {

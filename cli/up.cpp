@@ -23,9 +23,13 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kWatchInterval{500};
 
+fs::path folder_of(const std::string& ipc_endpoint) {
+  return fs::path(ipc_endpoint.substr(std::string("ipc://").size())).parent_path();
+}
+
 /// The default endpoint's folder: the user's alone.
 void make_private_folder(const std::string& endpoint) {
-  const fs::path folder = fs::path(endpoint.substr(std::string("ipc://").size())).parent_path();
+  const fs::path folder = folder_of(endpoint);
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
     throw Failure(ExitStatus::kFailed, Problem{"farm", folder.string(), std::strerror(errno)});
   }
@@ -37,6 +41,28 @@ void make_private_folder(const std::string& endpoint) {
                           "expected a folder of this user that nobody else may enter"});
   }
 }
+
+/// What a farm leaves at its endpoint, once it has ended: nothing.
+class EndpointCleanup {
+ public:
+  EndpointCleanup(const std::string& endpoint, bool is_default)
+      : endpoint_(endpoint), is_default_(is_default) {}
+  ~EndpointCleanup() {
+    try {
+      remove_stale_socket(endpoint_);
+      std::error_code ignored;  // not empty, perhaps
+      if (is_default_) fs::remove(folder_of(endpoint_), ignored);
+    } catch (const Failure&) {
+      // The path is somebody else's by now.
+    }
+  }
+  EndpointCleanup(const EndpointCleanup&) = delete;
+  EndpointCleanup& operator=(const EndpointCleanup&) = delete;
+
+ private:
+  const std::string& endpoint_;
+  bool is_default_;
+};
 
 void refuse_second_farm(const std::string& endpoint) {
   remove_stale_socket(endpoint);
@@ -81,6 +107,7 @@ ExitStatus run(const UpCommand& command) {
   if (is_default) make_private_folder(endpoint);
   refuse_second_farm(endpoint);
   const InterruptsHeld held;
+  const EndpointCleanup cleanup(endpoint, is_default);
   FrontalProcess frontal(frontal_arguments(command, endpoint));
   print_usage_hint(command, frontal.wait_until_listening(), is_default);
   while (!frontal.has_ended()) {

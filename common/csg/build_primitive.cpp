@@ -51,12 +51,13 @@ Vec3 disc_extent(const Affine& to_world) {
 
 Aabb around(const Vec3& center, const Vec3& extent) { return {center - extent, center + extent}; }
 
-/// Caps at local z = 0 and z = 1 as planes of the world.
-void set_caps(Primitive& p, const Affine& to_world) {
+/// Caps at local z = 0 and z = 1 as planes of the world, through the ends as the scene gives them: base +
+/// (top − base) may miss top by a bit, and a cap flush with another face would not be.
+void set_caps(Primitive& p, const Vec3& world_base, const Vec3& world_top) {
   const Vec3 normal = normalized(p.to_local.row(2));
   for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = normal[i] + 0.0;
-  p.v[3] = dot(normal, to_world.point({0, 0, 0}));
-  p.v[4] = dot(normal, to_world.point({0, 0, 1}));
+  p.v[3] = dot(normal, world_base);
+  p.v[4] = dot(normal, world_top);
 }
 
 /// The plane's image: normals go by the inverse transposed.
@@ -140,7 +141,7 @@ Primitive build_cylinder(const Affine& to_world, const Vec3& base, const Vec3& t
   Primitive p;
   p.kind = PrimitiveKind::kCylinder;
   p.to_local = inverse_of(map);
-  set_caps(p, map);
+  set_caps(p, to_world.point(base), to_world.point(top));
   const Vec3 extent = disc_extent(map);
   p.bounds = union_of(around(map.point({0, 0, 0}), extent), around(map.point({0, 0, 1}), extent));
   return p;
@@ -157,7 +158,7 @@ Primitive build_cone(const Affine& to_world, const Vec3& base, double base_radiu
   Primitive p;
   p.kind = PrimitiveKind::kCone;
   p.to_local = inverse_of(map);
-  set_caps(p, map);
+  set_caps(p, to_world.point(base), to_world.point(top));
   p.v[5] = top_share - 1;
   const Vec3 extent = disc_extent(map);
   p.bounds = union_of(around(map.point({0, 0, 0}), extent),

@@ -30,12 +30,21 @@ Interval cone_interval(double k, const Vec3& o, const Vec3& d) {
   } else {
     // The roots without cancellation; a may be anything down to zero.
     const double s = b >= 0 ? -(b + std::sqrt(discriminant)) : -b + std::sqrt(discriminant);
-    if (s == 0) return c <= 0 ? positive_nappe(w, wd) : Interval{kInf, -kInf};
     const double r0 = s / a;
     const double r1 = c / s;
     const double lower = std::fmin(r0, r1);
     const double upper = std::fmax(r0, r1);
-    if (a > 0) {
+    if (s == 0) {
+      // b = 0 and ac = 0: a tangent touches the cone at the nearest point, a line that lies in it or passes
+      // through the apex stays in it on one nappe.
+      if (a > 0) {
+        i = {0, 0};
+      } else if (c <= 0) {
+        i = positive_nappe(w, wd);
+      } else {
+        return {kInf, -kInf};
+      }
+    } else if (a > 0) {
       i = {lower, upper};
     } else if (a < 0) {
       i = wd > 0 ? Interval{upper, kInf} : Interval{-kInf, lower};

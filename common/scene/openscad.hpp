@@ -17,8 +17,8 @@ namespace graycube {
 /// Limits of one file. What goes past them is an error naming the line, before memory is taken.
 inline constexpr std::size_t kMaxOpenscadBytes = std::size_t{64} << 20;
 inline constexpr std::size_t kMaxOpenscadModules = std::size_t{1} << 20;
-/// Numbers, strings and lists among the arguments, in the whole file.
-inline constexpr std::size_t kMaxOpenscadValues = std::size_t{1} << 22;
+/// Numbers, strings and lists among the arguments, in the whole file: 40 bytes each.
+inline constexpr std::size_t kMaxOpenscadValues = std::size_t{1} << 23;
 /// Modules inside modules, and lists inside lists.
 inline constexpr int kMaxOpenscadNesting = 512;
 inline constexpr int kMaxOpenscadListNesting = 16;

@@ -29,7 +29,6 @@ class RandomRays {
   /// Number `kind` < kRayCases.
   RayCase make(std::size_t kind) {
     RayCase c = of_kind(kind);
-    // Directions are unit; −0 among the components must not matter.
     c.ray.direction = normalized(c.ray.direction);
     if (dice_.one_in(6)) c.t0 = dice_.between(-3, 3);
     if (dice_.one_in(6)) c.t1 = c.t0 + dice_.between(0, 8);
@@ -130,9 +129,10 @@ class RandomRays {
     return {0, 0, 0};
   }
 
-  /// As far as a ray may start from in a scene of this size, see `kFarthestOrigin`.
+  /// Up to 10^5 times the scene's size. Beyond 10^7 times it a point on a ray is rounded by as much as cells
+  /// are grown, and the walk promises nothing.
   Ray from_afar() {
-    const double distance = std::pow(10, dice_.between(1, 4));
+    const double distance = std::pow(10, dice_.between(1, 6));
     return between(distance * dice_.unit_vector(), dice_.point(2));
   }
 

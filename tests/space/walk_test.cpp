@@ -1,8 +1,11 @@
 // The walk through the leaf regions against the whole trees: bit for bit.
 #include "space/walk.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "csg/random_model.hpp"
@@ -121,9 +124,11 @@ std::size_t compare_scene(std::uint64_t seed, const RandomOptions& options, int 
 }  // namespace
 
 TEST_CASE("the walk gives bit for bit the crossings of the whole trees") {
+  constexpr std::uint64_t kSeeds = 1000;
+  constexpr int kRays = 180;
   std::size_t crossing = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) crossing += compare_scene(seed, {}, 180);
-  CHECK(crossing > 400 * 180 / 3);
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) crossing += compare_scene(seed, {}, kRays);
+  CHECK(crossing > kSeeds * kRays / 3);
 }
 
 TEST_CASE("the walk gives bit for bit the crossings of many bounded objects") {

@@ -1,0 +1,131 @@
+#include "cli/command_line.hpp"
+
+#include <cstdlib>
+#include <vector>
+
+#include "cli/expect_failure.hpp"
+
+namespace graycube {
+namespace {
+
+Command parsed(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "graycube");
+  return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+std::string refused(const std::vector<const char*>& arguments) {
+  return refusal([&] { parsed(arguments); });
+}
+
+TEST_CASE("every option of render arrives") {
+  const auto c = std::get<RenderCommand>(
+      parsed({"render", "a.json", "-o", "b.exr", "--png", "c.png", "--stats", "d.json", "-n", "16",
+              "--threads", "3", "--algorithm", "macro", "--grain", "line", "--shadows", "forward",
+              "--partition", "regular", "--scatter", "1", "--flow", "credit", "--size", "64x32",
+              "--samples", "2", "--max-depth", "7", "--timeout", "2.5", "--quiet"}));
+  CHECK(c.scene == "a.json");
+  CHECK(c.outputs.exr == "b.exr");
+  CHECK(c.outputs.png == "c.png");
+  CHECK(c.outputs.stats == "d.json");
+  CHECK(c.nodes == 16);
+  CHECK(c.threads == 3);
+  CHECK(c.is_quiet);
+  CHECK(c.options.algorithm == Algorithm::kMacro);
+  CHECK(c.options.grain == Grain::kLine);
+  CHECK(c.options.shadows == ShadowMode::kForward);
+  CHECK(c.options.width == 64u);
+  CHECK(c.options.height == 32u);
+  CHECK(c.options.samples == 2u);
+  CHECK(c.options.max_depth == 7u);
+  CHECK(c.options.timeout_s == 2.5);
+}
+
+TEST_CASE("what render is not told stays the scene's, or the default") {
+  const auto c = std::get<RenderCommand>(parsed({"render", "a.json"}));
+  CHECK(c.outputs.none());
+  CHECK(c.threads == 1);
+  CHECK_FALSE(c.is_quiet);
+  control::JobOptions expected;
+  expected.shadows = ShadowMode::kForward;
+  CHECK(c.options == expected);
+}
+
+TEST_CASE("submit asks for the farm's own threads unless told otherwise") {
+  const auto c = std::get<SubmitCommand>(parsed({"submit", "a.json"}));
+  CHECK(c.options.threads == 0);
+  CHECK(c.nodes == 0);
+  CHECK_FALSE(c.waits);
+  const auto d = std::get<SubmitCommand>(parsed({"submit", "a.json", "--threads", "2", "--wait"}));
+  CHECK(d.options.threads == 2);
+  CHECK(d.waits);
+}
+
+TEST_CASE("clients look for the farm where they are told, then in the environment") {
+  ::setenv("GRAYCUBE_FRONTAL", "tcp://127.0.0.1:7000", 1);
+  CHECK(std::get<JobsCommand>(parsed({"jobs"})).connect == "tcp://127.0.0.1:7000");
+  CHECK(std::get<JobsCommand>(parsed({"jobs", "--connect", "ipc:///run/x"})).connect ==
+        "ipc:///run/x");
+  ::unsetenv("GRAYCUBE_FRONTAL");
+  ::setenv("XDG_RUNTIME_DIR", "/run/user/7", 1);
+  CHECK(std::get<NodesCommand>(parsed({"nodes"})).connect == "ipc:///run/user/7/graycube/frontal");
+  CHECK(refused({"down", "--connect", "tcp://192.0.2.1:7000"})
+            .starts_with("graycube: usage: --connect tcp://192.0.2.1:7000: only loopback"));
+}
+
+TEST_CASE("jobs are named by their numbers") {
+  CHECK(std::get<StatusCommand>(parsed({"status", "3", "--json"})).as_json);
+  CHECK(std::get<WatchCommand>(parsed({"watch", "4"})).job == 4);
+  CHECK(std::get<CancelCommand>(parsed({"cancel", "5"})).job == 5);
+  CHECK(std::get<FetchCommand>(parsed({"fetch", "6", "-o", "x.exr"})).job == 6);
+  CHECK(refused({"watch", "first"}).starts_with("graycube: usage: JOB: expected a whole number"));
+  CHECK(refused({"watch", "0"}).starts_with("graycube: usage: JOB: expected a whole number"));
+  CHECK(refused({"fetch", "6"}).starts_with("graycube: usage: "));
+}
+
+TEST_CASE("a mistyped command or option is guessed") {
+  CHECK(refused({"rendr", "a.json"}) ==
+        "graycube: usage: command line: unknown command \"rendr\"; did you mean \"render\"?");
+  CHECK(refused({"render", "a.json", "--algoritm", "serial"}) ==
+        "graycube: usage: render: unknown option \"--algoritm\"; did you mean \"--algorithm\"?");
+  CHECK(refused({"jobs", "--conect=ipc:///x"}) ==
+        "graycube: usage: jobs: unknown option \"--conect\"; did you mean \"--connect\"?");
+}
+
+TEST_CASE("a command line that means nothing is refused in one line") {
+  for (const auto& arguments : std::vector<std::vector<const char*>>{
+           {},
+           {"render"},
+           {"render", "a.json", "b.json"},
+           {"render", "a.json", "-n"},
+           {"render", "a.json", "-n", "4", "-n", "8"},
+           {"render", "a.json", "-n", "3"},
+           {"render", "a.json", "--threads", "0"},
+           {"render", "a.json", "--threads", "1025"},
+           {"render", "a.json", "--wait"},
+           {"up", "a.json"},
+           {"up", "--http", "localhost:80"},
+           {"convert", "a.json"},
+           {"--frobnicate"}}) {
+    const std::string line = refused(arguments);
+    CHECK(line.starts_with("graycube: usage: "));
+    CHECK(line.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("help names every command, and a command's help its options") {
+  const auto all = std::get<PrintCommand>(parsed({"--help"})).text;
+  for (const char* name : {"render", "up", "submit", "jobs", "status", "watch", "cancel", "fetch",
+                           "nodes", "down", "check", "compare", "convert"}) {
+    CHECK(all.find(name) != std::string::npos);
+  }
+  const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
+  for (const char* option : {"--png", "--nodes", "--threads", "--algorithm", "--grain", "--shadows",
+                             "--partition", "--scatter", "--flow", "--size", "--samples",
+                             "--max-depth", "--stats", "--timeout", "--quiet"}) {
+    CHECK(render.find(option) != std::string::npos);
+  }
+  CHECK(std::get<PrintCommand>(parsed({"--version"})).text.starts_with("graycube "));
+}
+
+}  // namespace
+}  // namespace graycube

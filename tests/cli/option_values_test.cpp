@@ -1,0 +1,92 @@
+#include "cli/option_values.hpp"
+
+#include <bit>
+#include <thread>
+
+#include "cli/expect_failure.hpp"
+
+namespace graycube {
+namespace {
+
+TEST_CASE("node counts are the powers of two from 1 to 1024") {
+  for (std::uint32_t n = 1; n <= 1024; n *= 2) CHECK(parse_nodes("-n", std::to_string(n)) == n);
+  for (const char* bad : {"0", "3", "6", "1023", "2048", "-4", "8.0", "8 ", "", "eight", "0x8",
+                          "4294967296", "18446744073709551616"}) {
+    CHECK(refusal([&] { parse_nodes("-n", bad); }) ==
+          "graycube: usage: -n: expected a power of two from 1 to 1024, found \"" +
+              std::string(bad) + "\"");
+  }
+}
+
+TEST_CASE("the default number of nodes is a power of two that the processors can hold") {
+  const std::uint32_t nodes = default_nodes();
+  CHECK(std::has_single_bit(nodes));
+  CHECK(nodes <= std::max(1u, std::thread::hardware_concurrency()));
+  CHECK(2 * nodes > std::thread::hardware_concurrency());
+}
+
+TEST_CASE("counts are whole numbers within their limits") {
+  CHECK(parse_count("--samples", "1", 1, 64) == 1);
+  CHECK(parse_count("--samples", "64", 1, 64) == 64);
+  CHECK(parse_count("--max-depth", "0", 0, 1000) == 0);
+  for (const char* bad : {"0", "65", "1.5", "", "-1", "1e1"}) {
+    CHECK(refusal([&] { parse_count("--samples", bad, 1, 64); }) ==
+          "graycube: usage: --samples: expected a whole number from 1 to 64, found \"" +
+              std::string(bad) + "\"");
+  }
+}
+
+TEST_CASE("a size is two numbers of pixels around an x") {
+  CHECK(parse_size("--size", "640x480") == PictureSize{640, 480});
+  CHECK(parse_size("--size", "1x16384") == PictureSize{1, 16384});
+  for (const char* bad : {"640", "640x", "x480", "640X480", "640x480x1", "0x5", "5x16385",
+                          "-1x5", "640 x 480", "axb", ""}) {
+    CHECK(refusal([&] { parse_size("--size", bad); })
+              .starts_with("graycube: usage: --size: expected WIDTHxHEIGHT"));
+  }
+  CHECK(refusal([] { parse_size("--size", "16384x16384"); })
+            .starts_with("graycube: usage: --size: expected at most 67108864 pixels"));
+}
+
+TEST_CASE("a time limit is a positive number of seconds") {
+  CHECK(parse_seconds("--timeout", "90") == 90);
+  CHECK(parse_seconds("--timeout", "0.25") == 0.25);
+  for (const char* bad : {"0", "-1", "nan", "inf", "1e99", "5s", ""}) {
+    CHECK(refusal([&] { parse_seconds("--timeout", bad); })
+              .starts_with("graycube: usage: --timeout: expected a number of seconds above 0"));
+  }
+}
+
+TEST_CASE("names are read as written, and a misspelt one is guessed") {
+  CHECK(parse_algorithm("--algorithm", "auto") == Algorithm::kAuto);
+  CHECK(parse_algorithm("--algorithm", "serial") == Algorithm::kSerial);
+  CHECK(parse_algorithm("--algorithm", "roth") == Algorithm::kRoth);
+  CHECK(parse_algorithm("--algorithm", "macro") == Algorithm::kMacro);
+  CHECK(parse_grain("--grain", "pixel") == Grain::kPixel);
+  CHECK(parse_grain("--grain", "line") == Grain::kLine);
+  CHECK(parse_grain("--grain", "tile") == Grain::kTile);
+  CHECK(refusal([] { parse_algorithm("--algorithm", "marco"); }) ==
+        "graycube: usage: --algorithm: expected auto, serial, roth or macro, found \"marco\"; "
+        "did you mean \"macro\"?");
+  CHECK(refusal([] { parse_grain("--grain", "Tile"); })
+            .starts_with("graycube: usage: --grain: expected pixel, line or tile"));
+}
+
+TEST_CASE("what is not built yet says so, instead of rendering something else") {
+  CHECK(parse_shadows("--shadows", "forward") == ShadowMode::kForward);
+  CHECK(parse_partition("--partition", "regular") == PartitionMode::kRegular);
+  CHECK(parse_scatter("--scatter", "1") == 1);
+  CHECK(parse_flow("--flow", "credit") == FlowMode::kCredit);
+  const auto not_built = [](const std::string& line) {
+    return line.find("built yet") != std::string::npos;
+  };
+  CHECK(not_built(refusal([] { parse_shadows("--shadows", "horizon"); })));
+  CHECK(not_built(refusal([] { parse_shadows("--shadows", "local"); })));
+  CHECK(not_built(refusal([] { parse_partition("--partition", "balanced"); })));
+  CHECK(not_built(refusal([] { parse_scatter("--scatter", "2"); })));
+  CHECK(not_built(refusal([] { parse_flow("--flow", "blocking"); })));
+  CHECK_FALSE(not_built(refusal([] { parse_shadows("--shadows", "hard"); })));
+}
+
+}  // namespace
+}  // namespace graycube

@@ -1,0 +1,90 @@
+#include "cli/scene_input.hpp"
+
+#include "cli/expect_failure.hpp"
+#include "cli/temporary_folder.hpp"
+#include "scene/read_scene.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr const char* kBall = R"({
+  "graycube": 1, "image": {"width": 8, "height": 4},
+  "camera": {"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40},
+  "lights": [], "materials": {"m": {}},
+  "objects": [{"material": "m", "csg": {"type": "sphere", "center": [0,0,0], "radius": 1}}]})";
+
+TEST_CASE("a scene file goes to the farm byte for byte") {
+  const TemporaryFolder folder;
+  const SceneInput input = read_scene_input(write_file(folder / "ball.json", kBall));
+  CHECK(input.name == "ball.json");
+  CHECK(input.text == kBall);
+  CHECK(input.scene.objects.size() == 1);
+}
+
+TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for") {
+  const TemporaryFolder folder;
+  const auto path = write_file(folder / "ball.csg", "sphere($fn = 0, $fa = 12, $fs = 2, r = 3);\n");
+  control::JobOptions options;
+  options.width = 30;
+  options.height = 20;
+  const SceneInput input = read_scene_input(path, options);
+  CHECK(input.name == "ball.csg");
+  CHECK(input.scene.settings.image == ImageSize{30, 20, 1});
+  const ReadResult again = read_scene_text(input.text);
+  REQUIRE(again.scene);
+  CHECK(*again.scene == input.scene);
+}
+
+TEST_CASE("every error of a scene has the file and the place") {
+  const TemporaryFolder folder;
+  std::string text = kBall;
+  text.replace(text.find("\"radius\": 1"), 11, "\"radius\": -1");
+  text.replace(text.find("\"width\": 8"), 10, "\"width\": 0");
+  const auto path = write_file(folder / "ball.json", text);
+  try {
+    read_scene_input(path);
+    FAIL("the scene was taken");
+  } catch (const Failure& failure) {
+    CHECK(failure.status() == ExitStatus::kBadInput);
+    REQUIRE(failure.problems().size() == 2);
+    CHECK(failure.problems()[0].where == path.string() + ":/image/width");
+    CHECK(failure.problems()[1].where == path.string() + ":/objects/0/csg/radius");
+  }
+}
+
+TEST_CASE("an OpenSCAD tree's errors have the file and the line") {
+  const TemporaryFolder folder;
+  const auto path = write_file(folder / "bad.csg", "group() {\n  spere(r = 3);\n}\n");
+  CHECK(refusal([&] { read_scene_input(path); })
+            .starts_with("graycube: scene: " + path.string() + ":2: "));
+}
+
+TEST_CASE("what is no scene file is told apart") {
+  const TemporaryFolder folder;
+  CHECK(refusal([&] { read_scene_input(folder / "none.json"); }).ends_with("No such file or directory"));
+  CHECK(refusal([&] { read_scene_input(folder.path()); })
+            .ends_with("expected a name ending in .json or .csg"));
+  CHECK(refusal([&] { read_scene_input(write_file(folder / "a.scad", "")); })
+            .ends_with("openscad -o MODEL.csg MODEL.scad"));
+  std::filesystem::create_directory(folder / "folder.json");
+  CHECK(refusal([&] { read_scene_input(folder / "folder.json"); }).ends_with("is a folder"));
+}
+
+TEST_CASE("what only serial can render is refused before a farm is asked") {
+  SceneInput input;
+  input.name = "deep.json";
+  RenderSettings settings;
+  settings.max_depth = kMaxCreditDepth;
+  settings.lights.resize(kMaxCreditLights);
+  CHECK_NOTHROW(check_farm_limits(input, settings));
+  settings.max_depth += 1;
+  CHECK(refusal([&] { check_farm_limits(input, settings); })
+            .starts_with("graycube: scene: deep.json:/max_depth: only --algorithm serial"));
+  settings.max_depth = 1;
+  settings.lights.emplace_back();
+  CHECK(refusal([&] { check_farm_limits(input, settings); })
+            .starts_with("graycube: scene: deep.json:/lights: only --algorithm serial"));
+}
+
+}  // namespace
+}  // namespace graycube

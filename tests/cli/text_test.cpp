@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+
+#include "cli/failure.hpp"
+#include "cli/farm_client.hpp"
+#include "cli/job_text.hpp"
+#include "cli/table.hpp"
+
+namespace graycube {
+namespace {
+
+TEST_CASE("columns line up under their headers, whatever the alphabet") {
+  CHECK(table_text({{"A", "NAME", "B"}, {"1", "é", "x"}, {"22", "plate", ""}}) ==
+        "A   NAME   B\n1   é      x\n22  plate\n");
+  CHECK(table_text({}).empty());
+}
+
+TEST_CASE("an error stays one line, whatever is in it") {
+  CHECK(line_of({"scene", "a\nb.json", "no\tgood\r\n"}) == "graycube: scene: a b.json: no good  ");
+  CHECK(line_of({"farm", "", "gone"}) == "graycube: farm: gone");
+}
+
+TEST_CASE("a failed job tells each error, and bad input from failure") {
+  control::Failed failed;
+  failed.job = 7;
+  failed.errors = {{"node 3 (process 4711)", "killed by signal 9"}, {"", "and more"}};
+  failed.code = FailureCode::kFailed;
+  const Failure failure = failure_of(failed, "render");
+  CHECK(failure.status() == ExitStatus::kFailed);
+  REQUIRE(failure.problems().size() == 2);
+  CHECK(line_of(failure.problems()[0]) ==
+        "graycube: render: node 3 (process 4711): killed by signal 9");
+  CHECK(line_of(failure.problems()[1]) == "graycube: render: job 7: and more");
+  failed.code = FailureCode::kBadInput;
+  CHECK(failure_of(failed, "scene").status() == ExitStatus::kBadInput);
+  failed.errors.clear();
+  CHECK(failure_of(failed, "scene").problems().size() == 1);
+}
+
+TEST_CASE("a job's lines tell what is known of it and nothing else") {
+  control::JobInfo job;
+  job.job = 3;
+  job.scene = "plate.json";
+  job.nodes = 8;
+  const std::string queued = job_text(job);
+  CHECK(queued.find("state: queued\n") != std::string::npos);
+  CHECK(queued.find("ETA") == std::string::npos);
+  CHECK(queued.find("tiles:") == std::string::npos);
+  job.state = JobState::kRendering;
+  job.tiles = 10;
+  job.tiles_whole = 5;
+  job.fraction = 0.5;
+  job.eta_s = 2.0;
+  job.rounds = 2;
+  const std::string running = job_text(job);
+  CHECK(running.find("tiles: 5 of 10 whole (50 %)\n") != std::string::npos);
+  CHECK(running.find("token rounds: 2\n") != std::string::npos);
+  CHECK(running.find("ETA: 2.0 s\n") != std::string::npos);
+}
+
+TEST_CASE("jobs and nodes are tables with a header") {
+  control::JobInfo job;
+  job.job = 12;
+  job.scene = "plate.json";
+  job.message = "node 1: killed by signal 9";
+  const std::string jobs = jobs_text({job});
+  CHECK(jobs.starts_with("JOB  STATE"));
+  CHECK(jobs.find("\n12   queued") != std::string::npos);
+  CHECK(jobs.find("node 1: killed by signal 9\n") != std::string::npos);
+  control::NodeInfo node;
+  node.rank = 1;
+  node.gray = 1;
+  CHECK(nodes_text({node}) ==
+        "NODE  GRAY  PID  STATE     THREADS  ENDPOINT\n1     1     -    starting  1        -\n");
+}
+
+}  // namespace
+}  // namespace graycube

@@ -1,0 +1,276 @@
+// A farm in one terminal, its users in others.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "film/picture_files.hpp"
+#include "integration/sandbox.hpp"
+
+namespace graycube {
+namespace {
+
+/// Keeps a farm busy for long enough to look at it.
+constexpr const char* kLongSize = "3000x3000";
+
+class Farm {
+ public:
+  explicit Farm(Sandbox& sandbox, const Arguments& options = {}) : up_(start(sandbox, options)) {
+    up_.wait_for("graycube down");
+  }
+
+  Running& up() { return up_; }
+
+ private:
+  static Running start(Sandbox& sandbox, const Arguments& options) {
+    Arguments arguments{"up", "-n", "4"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return sandbox.start(arguments);
+  }
+
+  Running up_;
+};
+
+/// Runs a command that must succeed; its output.
+std::string ok(Sandbox& sandbox, const Arguments& arguments) {
+  const Outcome o = sandbox.run(arguments);
+  INFO(arguments.front() << ": " << o.out << o.err);
+  REQUIRE(o.status == 0);
+  return o.out;
+}
+
+/// The job's id as submit prints it: alone on its line.
+std::string submit(Sandbox& sandbox, Arguments options) {
+  options.insert(options.begin(), "submit");
+  const std::string out = ok(sandbox, options);
+  REQUIRE(out.find_first_not_of("0123456789") == out.size() - 1);
+  return out.substr(0, out.size() - 1);
+}
+
+void wait_for_state(Sandbox& sandbox, const std::string& job, const std::string& state) {
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  std::string last;
+  do {
+    last = nlohmann::json::parse(ok(sandbox, {"status", job, "--json"}))["state"];
+    if (last == state) return;
+    std::this_thread::sleep_for(20ms);
+  } while (std::chrono::steady_clock::now() < until);
+  FAIL("job " << job << " is " << last << ", not " << state);
+}
+
+pid_t pid_of_node(Sandbox& sandbox, const std::string& rank) {
+  for (const std::string& line : lines_of(ok(sandbox, {"nodes"}))) {
+    std::istringstream words(line);
+    std::string name, gray, pid;
+    words >> name >> gray >> pid;
+    if (name == rank) return std::stoi(pid);
+  }
+  FAIL("no node " << rank);
+  return 0;
+}
+
+std::string first() { return scene_file("first.json").string(); }
+
+TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, down") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+
+  const std::string nodes = ok(sandbox, {"nodes"});
+  REQUIRE(lines_of(nodes).size() == 5);
+  CHECK(lines_of(ok(sandbox, {"jobs"})).size() == 1);
+
+  const std::string small =
+      submit(sandbox, {first(), "--size", "64x48", "--algorithm", "macro"});
+  const std::string watched = ok(sandbox, {"watch", small});
+  CHECK(lines_of(watched).back().starts_with("done: first.json, macro on 4 nodes, "));
+  CHECK(ok(sandbox, {"status", small}).find("state: done\n") != std::string::npos);
+  ok(sandbox, {"fetch", small, "-o", "a.exr", "--png", "a.png", "--stats", "a.json"});
+  CHECK(sandbox.json("a.json")["algorithm"] == "macro");
+  CHECK(sandbox.json("a.json")["token"]["rounds"] ==
+        nlohmann::json::parse(ok(sandbox, {"status", small, "--json"}))["rounds"]);
+  REQUIRE(sandbox.run({"render", first(), "--algorithm", "serial", "--size", "64x48", "-q"}).status ==
+          0);
+  CHECK((file_bytes(sandbox / "a.exr") == file_bytes(sandbox / "first.exr")));
+
+  const std::string running =
+      submit(sandbox, {first(), "--size", kLongSize, "--algorithm", "macro"});
+  const std::string waiting = submit(sandbox, {first(), "--size", kLongSize});
+  wait_for_state(sandbox, running, "rendering");
+  CHECK(sandbox.run({"fetch", running, "-o", "b.exr"}).status == 1);
+  Running watcher = sandbox.start({"watch", running});
+  watcher.wait_for("rendering");
+  ok(sandbox, {"cancel", waiting});
+  ok(sandbox, {"cancel", running});
+  const Outcome seen = watcher.wait();
+  CHECK(seen.status == 1);
+  CHECK(seen.err == "graycube: render: job " + running + ": cancelled\n");
+  CHECK(sandbox.run({"cancel", running}).status == 1);
+
+  const std::string table = ok(sandbox, {"jobs"});
+  REQUIRE(lines_of(table).size() == 4);
+  CHECK(lines_of(table)[1].starts_with(small + "    done"));
+  CHECK(lines_of(table)[2].starts_with(running + "    cancelled"));
+  CHECK(lines_of(table)[3].starts_with(waiting + "    cancelled"));
+
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+  CHECK(sandbox.run({"jobs"}).status == 1);
+}
+
+TEST_CASE("submit --wait is a render on the farm") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  const Outcome o = sandbox.run({"submit", first(), "--wait", "--algorithm", "macro", "--size",
+                                 "64x48", "-o", "a.exr", "--png", "a.png", "--stats", "a.json"});
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK(o.out == "1\n");
+  CHECK(o.err.find("token round") != std::string::npos);
+  CHECK(sandbox.files() == std::vector<std::string>{"a.exr", "a.json", "a.png"});
+  CHECK(read_exr(sandbox / "a.exr").width == 64);
+  CHECK(sandbox.run({"submit", first(), "-n", "8"}).status == 2);
+  CHECK(sandbox.run({"submit", first(), "--wait", "--size", kLongSize, "--timeout", "0.3", "-q"})
+            .status == 1);
+  CHECK(sandbox.run({"watch", "77"}).status == 2);
+  ok(sandbox, {"down"});
+}
+
+TEST_CASE("a killed node fails the running job by name, and the next job works") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  Running submitted = sandbox.start(
+      {"submit", first(), "--wait", "--size", kLongSize, "--algorithm", "macro", "-o", "a.exr"});
+  submitted.wait_for("1\n");
+  wait_for_state(sandbox, "1", "rendering");
+  const pid_t killed = pid_of_node(sandbox, "2");
+  ::kill(killed, SIGKILL);
+  const Outcome o = submitted.wait(20s);
+  CHECK(o.status == 1);
+  CHECK(lines_of(o.err).back() == "graycube: render: node 2 (process " + std::to_string(killed) +
+                                      "): killed by signal 9");
+  CHECK(ok(sandbox, {"jobs"}).find("node 2 (process") != std::string::npos);
+  CHECK(sandbox.files().empty());
+
+  const Outcome next = sandbox.run({"submit", first(), "--wait", "--size", "64x48", "-o", "b.exr"});
+  INFO(next.err);
+  CHECK(next.status == 0);
+  CHECK(pid_of_node(sandbox, "2") != killed);
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
+}
+
+TEST_CASE("a render whose node is killed says which, and leaves nothing") {
+  Sandbox sandbox;
+  Running running = sandbox.start(
+      {"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
+  running.wait_for("rendering");
+  for (const std::string& process : sandbox.processes()) {
+    if (process.find("graycube-node") == std::string::npos) continue;
+    ::kill(std::stoi(process), SIGKILL);
+    break;
+  }
+  const Outcome o = running.wait(20s);
+  INFO(o.err);
+  CHECK(o.status == 1);
+  CHECK(o.err.starts_with("graycube: render: node "));
+  CHECK(o.err.ends_with(": killed by signal 9\n"));
+  CHECK(sandbox.files().empty());
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a frontal that is killed is missed, and cleared away") {
+  Sandbox sandbox;
+  Running running = sandbox.start(
+      {"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
+  running.wait_for("rendering");
+  for (const std::string& process : sandbox.processes()) {
+    if (process.find("graycube-frontal") != std::string::npos) ::kill(std::stoi(process), SIGKILL);
+  }
+  const Outcome o = running.wait(20s);
+  CHECK(o.status == 1);
+  CHECK(o.err == "graycube: farm: graycube-frontal: killed by signal 9\n");
+  const auto until = std::chrono::steady_clock::now() + 5s;
+  while (!sandbox.processes().empty() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(5ms);
+  }
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("Ctrl-C stops a farm in order, while it works, too") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Sandbox sandbox;
+    Farm farm(sandbox);
+    const std::string job = submit(sandbox, {first(), "--size", kLongSize});
+    wait_for_state(sandbox, job, "rendering");
+    farm.up().signal(signal);
+    const Outcome o = farm.up().wait(10s);
+    CHECK(o.status == 0);
+    CHECK(o.err.empty());
+    CHECK(sandbox.processes().empty());
+    CHECK(sandbox.temporary_files().empty());
+  }
+}
+
+TEST_CASE("a second farm at the same place is refused, and a dead one's socket is no hindrance") {
+  Sandbox sandbox;
+  {
+    Farm farm(sandbox);
+    const Outcome second = sandbox.run({"up", "-n", "2"});
+    CHECK(second.status == 1);
+    CHECK(second.err.find("a farm is running there already") != std::string::npos);
+    CHECK(lines_of(ok(sandbox, {"nodes"})).size() == 5);
+    for (const std::string& process : sandbox.processes()) {
+      if (process.find("graycube-frontal") != std::string::npos) ::kill(std::stoi(process), SIGKILL);
+    }
+    CHECK(farm.up().wait(10s).status == 1);
+  }
+  Farm again(sandbox);
+  CHECK(lines_of(ok(sandbox, {"nodes"})).size() == 5);
+  ok(sandbox, {"down"});
+}
+
+TEST_CASE("a farm listens where it is told, on a free port of the loopback, too") {
+  Sandbox sandbox;
+  const std::string local = "ipc://" + (sandbox / "my-farm").string();
+  for (const std::string& listen : {local, std::string("tcp://127.0.0.1:*")}) {
+    Farm farm(sandbox, {"--listen", listen});
+    const std::string said = farm.up().out();
+    const auto begin = said.find(" at ") + 4;
+    const std::string endpoint = said.substr(begin, said.find(';') - begin);
+    CHECK(endpoint.starts_with(listen.substr(0, listen.find('*'))));
+    const std::string job = submit(sandbox, {first(), "--size", "32x32", "--connect", endpoint});
+    ok(sandbox, {"watch", job, "--connect", endpoint});
+    ok(sandbox, {"fetch", job, "-o", "a.exr", "--connect", endpoint});
+    ok(sandbox, {"down", "--connect", endpoint});
+    CHECK(farm.up().wait(10s).status == 0);
+    CHECK(sandbox.processes().empty());
+    CHECK(sandbox.files() == std::vector<std::string>{"a.exr"});
+  }
+}
+
+TEST_CASE("with --state a farm knows its jobs and pictures again") {
+  Sandbox sandbox;
+  std::string job;
+  {
+    Farm farm(sandbox, {"--state", "state"});
+    job = submit(sandbox, {first(), "--size", "48x32"});
+    ok(sandbox, {"watch", job});
+    ok(sandbox, {"fetch", job, "-o", "a.exr", "--stats", "a.json"});
+    ok(sandbox, {"down"});
+    farm.up().wait(10s);
+  }
+  Farm farm(sandbox, {"--state", "state"});
+  ok(sandbox, {"fetch", job, "-o", "b.exr", "--stats", "b.json"});
+  CHECK((file_bytes(sandbox / "a.exr") == file_bytes(sandbox / "b.exr")));
+  CHECK((file_bytes(sandbox / "a.json") == file_bytes(sandbox / "b.json")));
+  CHECK(submit(sandbox, {first(), "--size", "48x32"}) != job);
+  ok(sandbox, {"down"});
+}
+
+}  // namespace
+}  // namespace graycube
