@@ -16,6 +16,7 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 
 ExitStatus run(const CheckCommand& command) {
   SceneInput input = read_scene_input(command.scene);
+  check_is_built(command.scene, input.scene);
   for (const Problem& warning : input.warnings) print(warning);
   const std::size_t materials = input.scene.materials.size();
   const Model model = compile_scene(input.scene);

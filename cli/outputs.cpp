@@ -1,13 +1,12 @@
 #include "cli/outputs.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "cli/failure.hpp"
+#include "cli/interrupts.hpp"
 #include "film/picture_files.hpp"
 #include "film/whole_file.hpp"
 #include "version.hpp"
@@ -52,10 +51,15 @@ void check_output(const std::string& option, const fs::path& file, const fs::pat
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw usage_failure(where, "exists and is not a regular file");
   }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw usage_failure(where, "the folder can't be written to");
-  }
   if (is_same_file(file, input)) throw usage_failure(where, "would replace the input");
+  try {
+    // The surest way to find out. It disappears again, whatever happens.
+    const InterruptsHeld held;
+    const WholeFile probe(file);
+  } catch (const PictureError& e) {
+    throw usage_failure(option, e.what());
+  }
+  throw_if_interrupted();
 }
 
 void check_outputs(const Outputs& outputs, const fs::path& scene) {

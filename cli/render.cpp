@@ -63,6 +63,7 @@ ExitStatus run(const RenderCommand& command) {
   if (outputs.exr.empty()) outputs.exr = default_exr(command.scene);
   check_outputs(outputs, command.scene);
   SceneInput scene = read_scene_input(command.scene, command.options);
+  check_is_built(command.scene, scene.scene);
   const std::string name = scene.name;
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);

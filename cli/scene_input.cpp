@@ -59,6 +59,15 @@ Problem located(const char* what, const fs::path& path, const std::string& messa
           message.substr(colon + 2)};
 }
 
+/// A name within a JSON pointer (RFC 6901).
+std::string pointer_word(const std::string& name) {
+  std::string word;
+  for (const char c : name) {
+    word += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+  }
+  return word;
+}
+
 void read_json(const fs::path& path, SceneInput& input) {
   input.text = read_file(path, kMaxSubmitBytes);
   ReadResult read = read_scene_text(input.text);
@@ -109,6 +118,16 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     throw bad_scene(path, "expected a name ending in .json or .csg");
   }
   return input;
+}
+
+void check_is_built(const fs::path& path, const Scene& scene) {
+  std::vector<Problem> problems;
+  for (const NamedMaterial& m : scene.materials) {
+    if (m.material.model == ShadingModel::kPhong) continue;
+    problems.push_back({"scene", path.string() + ":/materials/" + pointer_word(m.name) + "/model",
+                        "not built yet; only \"phong\" is"});
+  }
+  if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
 }
 
 void apply_overrides(const control::JobOptions& options, RenderSettings& settings) {

@@ -27,7 +27,11 @@ struct SceneInput {
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {});
 
-/// The options' overrides, applied. Throws a usage failure where scene and options don't fit together.
+/// Throws a Failure of status 2 when the scene asks for something that the format has and this version can't
+/// compute.
+void check_is_built(const std::filesystem::path& path, const Scene& scene);
+
+/// The options' overrides, applied.
 void apply_overrides(const control::JobOptions& options, RenderSettings& settings);
 
 /// Throws a Failure of status 2 when the scene can't be rendered but by `serial`.

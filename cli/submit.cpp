@@ -32,6 +32,7 @@ ExitStatus run(const SubmitCommand& command) {
   catch_interrupts("submit", 0);
   check_sense(command);
   SceneInput scene = read_scene_input(command.scene, command.options);
+  check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
   RenderSettings settings = scene.scene.settings;
   apply_overrides(command.options, settings);

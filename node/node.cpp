@@ -343,7 +343,7 @@ void Node::send_ready_when_complete() {
   is_ready_sent_ = true;
   const Model& model = domain_->model();
   send_control(control::Ready{job_, epoch_, model.primitives.size(), model.objects.size(),
-                              domain_->bsp().leaves().size(), build_s_});
+                              domain_->cell_count(), build_s_});
 }
 
 void Node::absorb(Step& step) {

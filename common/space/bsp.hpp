@@ -57,6 +57,9 @@ struct BspOptions {
 class Bsp {
  public:
   static Bsp build(const Model& model, const BspOptions& options = {});
+  /// Subdivides space for one object alone.
+  static Bsp build_for_object(const Model& model, std::uint32_t object,
+                              const BspOptions& options = {});
 
   const Model& model() const { return *model_; }
   const std::vector<BspNode>& nodes() const { return nodes_; }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "shading/phong.hpp"
-#include "space/walk.hpp"
 
 namespace graycube {
 namespace {
@@ -114,8 +113,7 @@ void Evaluator::trace_light_ray(RayTask& task, Step& step) {
     const auto exit = domain_.exit(task.region, task.ray, task.t);
     const bool arrives = !exit || exit->t >= task.t_max;
     const double end = arrives ? task.t_max : exit->t;
-    mailbox_.begin_ray();
-    if (!pass_light(domain_.bsp(), task.ray, task.t, end, mailbox_, task.weight)) {
+    if (!domain_.pass_light(task.ray, task.t, end, scratch_, task.weight)) {
       give_back(task.pixel, whole_credit(task), step);
       return;
     }
@@ -132,9 +130,7 @@ void Evaluator::trace_light_ray(RayTask& task, Step& step) {
 void Evaluator::trace_viewing_ray(RayTask& task, Step& step) {
   while (domain_.holds(task.region)) {
     const auto exit = domain_.exit(task.region, task.ray, task.t);
-    mailbox_.begin_ray();
-    const auto hit =
-        first_crossing(domain_.bsp(), task.ray, task.t, exit ? exit->t : kInf, mailbox_);
+    const auto hit = domain_.first_crossing(task.ray, task.t, exit ? exit->t : kInf, scratch_);
     if (hit) {
       shade(task, hit->t, hit->primitive, hit->entering, step);
       return;

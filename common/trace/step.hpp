@@ -9,7 +9,6 @@
 
 #include "coordination/credit.hpp"
 #include "film/fixed_point.hpp"
-#include "space/mailbox.hpp"
 #include "trace/domain.hpp"
 #include "trace/ray_task.hpp"
 
@@ -57,7 +56,7 @@ class Evaluator {
   /// Traces rays that arrived from elsewhere (or primary rays); appends to `step`.
   void trace_rays(std::span<const RayTask> rays, Step& step);
 
-  const WalkCounts& walk_counts() const { return mailbox_.counts; }
+  WalkCounts walk_counts() const { return scratch_.counts(); }
 
  private:
   void trace_tree(const RayTask& root, Step& step);
@@ -68,7 +67,7 @@ class Evaluator {
   void give_back(std::uint32_t pixel, const Credit& credit, Step& step);
 
   const Domain& domain_;
-  Mailbox mailbox_;
+  CrossingScratch scratch_;
   std::vector<RayTask> stack_;
 };
 

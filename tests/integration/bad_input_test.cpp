@@ -31,7 +31,7 @@ struct Mistake {
 
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> list{
-      {"negative radius", "\"radius\": 1}", "\"radius\": -1}", ":/objects/0/csg/radius", "above 0"},
+      {"negative radius", "\"radius\": 1}", "\"radius\": -1}", ":/objects/0/csg/radius", "found -1"},
       {"missing radius", ", \"radius\": 1}", "}", ":/objects/0/csg", "radius"},
       {"text for a number", "\"radius\": 1}", "\"radius\": \"1\"}", ":/objects/0/csg/radius",
        "number"},
@@ -42,7 +42,7 @@ const std::vector<Mistake>& mistakes() {
        "radius"},
       {"unknown material", "\"ball\", \"material\": \"brass\"",
        "\"ball\", \"material\": \"bras\"", ":/objects/0/material", "brass"},
-      {"no material", "\"ball\", \"material\": \"brass\"", "\"ball\"", ":/objects/0", "material"},
+      {"no material", "\"ball\", \"material\": \"brass\"", "\"ball\"", ":/objects/0/csg", "material"},
       {"reference to nothing", "\"shape\": \"bolt\"", "\"shape\": \"nut\"", ":/objects/1/csg/shape",
        "nut"},
       {"cycle of references",
@@ -54,20 +54,22 @@ const std::vector<Mistake>& mistakes() {
        "{\"type\": \"torus\", \"center\": [0,0,0], \"axis\": [0,1,0], \"major\": 1, \"minor\": 2}",
        ":/objects/0/csg/minor", ""},
       {"singular matrix", "\"radius\": 1}", "\"radius\": 1, \"transform\": [{\"scale\": [1,0,1]}]}",
-       ":/objects/0/csg/transform/0", ""},
+       ":/objects/0/csg/transform/0/scale", "zero"},
       {"colour below zero", "[0.8,0.6,0.2]", "[0.8,-0.6,0.2]", ":/materials/brass/color/1", ""},
       {"too wide a view", "\"fov\": 40", "\"fov\": 180", ":/camera/fov", "180"},
-      {"camera without a direction", "\"look_at\": [0,0,0]", "\"look_at\": [0,1,-6]", ":/camera",
-       ""},
+      {"camera without a direction", "\"look_at\": [0,0,0]", "\"look_at\": [0,1,-6]",
+       ":/camera/look_at", "distance"},
       {"huge picture", "\"width\": 32", "\"width\": 4000000000", ":/image/width", ""},
       {"no samples", "\"height\": 24", "\"height\": 24, \"samples\": 0", ":/image/samples", ""},
       {"another version", "\"graycube\": 1", "\"graycube\": 2", ":/graycube", "1"},
       {"unknown light", "\"point\"", "\"spot\"", ":/lights/0/type", "point"},
+      {"shading that is not built", "{\"color\": [0.8,0.6,0.2]}", "{\"model\": \"hall_greenberg\"}",
+       ":/materials/brass/model", "not built yet"},
       {"missing camera", "\"camera\"", "\"kamera\"", "", "camera"},
       {"key twice", "\"lights\"", "\"image\"", ":/image", ""},
-      {"comma missing", "\"width\": 32,", "\"width\": 32", "", "line 3"},
+      {"comma missing", "\"width\": 32,", "\"width\": 32", ":/image/width", "line 3"},
       {"infinite number", "\"radius\": 1}", "\"radius\": 1e999}", ":/objects/0/csg/radius", ""},
-      {"cut off", "\"objects\"", "\"obj", "", "line"}};
+      {"cut off", "\n  ]\n}", "", ":/objects/1/csg/shape", "line 10"}};
   return list;
 }
 
@@ -209,7 +211,9 @@ TEST_CASE("a folder that can't be written to is noticed before the render") {
   sandbox.write("s.json", kGood);
   // Even root may not write there.
   const Outcome o = sandbox.run({"render", "s.json", "-o", "/proc/out.exr"});
+  INFO(o.err);
   CHECK(o.status == 2);
+  CHECK(o.out.empty());
   CHECK(lines_of(o.err).size() == 1);
 }
 
@@ -217,8 +221,7 @@ TEST_CASE("commands without a farm say so within seconds") {
   Sandbox sandbox;
   sandbox.write("s.json", kGood);
   for (const Arguments& arguments :
-       std::vector<Arguments>{{"jobs"}, {"submit", "s.json"}, {"down"},
-                              {"nodes", "--connect", "ipc://" + (sandbox / "no-socket").string()}}) {
+       std::vector<Arguments>{{"submit", "s.json"}, {"down"}, {"nodes", "--connect", "ipc://" + (sandbox / "no-socket").string()}}) {
     const Outcome o = sandbox.run(arguments);
     INFO(o.err);
     CHECK(o.status == 1);

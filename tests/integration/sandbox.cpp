@@ -184,20 +184,28 @@ Running Sandbox::start_program(const std::string& path, const Arguments& argumen
   const int err = ::open(running.err_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   REQUIRE(out >= 0);
   REQUIRE(err >= 0);
+  // Signals wait until the test framework's handlers are not the child's any more.
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::sigprocmask(SIG_BLOCK, &all, &before);
   running.pid_ = ::fork();
-  REQUIRE(running.pid_ >= 0);
   if (running.pid_ == 0) {
     ::setpgid(0, 0);
     // Whatever the test's own parent ignores.
     for (const int s : {SIGINT, SIGTERM, SIGHUP}) ::signal(s, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
     ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
     if (::chdir(work_.c_str()) == 0) ::execve(path.c_str(), argv_pointers.data(), environment.data());
     ::_exit(127);
   }
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
   ::close(out);
   ::close(err);
+  REQUIRE(running.pid_ > 0);
   return running;
 }
 

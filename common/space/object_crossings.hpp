@@ -1,0 +1,149 @@
+// Crossings of one object along a whole ray, without a subdivision underneath: what the leaves of the
+// surface tree are tested with. Gives the same crossings, bit for bit, as crossings.hpp gives cell by cell.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "csg/box.hpp"
+#include "csg/half_space.hpp"
+#include "csg/model.hpp"
+#include "csg/sphere.hpp"
+#include "space/crossings.hpp"
+#include "space/mailbox.hpp"
+
+namespace graycube {
+
+/// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more look their
+/// primitive up.
+struct alignas(64) Literal {
+  std::array<double, 6> v{};
+  std::uint32_t primitive = 0;
+  PrimitiveKind kind = PrimitiveKind::kSphere;
+  bool is_inverted = false;
+};
+static_assert(sizeof(Literal) == 64);
+
+/// A ray with what every box test needs of it.
+struct PreparedRay {
+  explicit PreparedRay(const Ray& r) : ray(r) {
+    for (int a = 0; a < 3; ++a) inverse[a] = 1.0 / r.direction[a];
+  }
+  Ray ray;
+  Vec3 inverse;
+};
+
+namespace crossings {
+
+/// As csg::clip_to_slab, with the reciprocal given.
+inline void clip_to_prepared_slab(csg::Interval& i, double lo, double hi, double o,
+                                  double inverse) {
+  if (!std::isfinite(inverse)) [[unlikely]] {
+    if (o < lo || o > hi) i.make_empty();
+    return;
+  }
+  const double a = csg::plane_parameter(lo, o, inverse);
+  const double b = csg::plane_parameter(hi, o, inverse);
+  if (inverse > 0) {
+    i.clip(a, b);
+  } else {
+    i.clip(b, a);
+  }
+}
+
+/// The part of the line inside the literal's primitive. False when it has more than one interval; then the
+/// caller takes the general way.
+inline bool interval_of(const Literal& literal, const Model& model, const PreparedRay& ray,
+                        csg::Interval& out) {
+  const auto& v = literal.v;
+  csg::Interval i;
+  switch (literal.kind) {
+    case PrimitiveKind::kSphere:
+      i = csg::sphere_interval(ray.ray.origin - Vec3{v[0], v[1], v[2]}, ray.ray.direction,
+                               v[3] * v[3]);
+      break;
+    case PrimitiveKind::kBox:
+      clip_to_prepared_slab(i, v[0], v[3], ray.ray.origin.x, ray.inverse.x);
+      clip_to_prepared_slab(i, v[1], v[4], ray.ray.origin.y, ray.inverse.y);
+      clip_to_prepared_slab(i, v[2], v[5], ray.ray.origin.z, ray.inverse.z);
+      break;
+    case PrimitiveKind::kHalfSpace: {
+      const Vec3 n{v[0], v[1], v[2]};
+      csg::clip_to_half_space(i, v[3], dot(n, ray.ray.origin), dot(n, ray.ray.direction));
+      break;
+    }
+    default: {
+      const Spans s = spans_along(model.primitives[literal.primitive], model.planes, ray.ray);
+      if (s.count > 1) return false;
+      if (s.count == 0) {
+        i.make_empty();
+      } else {
+        i = {s.interval[0].enter, s.interval[0].leave};
+      }
+    }
+  }
+  out.enter = i.enter + 0.0;
+  out.leave = i.leave + 0.0;
+  return true;
+}
+
+/// Literals whose intervals fit on the stack; larger programs take the general way.
+inline constexpr std::size_t kMaxFlatLiterals = 32;
+
+/// Membership of a conjunction along the line, as half-open intervals [E, L): right after the crossings at t,
+/// a literal holds where enter ≤ t < leave. So the conjunction is the upright literals' common interval
+/// without the inverted ones', and its ends are its crossings.
+///
+/// Calls visit(t, entering) for those with t0 ≤ t < t1, in order, until it returns false; false then.
+template <typename Visit>
+bool conjunction_ends(std::span<const csg::Interval> removed, double from, double to, double t0,
+                      double t1, Visit&& visit) {
+  double at = from;
+  while (at < to) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const csg::Interval& r : removed) {
+        if (r.enter <= at && at < r.leave) {
+          at = r.leave;
+          moved = true;
+        }
+      }
+    }
+    if (!(at < to) || at >= t1) return true;
+    if (at >= t0 && at > -csg::kInf && !visit(at, true)) return false;
+    double end = to;
+    for (const csg::Interval& r : removed) {
+      if (r.enter > at && r.enter < end && r.enter < r.leave) end = r.enter;
+    }
+    if (end >= t1) return true;
+    if (end >= t0 && !visit(end, false)) return false;
+    at = end;
+    if (end == to) return true;
+  }
+  return true;
+}
+
+}  // namespace crossings
+
+/// An object, or what is left of it in a cell, as the surface tree holds it.
+struct SurfaceItem {
+  static constexpr std::uint32_t kAllSpace = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kFlat = 0xFFFFFFFFu;
+
+  std::uint32_t object = 0;
+  std::uint32_t first_literal = 0;
+  std::uint32_t literal_count = 0;
+  /// Index into SurfaceTree::cells; kAllSpace when the whole object is here.
+  std::uint32_t cell = kAllSpace;
+  /// General programs: first of the tree's nodes; kFlat for a conjunction or its complement.
+  std::uint32_t first_node = kFlat;
+  std::uint32_t node_count = 0;
+  /// The literals are those of the complement, which is a conjunction: entering and leaving swap.
+  bool is_complement = false;
+};
+
+}  // namespace graycube

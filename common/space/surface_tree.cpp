@@ -1,0 +1,229 @@
+#include "space/surface_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "csg/tree.hpp"
+#include "space/bsp.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr float kFloatInf = std::numeric_limits<float>::infinity();
+
+/// The nearest float not above (not below) a double.
+float float_below(double v) {
+  const auto f = static_cast<float>(v);
+  return static_cast<double>(f) > v ? std::nextafterf(f, -kFloatInf) : f;
+}
+float float_above(double v) {
+  const auto f = static_cast<float>(v);
+  return static_cast<double>(f) < v ? std::nextafterf(f, kFloatInf) : f;
+}
+
+bool is_leaf(const TreeNode& n) { return n.size == 1; }
+
+}  // namespace
+
+class SurfaceTreeBuilder {
+ public:
+  SurfaceTreeBuilder(const Model& model, const SurfaceTreeOptions& options)
+      : model_(model), options_(options) {
+    tree_.model_ = &model;
+  }
+
+  SurfaceTree run() {
+    for (std::uint32_t i = 0; i < model_.objects.size(); ++i) add_object(i);
+    std::vector<std::uint32_t> bounded;
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+      if (boxes_[i].is_finite()) {
+        bounded.push_back(i);
+      } else {
+        tree_.unbounded_.push_back(i);
+      }
+    }
+    if (!bounded.empty()) {
+      tree_.nodes_.emplace_back();
+      build_node(0, bounded);
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  static constexpr int kBins = 16;
+
+  void add_object(std::uint32_t index) {
+    const Object& object = model_.objects[index];
+    const std::span<const TreeNode> tree{model_.nodes.data() + object.first_node, object.node_count};
+    const auto literals = static_cast<std::uint32_t>(std::count_if(tree.begin(), tree.end(), is_leaf));
+    if (literals <= options_.whole_object_literals) {
+      if (!object.bounds.is_empty()) add_item(index, tree, object.bounds, SurfaceItem::kAllSpace);
+      return;
+    }
+    const Bsp cells = Bsp::build_for_object(model_, index);
+    for (const BspLeaf& leaf : cells.leaves()) {
+      for (std::uint32_t i = 0; i < leaf.program_count; ++i) {
+        add_cell(cells, leaf, cells.programs()[leaf.first_program + i]);
+      }
+    }
+  }
+
+  void add_cell(const Bsp& cells, const BspLeaf& leaf, const CellProgram& program) {
+    std::vector<TreeNode> tree;
+    using Shape = CellProgram::Shape;
+    if (program.shape == Shape::kAllOf || program.shape == Shape::kAnyOf) {
+      const auto kind = program.shape == Shape::kAllOf ? TreeNode::Kind::kAnd : TreeNode::Kind::kOr;
+      tree.push_back({kind, 0, program.node_count + 1});
+    }
+    const auto first = cells.program_nodes().begin() + program.first_node;
+    tree.insert(tree.end(), first, first + program.node_count);
+    const Aabb box = intersection_of(leaf.cell, bounds_of(tree, model_.primitives));
+    if (box.is_empty()) return;
+    tree_.cells_.push_back(leaf.cell);
+    add_item(program.object, tree, box, static_cast<std::uint32_t>(tree_.cells_.size() - 1));
+  }
+
+  void add_item(std::uint32_t object, std::span<const TreeNode> tree, const Aabb& box,
+                std::uint32_t cell) {
+    SurfaceItem item;
+    item.object = object;
+    item.cell = cell;
+    item.first_literal = static_cast<std::uint32_t>(tree_.literals_.size());
+    const bool is_flat = std::all_of(tree.begin() + 1, tree.end(), is_leaf);
+    item.is_complement = is_flat && tree.front().kind == TreeNode::Kind::kOr;
+    for (const TreeNode& n : tree) {
+      if (!is_leaf(n)) continue;
+      const Primitive& p = model_.primitives[n.primitive];
+      Literal literal{p.v, n.primitive, p.kind, n.kind == TreeNode::Kind::kInvertedLeaf};
+      literal.is_inverted = literal.is_inverted != item.is_complement;
+      tree_.literals_.push_back(literal);
+    }
+    item.literal_count = static_cast<std::uint32_t>(tree_.literals_.size()) - item.first_literal;
+    if (!is_flat) {
+      item.first_node = static_cast<std::uint32_t>(tree_.program_nodes_.size());
+      item.node_count = static_cast<std::uint32_t>(tree.size());
+      tree_.program_nodes_.insert(tree_.program_nodes_.end(), tree.begin(), tree.end());
+    }
+    tree_.items_.push_back(item);
+    boxes_.push_back(box.grown(model_.delta));
+  }
+
+  struct Group {
+    std::span<std::uint32_t> items;
+    Aabb box = Aabb::nothing();
+  };
+
+  Group group_of(std::span<std::uint32_t> items) const {
+    Group g{items, Aabb::nothing()};
+    for (const std::uint32_t i : items) g.box = union_of(g.box, boxes_[i]);
+    return g;
+  }
+
+  /// Sorts the items into two halves by the best of kBins planes a side through their centres.
+  std::size_t partition(std::span<std::uint32_t> items) const {
+    Aabb centers = Aabb::nothing();
+    for (const std::uint32_t i : items) centers.include(boxes_[i].center());
+    double best_cost = Aabb::kInf;
+    int best_axis = -1;
+    int best_bin = 0;
+    const auto bin_of = [&](std::uint32_t i, int axis) {
+      const double extent = centers.hi[axis] - centers.lo[axis];
+      const double share = (boxes_[i].center()[axis] - centers.lo[axis]) / extent;
+      return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(centers.hi[axis] > centers.lo[axis])) continue;
+      std::array<Aabb, kBins> box;
+      box.fill(Aabb::nothing());
+      std::array<std::size_t, kBins> count{};
+      for (const std::uint32_t i : items) {
+        const auto b = static_cast<std::size_t>(bin_of(i, axis));
+        box[b] = union_of(box[b], boxes_[i]);
+        ++count[b];
+      }
+      std::array<double, kBins> above_cost{};
+      Aabb above = Aabb::nothing();
+      std::size_t above_count = 0;
+      for (std::size_t b = kBins - 1; b > 0; --b) {
+        above = union_of(above, box[b]);
+        above_count += count[b];
+        above_cost[b] = above_count == 0 ? 0 : above.half_area() * static_cast<double>(above_count);
+      }
+      Aabb below = Aabb::nothing();
+      std::size_t below_count = 0;
+      for (std::size_t b = 0; b + 1 < kBins; ++b) {
+        below = union_of(below, box[b]);
+        below_count += count[b];
+        if (below_count == 0 || below_count == items.size()) continue;
+        const double cost =
+            below.half_area() * static_cast<double>(below_count) + above_cost[b + 1];
+        if (cost < best_cost) {
+          best_cost = cost;
+          best_axis = axis;
+          best_bin = static_cast<int>(b);
+        }
+      }
+    }
+    if (best_axis < 0) return items.size() / 2;  // all centres coincide
+    const auto middle = std::partition(items.begin(), items.end(), [&](std::uint32_t i) {
+      return bin_of(i, best_axis) <= best_bin;
+    });
+    return static_cast<std::size_t>(middle - items.begin());
+  }
+
+  void build_node(std::uint32_t index, std::span<std::uint32_t> items) {
+    std::vector<Group> groups{group_of(items)};
+    while (groups.size() < WideNode::kWidth) {
+      // The group with the largest surface is opened next.
+      std::size_t widest = groups.size();
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (groups[g].items.size() < 2) continue;
+        if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area()) {
+          widest = g;
+        }
+      }
+      if (widest == groups.size()) break;
+      const auto all = groups[widest].items;
+      const std::size_t middle = partition(all);
+      groups[widest] = group_of(all.first(middle));
+      groups.push_back(group_of(all.subspan(middle)));
+    }
+    WideNode node;
+    for (std::size_t g = 0; g < WideNode::kWidth; ++g) {
+      const bool used = g < groups.size();
+      for (std::size_t a = 0; a < 3; ++a) {
+        node.lo[a][g] = used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
+        node.hi[a][g] = used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
+      }
+      if (!used) continue;
+      if (groups[g].items.size() == 1) {
+        node.child[g] = WideNode::kItemFlag | groups[g].items.front();
+      } else {
+        node.child[g] = static_cast<std::uint32_t>(tree_.nodes_.size());
+        tree_.nodes_.emplace_back();
+      }
+    }
+    tree_.nodes_[index] = node;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (groups[g].items.size() > 1) build_node(node.child[g], groups[g].items);
+    }
+  }
+
+  const Model& model_;
+  SurfaceTreeOptions options_;
+  SurfaceTree tree_;
+  std::vector<Aabb> boxes_;
+};
+
+SurfaceTree SurfaceTree::build(const Model& model, const SurfaceTreeOptions& options) {
+  return SurfaceTreeBuilder(model, options).run();
+}
+
+std::size_t SurfaceTree::memory_bytes() const {
+  return nodes_.capacity() * sizeof(WideNode) + items_.capacity() * sizeof(SurfaceItem) +
+         literals_.capacity() * sizeof(Literal) + program_nodes_.capacity() * sizeof(TreeNode) +
+         cells_.capacity() * sizeof(Aabb);
+}
+
+}  // namespace graycube
