@@ -26,12 +26,14 @@ void add(CLI::App& app, const std::string& names, const char* type, const std::s
 }
 
 void add_scene(CLI::App& app, std::string& scene) {
-  add(app, "SCENE", "", "A scene file (.json), or OpenSCAD's evaluated tree (.csg)",
+  add(
+      app, "SCENE", "", "A scene file (.json), or OpenSCAD's evaluated tree (.csg)",
       [&scene](const std::string& text) { scene = text; }, true);
 }
 
 void add_job(CLI::App& app, std::uint32_t& job) {
-  add(app, "JOB", "", "The job's id, as 'submit' and 'jobs' print it",
+  add(
+      app, "JOB", "", "The job's id, as 'submit' and 'jobs' print it",
       [&job](const std::string& text) { job = parse_count("JOB", text, 1, 0xFFFFFFFFu); }, true);
 }
 
@@ -42,7 +44,8 @@ void add_connect(CLI::App& app, std::string& connect) {
 }
 
 void add_outputs(CLI::App& app, Outputs& outputs, bool is_exr_required, const char* exr_help) {
-  add(app, "-o,--output", "OUT.exr", exr_help,
+  add(
+      app, "-o,--output", "OUT.exr", exr_help,
       [&outputs](const std::string& text) { outputs.exr = text; }, is_exr_required);
   add(app, "--png", "OUT.png", "Also a PNG: 8-bit sRGB, or 16-bit linear if named *.linear.png",
       [&outputs](const std::string& text) { outputs.png = text; });
@@ -156,14 +159,14 @@ class Parser {
         [&up](const std::string& text) { up.listen = text; });
     add(*sub, "--state", "DIR", "Keep jobs and pictures there, over restarts",
         [&up](const std::string& text) { up.state = text; });
-    add(*sub, "--http", "HOST:PORT", "A web page; not built yet", [](const std::string&) {
-      throw usage_failure("--http", "not built yet");
-    });
+    add(*sub, "--http", "HOST:PORT", "A web page; not built yet",
+        [](const std::string&) { throw usage_failure("--http", "not built yet"); });
   }
 
   void declare_client() {
     CLI::App* sub = nullptr;
-    auto& submit = declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id", sub);
+    auto& submit =
+        declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id", sub);
     add_scene(*sub, submit.scene);
     add_outputs(*sub, submit.outputs, false, "The picture, with --wait");
     add_nodes(*sub, "What the farm is expected to have", submit.nodes);
@@ -206,14 +209,18 @@ class Parser {
     auto& check = declare<CheckCommand>("check", "Find every error of a scene file", sub);
     add_scene(*sub, check.scene);
 
-    auto& compare = declare<CompareCommand>("compare", "Compare the algorithms; not built yet", sub);
+    auto& compare =
+        declare<CompareCommand>("compare", "Compare the algorithms; not built yet", sub);
     add_scene(*sub, compare.scene);
     add_nodes(*sub, "Node processes", compare.nodes);
 
-    auto& convert = declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
-    add(*sub, "IN", "", ".json, .csg or .exr",
+    auto& convert =
+        declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
+    add(
+        *sub, "IN", "", ".json, .csg or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
-    add(*sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
+    add(
+        *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
         [&convert](const std::string& text) { convert.out = text; }, true);
   }
 
@@ -232,8 +239,8 @@ class Parser {
       for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
     }
     const std::vector<std::string_view> candidates(names.begin(), names.end());
-    return usage_failure(sub->get_name(),
-                         "unknown option " + graycube::quoted(written) + did_you_mean(written, candidates));
+    return usage_failure(sub->get_name(), "unknown option " + graycube::quoted(written) +
+                                              did_you_mean(written, candidates));
   }
 
   CLI::App app_{"Graycube renders solid models by ray tracing, on a hypercube of processes.",
@@ -249,7 +256,8 @@ void check_command_name(int argc, const char* const* argv, Parser& parser) {
   const auto names = parser.command_names();
   if (std::find(names.begin(), names.end(), written) != names.end()) return;
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  throw usage_failure("", "unknown command " + graycube::quoted(written) + did_you_mean(written, candidates));
+  throw usage_failure(
+      "", "unknown command " + graycube::quoted(written) + did_you_mean(written, candidates));
 }
 
 /// Where client commands find the farm.
@@ -271,7 +279,9 @@ void resolve_endpoint(std::string& endpoint) {
 }
 
 template <typename C>
-concept HasConnect = requires(C command) { command.connect; };
+concept HasConnect = requires(C command) {
+  command.connect;
+};
 
 }  // namespace
 

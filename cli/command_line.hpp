@@ -74,10 +74,9 @@ struct PrintCommand {
   std::string text;
 };
 
-using Command =
-    std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
-                 CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
-                 CompareCommand, ConvertCommand, PrintCommand>;
+using Command = std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand,
+                             WatchCommand, CancelCommand, FetchCommand, NodesCommand, DownCommand,
+                             CheckCommand, CompareCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are as main gets them, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);

@@ -46,11 +46,12 @@ ExitStatus run(const ConvertCommand& command) {
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
   const bool is_scene = from == ".json" || from == ".csg";
-  const bool is_known = (is_scene && (to == ".json" || to == ".pov")) ||
-                        (from == ".exr" && to == ".png");
+  const bool is_known =
+      (is_scene && (to == ".json" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
-    throw usage_failure("convert", "expected .json or .csg to .json or .pov, or .exr to .png; found " +
-                                       in.string() + " to " + out.string());
+    throw usage_failure("convert",
+                        "expected .json or .csg to .json or .pov, or .exr to .png; found " +
+                            in.string() + " to " + out.string());
   }
   check_output("", out, in);
   is_scene ? convert_scene(in, out) : convert_picture(in, out);

@@ -36,7 +36,8 @@ class Failure : public std::exception {
 /// A command line that means nothing: `graycube: usage: WHERE: WHY`, exit status 2.
 Failure usage_failure(std::string where, std::string why);
 
-/// The line of a problem, without its end; control characters become spaces, so that a line stays one.
+/// The line of a problem, without its end; control characters become spaces, so that a line stays
+/// one.
 std::string line_of(const Problem& problem);
 
 /// The line on standard error.

@@ -31,15 +31,16 @@ class FarmClient {
   using Clock = std::chrono::steady_clock;
 
   /// `check` is called every now and then while waiting, and may throw to end that.
-  explicit FarmClient(std::string endpoint, std::function<void()> check = [] {});
+  explicit FarmClient(
+      std::string endpoint, std::function<void()> check = [] {});
 
   const std::string& endpoint() const { return endpoint_; }
   void send(const ControlMessage& message, Bytes payload = {});
   /// The next message that is one; nothing when the time is up.
   std::optional<Received> receive(Clock::duration timeout);
 
-  /// The answer to a message, other messages dropped. Throws the Failure that a `failed` answer is, or the
-  /// one of a farm that doesn't answer. `what` begins the line of the former.
+  /// The answer to a message, other messages dropped. Throws the Failure that a `failed` answer is,
+  /// or the one of a farm that doesn't answer. `what` begins the line of the former.
   template <typename Reply>
   std::pair<Reply, Bytes> ask(const ControlMessage& message, const std::string& what,
                               Bytes payload = {}) {

@@ -17,15 +17,16 @@ inline constexpr std::chrono::milliseconds kStopGrace{3000};
 
 class FrontalProcess {
  public:
-  /// Starts the graycube-frontal beside this command, in a process group of its own: a terminal's Ctrl-C
-  /// reaches only the command, which then ends things in order. Throws a Failure.
+  /// Starts the graycube-frontal beside this command, in a process group of its own: a terminal's
+  /// Ctrl-C reaches only the command, which then ends things in order. Throws a Failure.
   explicit FrontalProcess(const std::vector<std::string>& arguments);
   /// Stops it.
   ~FrontalProcess();
   FrontalProcess(const FrontalProcess&) = delete;
   FrontalProcess& operator=(const FrontalProcess&) = delete;
 
-  /// Waits for it to say where it listens. Throws a Failure when it ends instead, or an interrupt's.
+  /// Waits for it to say where it listens. Throws a Failure when it ends instead, or an
+  /// interrupt's.
   const std::string& wait_until_listening();
   /// Throws a Failure when it has ended.
   void check_running();

@@ -23,8 +23,8 @@ Failure nonsense(std::uint32_t job) {
 }
 
 bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_t first) {
-  const bool is_size_possible = rows.width >= 1 && rows.width <= kMaxImageSide && rows.height >= 1 &&
-                                rows.height <= kMaxImageSide &&
+  const bool is_size_possible = rows.width >= 1 && rows.width <= kMaxImageSide &&
+                                rows.height >= 1 && rows.height <= kMaxImageSide &&
                                 std::uint64_t{rows.width} * rows.height <= kMaxPixels;
   const bool is_size_same =
       first == 0 || (rows.width == picture.width && rows.height == picture.height);
@@ -72,8 +72,8 @@ Picture fetch_picture(FarmClient& farm, std::uint32_t job) {
   Picture picture;
   std::uint32_t row = 0;
   do {
-    const control::Fetch request{job, row, picture.height == 0 ? kMaxImageSide
-                                                               : picture.height - row};
+    const control::Fetch request{job, row,
+                                 picture.height == 0 ? kMaxImageSide : picture.height - row};
     const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
     std::vector<float> values;
     if (!is_sound(rows, picture, row) ||
@@ -91,8 +91,8 @@ Picture fetch_picture(FarmClient& farm, std::uint32_t job) {
 std::string summary_text(const control::JobInfo& info) {
   std::string text(to_string(info.algorithm));
   text += " on " + std::to_string(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
-  text += ", " + std::to_string(info.rounds) +
-          (info.rounds == 1 ? " token round" : " token rounds");
+  text +=
+      ", " + std::to_string(info.rounds) + (info.rounds == 1 ? " token round" : " token rounds");
   return text;
 }
 

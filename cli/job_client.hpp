@@ -15,8 +15,8 @@ namespace graycube {
 std::uint32_t submit_scene(FarmClient& farm, const SceneInput& scene,
                            const control::JobOptions& options);
 
-/// Shows a job's progress until it is done; its statistics. Throws the Failure of a job that failed:
-/// `render: node 3 (process 4711): killed by signal 9`.
+/// Shows a job's progress until it is done; its statistics. Throws the Failure of a job that
+/// failed: `render: node 3 (process 4711): killed by signal 9`.
 std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& display);
 
 control::JobInfo job_info(FarmClient& farm, std::uint32_t job);

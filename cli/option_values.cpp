@@ -47,15 +47,16 @@ Value parse_choice(std::string_view option, std::string_view text, std::span<con
   for (std::size_t i = 0; i < names.size(); ++i) {
     list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
   }
-  throw usage_failure(std::string(option), "expected " + list + ", found " + quoted(text) +
-                                               did_you_mean(text, names));
+  throw usage_failure(std::string(option),
+                      "expected " + list + ", found " + quoted(text) + did_you_mean(text, names));
 }
 
 /// A value of the command line's contract that this version can't do.
 template <typename Value>
 Value only(std::string_view option, Value value, Value built) {
   if (value == built) return value;
-  throw usage_failure(std::string(option), std::string(to_string(value)) + " is not built yet; only " +
+  throw usage_failure(std::string(option), std::string(to_string(value)) +
+                                               " is not built yet; only " +
                                                std::string(to_string(built)) + " is");
 }
 

@@ -1,5 +1,5 @@
-// The values of options, from text. Each function throws a usage failure that names the option, what was
-// expected and what was found.
+// The values of options, from text. Each function throws a usage failure that names the option,
+// what was expected and what was found.
 #pragma once
 
 #include <cstdint>

@@ -14,8 +14,8 @@ struct Outputs {
   bool none() const { return exr.empty() && png.empty() && stats.empty(); }
 };
 
-/// Throws a usage failure when a file can't be written where it should go, or is the input itself. `option`
-/// names it, and may be empty.
+/// Throws a usage failure when a file can't be written where it should go, or is the input itself.
+/// `option` names it, and may be empty.
 void check_output(const std::string& option, const std::filesystem::path& file,
                   const std::filesystem::path& input);
 
@@ -25,8 +25,8 @@ void check_outputs(const Outputs& outputs, const std::filesystem::path& scene);
 /// SCENE's name without its ending, with ".exr", in the current folder.
 std::filesystem::path default_exr(const std::filesystem::path& scene);
 
-/// Writes the pictures, each whole or not at all. `scene` is the scene's name for the EXR's header. Throws a
-/// Failure of status 1.
+/// Writes the pictures, each whole or not at all. `scene` is the scene's name for the EXR's header.
+/// Throws a Failure of status 1.
 void write_pictures(const Outputs& outputs, const Picture& picture, const std::string& scene);
 
 /// Writes the statistics, if wanted.

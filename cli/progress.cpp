@@ -29,8 +29,8 @@ std::string details(const control::Progress& p) {
   std::string text;
   if (p.eta_s && p.fraction < 1) text += ", ETA " + duration_text(*p.eta_s);
   if (p.tiles > 0) {
-    text += ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) +
-            " tiles whole";
+    text +=
+        ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) + " tiles whole";
   }
   if (p.rounds > 0) {
     text += ", " + std::to_string(p.rounds) + (p.rounds == 1 ? " token round" : " token rounds");
@@ -74,7 +74,8 @@ std::string progress_bar(const control::Progress& p, std::size_t columns) {
   // Of fixed length, lest it jump about as the text behind it grows.
   const std::size_t length = std::clamp(columns / 4, kMinBar, kMaxBar);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(length));
-  std::string line = "[" + std::string(filled, '#') + std::string(length - filled, '-') + "] " + tail;
+  std::string line =
+      "[" + std::string(filled, '#') + std::string(length - filled, '-') + "] " + tail;
   // A full line would wrap, and could not be redrawn.
   line.resize(std::min(line.size(), columns == 0 ? 0 : columns - 1));
   return line;

@@ -30,9 +30,7 @@ std::string read_file(const fs::path& path, std::size_t most) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw bad_scene(path, "is a folder");
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
-  const auto system_error = [&] {
-    return bad_scene(path, std::generic_category().message(errno));
-  };
+  const auto system_error = [&] { return bad_scene(path, std::generic_category().message(errno)); };
   if (!file) throw system_error();
   const auto too_large = [&] {
     return bad_scene(path, "the file is larger than " + std::to_string(most) + " bytes");

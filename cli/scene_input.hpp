@@ -21,14 +21,14 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json, or .csg from OpenSCAD) and finds all its errors. `options` gives a picture's size and
-/// depth to import for. Throws a Failure of status 2 with a problem for each error,
+/// Reads SCENE (.json, or .csg from OpenSCAD) and finds all its errors. `options` gives a picture's
+/// size and depth to import for. Throws a Failure of status 2 with a problem for each error,
 /// `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {});
 
-/// Throws a Failure of status 2 when the scene asks for something that the format has and this version can't
-/// compute.
+/// Throws a Failure of status 2 when the scene asks for something that the format has and this
+/// version can't compute.
 void check_is_built(const std::filesystem::path& path, const Scene& scene);
 
 /// The options' overrides, applied.

@@ -13,8 +13,9 @@ void check_sense(const SubmitCommand& command) {
     throw usage_failure("--algorithm serial", "needs no farm; use 'graycube render'");
   }
   if (!command.waits && !command.outputs.none()) {
-    throw usage_failure("submit", "without --wait there is nothing to write yet; get the picture "
-                                  "with 'graycube fetch JOB -o OUT.exr'");
+    throw usage_failure("submit",
+                        "without --wait there is nothing to write yet; get the picture "
+                        "with 'graycube fetch JOB -o OUT.exr'");
   }
   check_outputs(command.outputs, command.scene);
 }

@@ -88,10 +88,11 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const std::
 
 void print_usage_hint(const UpCommand& command, const std::string& endpoint, bool is_default) {
   const std::string option = is_default ? "" : " --connect " + endpoint;
-  std::printf("farm of %u %s at %s; elsewhere: graycube submit SCENE%s; Ctrl-C or 'graycube down%s' "
-              "stops it\n",
-              command.nodes, command.nodes == 1 ? "node" : "nodes", endpoint.c_str(),
-              option.c_str(), option.c_str());
+  std::printf(
+      "farm of %u %s at %s; elsewhere: graycube submit SCENE%s; Ctrl-C or 'graycube down%s' "
+      "stops it\n",
+      command.nodes, command.nodes == 1 ? "node" : "nodes", endpoint.c_str(), option.c_str(),
+      option.c_str());
   std::fflush(stdout);
 }
 

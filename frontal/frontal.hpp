@@ -84,13 +84,11 @@ class Frontal {
     std::string endpoint;
     std::uint32_t threads = 1;
     double last_heard_s = 0;
-    bool is_lost = false;
     bool has_left = false;
   };
   struct QueuedJob {
     control::JobInfo info;
     PreparationWork work;
-    PeerId client;
     double submitted_at_s = 0;
   };
   struct Running {
@@ -129,11 +127,12 @@ class Frontal {
   void send(const PeerId& peer, const ControlMessage& message, Bytes payload = {});
   void send_to_nodes(const ControlMessage& message);
 
+  // frontal_jobs.cpp
   void start_next_job();
   void load_when_possible();
   void start_rendering();
   void hand_out(Rank rank);
-  void on_contributions(Rank rank, const Bytes& batch);
+  void on_contributions(const Bytes& batch);
   void finish_when_complete();
   void complete();
   void end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors);

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "frontal/frontal.hpp"
+#include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "transport/endpoint.hpp"
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
-  std::string listen, state;
+  std::string listen, state, http;
   bool is_private = false;
   double silence_s = 10;
 };
@@ -83,7 +84,9 @@ class FrontalProcess {
         frontal_({*Hypercube::of_size(a.nodes), a.threads, 1.0, a.silence_s, kVersion}, *store_),
         preparation_(wakeup_) {
     frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };
+    if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     std::cout << "listening " << inbox_.endpoint() << std::endl;
+    if (http_) std::cout << "page " << http_->url() << std::endl;
   }
 
   void run() {
@@ -150,6 +153,7 @@ class FrontalProcess {
   NodeProcesses processes_;
   Frontal frontal_;
   PreparationThread preparation_;
+  std::optional<HttpServer> http_;
 };
 
 int fail(const std::string& what, const std::string& why, int status) {
@@ -168,6 +172,7 @@ int run_main(int argc, char** argv) {
   app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
   app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")
       ->check(CLI::Range(0.1, 3600.0));
+  app.add_option("--http", a.http, "HOST:PORT for the farm's web page, HOST a loopback address");
   app.add_flag("--private", a.is_private, "Serve the process that started this one, and end with it");
   try {
     app.parse(argc, argv);
@@ -181,6 +186,11 @@ int run_main(int argc, char** argv) {
   }
   if (a.listen.empty()) a.listen = default_endpoint();
   if (const auto problem = endpoint_problem(a.listen)) return fail("usage: --listen", *problem, 2);
+  if (!a.http.empty()) {
+    if (const auto problem = endpoint_problem("tcp://" + a.http)) {
+      return fail("usage: --http", *problem, 2);
+    }
+  }
   const int signals = signal_descriptor();
   if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   try {

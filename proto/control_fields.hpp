@@ -164,11 +164,6 @@ void each_field(auto& visit, Is<NodeReport> auto& m) {
   visit("stats", m.stats);
 }
 
-void each_field(auto& visit, Is<NodeProgress> auto& m) {
-  visit("job", m.job, at_least_one());
-  visit("primary_rays_left", m.primary_rays_left);
-}
-
 void each_field(auto& visit, Is<Pong> auto& m) { visit("sequence", m.sequence); }
 
 void each_field(auto& visit, Is<NodeError> auto& m) {

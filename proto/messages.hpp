@@ -193,13 +193,6 @@ struct NodeReport {
   friend bool operator==(const NodeReport&, const NodeReport&) = default;
 };
 
-struct NodeProgress {
-  static constexpr std::string_view kType = "node_progress";
-  std::uint32_t job = 0;
-  std::uint64_t primary_rays_left = 0;
-  friend bool operator==(const NodeProgress&, const NodeProgress&) = default;
-};
-
 struct Pong {
   static constexpr std::string_view kType = "pong";
   std::uint64_t sequence = 0;
@@ -429,7 +422,7 @@ struct Bye {
 
 using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
-                 control::Terminated, control::NodeReport, control::NodeProgress, control::Pong,
+                 control::Terminated, control::NodeReport, control::Pong,
                  control::NodeError, control::Goodbye, control::Welcome, control::Load,
                  control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List, control::Watch,

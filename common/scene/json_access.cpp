@@ -90,7 +90,7 @@ bool JsonAccess::read(JsonIndex at, double& out, const NumberRule& rule) {
   if (tree.kind(at) != JsonKind::kNumber) return wrong(at, rule.what);
   const double v = tree.number(at);
   const bool inside = rule.open ? v > rule.min && v < rule.max : v >= rule.min && v <= rule.max;
-  if (!inside || !std::isfinite(v)) return wrong(at, rule.what);
+  if (!inside) return wrong(at, rule.what);
   out = v;
   return true;
 }

@@ -1,290 +1,263 @@
-#include "scene/json_parser.hpp"
-
+// Fills a JsonTree from the events of nlohmann's parser: the only file of this folder that knows
+// the library.
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <charconv>
-#include <system_error>
+#include <cstddef>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
-#include "scene/json_number.hpp"
+#include "scene/json_tree.hpp"
 
 namespace graycube {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+using Json = nlohmann::json;
 
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto put = [&](std::uint32_t byte) { out.push_back(static_cast<char>(byte)); };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xC0 | code >> 6);
-    put(0x80 | (code & 0x3F));
-  } else if (code < 0x10000) {
-    put(0xE0 | code >> 12);
-    put(0x80 | (code >> 6 & 0x3F));
-    put(0x80 | (code & 0x3F));
-  } else {
-    put(0xF0 | code >> 18);
-    put(0x80 | (code >> 12 & 0x3F));
-    put(0x80 | (code >> 6 & 0x3F));
-    put(0x80 | (code & 0x3F));
+/// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
+constexpr std::size_t kBytesPerValue = 7;
+constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+/// The library's number for a number beyond a double.
+constexpr int kNumberOverflow = 406;
+
+/// Hands out the text and tells how far the library has read, which its events don't.
+class TrackedText {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  TrackedText(const char* at, const char** reached) : at_(at), reached_(reached) {}
+  reference operator*() const { return *at_; }
+  TrackedText& operator++() {
+    *reached_ = ++at_;
+    return *this;
   }
-}
+  bool operator==(const TrackedText& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_;
+  const char** reached_;
+};
+
+/// What the library says it was parsing, and what would have been right there.
+struct Expectation {
+  std::string_view context, expected;
+};
+constexpr std::string_view kValueContext = "value";
+constexpr std::array<Expectation, 5> kExpectations{{{kValueContext, "a value"},
+                                                    {"object key", "a key in double quotes"},
+                                                    {"object separator", "':' after the key"},
+                                                    {"array", "',' or ']'"},
+                                                    {"object", "',' or '}'"}}};
+
+/// The two parts of "[json.exception…] … while parsing CONTEXT - REASON; last read: …".
+struct Complaint {
+  explicit Complaint(std::string_view what) {
+    constexpr std::string_view kParsing = "while parsing ", kDash = " - ";
+    const std::size_t parsing = what.find(kParsing), dash = what.find(kDash);
+    if (dash == std::string_view::npos) {
+      reason = what;
+      return;
+    }
+    if (parsing < dash) context = what.substr(0, dash).substr(parsing + kParsing.size());
+    reason = what.substr(dash + kDash.size());
+    reason = reason.substr(0, reason.find("; last read: "));
+  }
+  /// A token that doesn't belong there or is none, not one that is wrong inside.
+  bool is_about_token() const {
+    return reason.starts_with("unexpected ") || reason == "invalid literal";
+  }
+
+  std::string_view context, reason;
+};
 
 }  // namespace
 
-JsonParser::JsonParser(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {
-  if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
-}
+class JsonEvents final : public Json::json_sax_t {
+ public:
+  JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {}
 
-void JsonParser::parse() {
-  if (!parse_value(0)) return;
-  skip_space();
-  if (at_ < text_.size()) fail("expected the end of the text, found " + found());
-}
-
-bool JsonParser::fail(std::string message) {
-  // The first failure is the one to tell; callers only unwind.
-  if (!tree_.syntax_error_) {
-    const auto last = tree_.values_.empty() ? 0 : tree_.values_.size() - 1;
-    tree_.syntax_error_ = {at_, static_cast<JsonIndex>(last), std::move(message)};
+  void parse() {
+    if (text_.starts_with(kByteOrderMark)) last_end_ = kByteOrderMark.size();
+    const char* const end = text_.data() + text_.size();
+    const bool good =
+        Json::sax_parse(TrackedText(text_.data(), &reached_), TrackedText(end, &reached_), this);
+    // The library takes a zero byte for the end of the text.
+    if (good && next_token() < text_.size())
+      fail(next_token(), "expected the end of the text, found " + found(next_token()));
+    // Also after a failure, so that pointers to what was read stay right.
+    while (!open_.empty()) close();
   }
-  return false;
-}
 
-std::string JsonParser::found() const {
-  if (at_ >= text_.size()) return "the end of the text";
-  const auto c = static_cast<unsigned char>(text_[at_]);
-  if (c > 0x20 && c < 0x7F) return std::string("'") + static_cast<char>(c) + "'";
-  constexpr std::string_view kHex = "0123456789abcdef";
-  return std::string("byte 0x") + kHex[c >> 4] + kHex[c & 15];
-}
-
-void JsonParser::skip_space() {
-  while (at_ < text_.size()) {
-    const char c = text_[at_];
-    if (c != ' ' && c != '\n' && c != '\t' && c != '\r') return;
-    ++at_;
+  bool null() override { return add_word(JsonKind::kNull); }
+  bool boolean(bool value) override { return add_word(value ? JsonKind::kTrue : JsonKind::kFalse); }
+  /// Only negative numbers come here, so a zero was written "-0".
+  bool number_integer(number_integer_t value) override {
+    return add_number(value == 0 ? -0.0 : static_cast<double>(value));
   }
-}
-
-bool JsonParser::parse_value(std::uint32_t nesting) {
-  skip_space();
-  const auto self = static_cast<JsonIndex>(tree_.values_.size());
-  auto& value = tree_.values_.emplace_back();
-  value.begin = static_cast<std::uint32_t>(at_);
-  value.next = self + 1;
-  switch (peek()) {
-    case '{': return parse_container(self, true, nesting);
-    case '[': return parse_container(self, false, nesting);
-    case '"': {
-      Text text;
-      if (!parse_string(text)) return false;
-      value.kind = JsonKind::kString;
-      value.payload = std::uint64_t{text.begin} << 32 | text.length;
-      value.string_is_decoded = text.decoded;
-      return true;
-    }
-    case 't': return parse_word(self, "true", JsonKind::kTrue);
-    case 'f': return parse_word(self, "false", JsonKind::kFalse);
-    case 'n': return parse_word(self, "null", JsonKind::kNull);
-    default: return parse_number(self);
+  bool number_unsigned(number_unsigned_t value) override {
+    return add_number(static_cast<double>(value));
   }
-}
+  bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
 
-bool JsonParser::parse_word(JsonIndex self, std::string_view word, JsonKind kind) {
-  if (text_.substr(at_, word.size()) != word) return fail("expected a value, found " + found());
-  at_ += word.size();
-  tree_.values_[self].kind = kind;
-  return true;
-}
-
-bool JsonParser::parse_container(JsonIndex self, bool object, std::uint32_t nesting) {
-  tree_.values_[self].kind = object ? JsonKind::kObject : JsonKind::kArray;
-  if (nesting >= kMaxJsonNesting)
-    return fail("arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
-  const char close = object ? '}' : ']';
-  ++at_;
-  skip_space();
-  if (peek() == close) {
-    ++at_;
+  bool string(string_t& value) override {
+    Text text;
+    if (!keep(value, text)) return false;
+    JsonTree::Value& added = add(JsonKind::kString);
+    added.payload = std::uint64_t{text.begin} << 32 | text.length;
+    added.string_is_decoded = text.decoded;
+    last_end_ = read_so_far();
     return true;
   }
-  std::uint64_t count = 0;
-  bool good = false;
-  while (object ? parse_member(nesting + 1) : parse_value(nesting + 1)) {
-    ++count;
-    skip_space();
-    if (peek() == ',') {
-      ++at_;
-      continue;
-    }
-    good = peek() == close;
-    if (!good) fail(std::string("expected ',' or '") + close + "', found " + found());
-    break;
-  }
-  // Also when unwinding, so that pointers to what was read stay right.
-  tree_.values_[self].payload = count;
-  tree_.values_[self].next = static_cast<JsonIndex>(tree_.values_.size());
-  at_ += good ? 1 : 0;
-  return good;
-}
 
-bool JsonParser::parse_member(std::uint32_t nesting) {
-  skip_space();
-  if (peek() != '"') return fail("expected a key in double quotes, found " + found());
-  Text key;
-  if (!parse_string(key)) return false;
-  skip_space();
-  if (peek() != ':') return fail("expected ':' after the key, found " + found());
-  ++at_;
-  const std::size_t member = tree_.values_.size();
-  const bool good = parse_value(nesting);
-  auto& value = tree_.values_[member];
-  value.key_begin = key.begin;
-  value.key_length = static_cast<std::uint16_t>(key.length);
-  value.key_is_decoded = key.decoded;
-  return good;
-}
-
-bool JsonParser::parse_string(Text& out) {
-  const std::size_t begin = ++at_;
-  for (;;) {
-    const auto c = static_cast<unsigned char>(peek());
-    if (c == '"') break;
-    if (c == '\\') return decode_string(begin, out);
-    if (c >= 0x80) {
-      if (!skip_utf8()) return false;
-      continue;
-    }
-    if (c < 0x20) {
-      if (at_ >= text_.size()) return fail("the text ends inside a string");
-      return fail("a string holds the control character " + found());
-    }
-    ++at_;
-  }
-  if (at_ - begin > kMaxJsonString)
-    return fail("a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
-  out = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_ - begin), false};
-  ++at_;
-  return true;
-}
-
-bool JsonParser::decode_string(std::size_t begin, Text& out) {
-  std::string decoded(text_.substr(begin, at_ - begin));
-  for (;;) {
-    if (decoded.size() > kMaxJsonString)
-      return fail("a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
-    const auto c = static_cast<unsigned char>(peek());
-    if (c == '"') break;
-    if (c == '\\') {
-      if (!decode_escape(decoded)) return false;
-      continue;
-    }
-    if (c < 0x20) {
-      if (at_ >= text_.size()) return fail("the text ends inside a string");
-      return fail("a string holds the control character " + found());
-    }
-    const std::size_t from = at_;
-    if (c >= 0x80 ? !skip_utf8() : (++at_, false)) return false;
-    decoded.append(text_.substr(from, at_ - from));
-  }
-  ++at_;
-  out = {static_cast<std::uint32_t>(tree_.decoded_.size()),
-         static_cast<std::uint32_t>(decoded.size()), true};
-  tree_.decoded_.push_back(std::move(decoded));
-  return true;
-}
-
-bool JsonParser::decode_escape(std::string& out) {
-  ++at_;
-  constexpr std::string_view kLetters = "\"\\/bfnrt";
-  constexpr std::string_view kMeanings = "\"\\/\b\f\n\r\t";
-  const char letter = peek();
-  if (letter == 'u') {
-    ++at_;
-    std::uint32_t code = 0;
-    if (!read_hex4(code)) return false;
-    if (code >= 0xDC00 && code < 0xE000)
-      return fail("a low surrogate without a high one before it");
-    if (code >= 0xD800 && code < 0xDC00) {
-      std::uint32_t low = 0;
-      if (text_.substr(at_, 2) != "\\u") return fail("a high surrogate without a low one after it");
-      at_ += 2;
-      if (!read_hex4(low)) return false;
-      if (low < 0xDC00 || low >= 0xE000) return fail("a high surrogate without a low one after it");
-      code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
-    }
-    append_utf8(out, code);
+  bool key(string_t& value) override {
+    if (!keep(value, key_)) return false;
+    last_end_ = read_so_far();
     return true;
   }
-  const std::size_t which = at_ < text_.size() ? kLetters.find(letter) : std::string_view::npos;
-  if (which == std::string_view::npos) return fail("unknown escape: backslash and " + found());
-  out.push_back(kMeanings[which]);
-  ++at_;
-  return true;
-}
 
-bool JsonParser::read_hex4(std::uint32_t& out) {
-  const std::string_view digits = text_.substr(at_, 4);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out, 16);
-  if (digits.size() < 4 || error != std::errc{} || end != digits.data() + 4)
-    return fail("expected four hexadecimal digits after \\u");
-  at_ += 4;
-  return true;
-}
+  bool start_object(std::size_t) override { return open(JsonKind::kObject); }
+  bool start_array(std::size_t) override { return open(JsonKind::kArray); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  /// JSON text has none.
+  bool binary(binary_t&) override { return false; }
 
-bool JsonParser::skip_utf8() {
-  const auto byte = [&](std::size_t i) {
-    return at_ + i < text_.size() ? static_cast<unsigned char>(text_[at_ + i]) : 0u;
+  /// `position` counts the bytes read, the end of the text as one.
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::detail::exception& error) override {
+    if (error.id == kNumberOverflow) {
+      const auto self = static_cast<JsonIndex>(tree_.values_.size());
+      const std::size_t begin = add(JsonKind::kNumber).begin;
+      return fail(begin, "expected a finite number, found " + tree_.describe(self));
+    }
+    const std::size_t last_read = std::min(position - 1, text_.size());
+    const std::size_t token = std::min(next_token(), last_read);
+    if (open_.empty() && !tree_.values_.empty())
+      return fail(token, "expected the end of the text, found " + found(token));
+    const Complaint complaint(error.what());
+    if (complaint.context == kValueContext) add(JsonKind::kNull);
+    const auto known =
+        std::find_if(kExpectations.begin(), kExpectations.end(),
+                     [&](const Expectation& e) { return e.context == complaint.context; });
+    if (!complaint.is_about_token() || known == kExpectations.end())
+      return fail(last_read, std::string(complaint.reason));
+    return fail(token, "expected " + std::string(known->expected) + ", found " + found(token));
+  }
+
+ private:
+  /// A string as found: a range of the text, or an index into the tree's decoded strings.
+  struct Text {
+    std::uint32_t begin = 0;
+    std::uint32_t length = 0;
+    bool decoded = false;
   };
-  const unsigned first = byte(0);
-  // The second byte's range excludes overlong forms, surrogates and what lies beyond U+10FFFF.
-  unsigned low = 0x80, high = 0xBF;
-  std::size_t length = 0;
-  if (first >= 0xC2 && first <= 0xDF) length = 2;
-  if (first >= 0xE0 && first <= 0xEF) length = 3;
-  if (first >= 0xF0 && first <= 0xF4) length = 4;
-  if (first == 0xE0) low = 0xA0;
-  if (first == 0xED) high = 0x9F;
-  if (first == 0xF0) low = 0x90;
-  if (first == 0xF4) high = 0x8F;
-  bool good = length != 0 && byte(1) >= low && byte(1) <= high;
-  for (std::size_t i = 2; i < length; ++i) good = good && byte(i) >= 0x80 && byte(i) <= 0xBF;
-  if (!good) return fail("a string holds bytes that are not UTF-8: " + found());
-  at_ += length;
-  return true;
-}
 
-bool JsonParser::parse_number(JsonIndex self) {
-  const std::size_t begin = at_;
-  JsonDecimal decimal;
-  if (peek() == '-') ++at_;
-  if (!is_digit(peek())) {
-    if (at_ > begin) return fail("expected a digit after '-', found " + found());
-    return fail("expected a value, found " + found());
+  /// Offset just behind the last byte that the library has read.
+  std::size_t read_so_far() const { return static_cast<std::size_t>(reached_ - text_.data()); }
+
+  /// Where the token begins that follows the last event. A separator that doesn't belong there is
+  /// passed over as well.
+  std::size_t next_token() const {
+    return std::min(text_.find_first_not_of(" \t\r\n,:", last_end_), text_.size());
   }
-  if (peek() == '0' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))
-    return fail("a number must not begin with a zero and a digit");
-  at_ = decimal.take(text_, at_);
-  if (peek() == '.') {
-    ++at_;
-    if (!is_digit(peek())) return fail("expected a digit after '.', found " + found());
-    const std::size_t point = at_;
-    at_ = decimal.take(text_, at_);
-    decimal.end_fraction(at_ - point);
+
+  JsonTree::Value& add(JsonKind kind) {
+    const auto self = static_cast<JsonIndex>(tree_.values_.size());
+    if (!open_.empty()) ++tree_.values_[open_.back()].payload;
+    JsonTree::Value& value = tree_.values_.emplace_back();
+    value.kind = kind;
+    value.begin = static_cast<std::uint32_t>(next_token());
+    value.next = self + 1;
+    value.key_begin = key_.begin;
+    value.key_length = static_cast<std::uint16_t>(key_.length);
+    value.key_is_decoded = key_.decoded;
+    key_ = {};
+    return value;
   }
-  if (peek() == 'e' || peek() == 'E') {
-    decimal.expect_exponent();
-    ++at_;
-    if (peek() == '+' || peek() == '-') ++at_;
-    if (!is_digit(peek())) return fail("expected a digit of the exponent, found " + found());
-    while (is_digit(peek())) ++at_;
+
+  bool add_word(JsonKind kind) {
+    add(kind);
+    last_end_ = read_so_far();
+    return true;
   }
-  const double result = decimal.value(text_.substr(begin, at_ - begin));
-  tree_.values_[self].kind = JsonKind::kNumber;
-  tree_.values_[self].payload = std::bit_cast<std::uint64_t>(result);
-  return true;
+
+  bool add_number(double number) {
+    add(JsonKind::kNumber).payload = std::bit_cast<std::uint64_t>(number);
+    // The library has read one byte more, unless the number ends the text.
+    const std::size_t read = read_so_far();
+    const char last = text_[read - 1];
+    last_end_ = last >= '0' && last <= '9' ? read : read - 1;
+    return true;
+  }
+
+  bool open(JsonKind kind) {
+    const auto self = static_cast<JsonIndex>(tree_.values_.size());
+    const std::size_t begin = add(kind).begin;
+    if (open_.size() >= kMaxJsonNesting)
+      return fail(begin, "arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
+    open_.push_back(self);
+    last_end_ = read_so_far();
+    return true;
+  }
+
+  bool close() {
+    tree_.values_[open_.back()].next = static_cast<JsonIndex>(tree_.values_.size());
+    open_.pop_back();
+    last_end_ = read_so_far();
+    return true;
+  }
+
+  /// A string without escapes stays in the text; its length tells.
+  bool keep(std::string& decoded, Text& out) {
+    const std::size_t begin = next_token() + 1, length = read_so_far() - 1 - begin;
+    if (decoded.size() > kMaxJsonString)
+      return fail(begin - 1,
+                  "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
+    out.length = static_cast<std::uint32_t>(decoded.size());
+    out.decoded = decoded.size() != length;
+    out.begin = static_cast<std::uint32_t>(out.decoded ? tree_.decoded_.size() : begin);
+    if (out.decoded) tree_.decoded_.push_back(decoded);
+    return true;
+  }
+
+  bool fail(std::size_t offset, std::string message) {
+    const std::size_t count = tree_.values_.size();
+    tree_.syntax_error_ = {offset, static_cast<JsonIndex>(count == 0 ? 0 : count - 1),
+                           std::move(message)};
+    return false;
+  }
+
+  /// What stands there, for messages.
+  std::string found(std::size_t offset) const {
+    if (offset >= text_.size()) return "the end of the text";
+    const auto c = static_cast<unsigned char>(text_[offset]);
+    if (c > 0x20 && c < 0x7F) return std::string("'") + static_cast<char>(c) + "'";
+    constexpr std::string_view kHex = "0123456789abcdef";
+    return std::string("byte 0x") + kHex[c >> 4] + kHex[c & 15];
+  }
+
+  std::string_view text_;
+  JsonTree& tree_;
+  const char* reached_ = text_.data();
+  std::size_t last_end_ = 0;     // of the last event's token
+  std::vector<JsonIndex> open_;  // containers around the next value, outermost first
+  Text key_;                     // of the next value; empty in an array
+};
+
+JsonTree::JsonTree(std::string_view text) : text_(text) {
+  // Growing by doubling would touch three times the memory, and first touches are half the time.
+  values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
+  JsonEvents(text, *this).parse();
 }
 
 }  // namespace graycube

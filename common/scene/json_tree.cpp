@@ -4,7 +4,6 @@
 #include <bit>
 #include <utility>
 
-#include "scene/json_parser.hpp"
 #include "scene/spelling.hpp"
 
 namespace graycube {
@@ -12,9 +11,6 @@ namespace {
 
 /// Longest excerpt of the text in a message.
 constexpr std::size_t kMaxExcerpt = 40;
-/// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
-constexpr std::size_t kBytesPerValue = 7;
-constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
 
 /// RFC 6901: "~" is written ~0 and "/" ~1.
 void append_token(std::string& pointer, std::string_view token) {
@@ -30,12 +26,6 @@ void append_token(std::string& pointer, std::string_view token) {
 }
 
 }  // namespace
-
-JsonTree::JsonTree(std::string_view text) : text_(text) {
-  // Growing by doubling would touch three times the memory, and first touches are half the time.
-  values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
-  JsonParser(text, *this).parse();
-}
 
 double JsonTree::number(JsonIndex i) const { return std::bit_cast<double>(values_[i].payload); }
 

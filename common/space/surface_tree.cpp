@@ -193,8 +193,8 @@ class SurfaceTreeBuilder {
     for (std::size_t g = 0; g < WideNode::kWidth; ++g) {
       const bool used = g < groups.size();
       for (std::size_t a = 0; a < 3; ++a) {
-        node.lo[a][g] = used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
-        node.hi[a][g] = used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
+        node.planes[0][a][g] = used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
+        node.planes[1][a][g] = used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
       }
       if (!used) continue;
       if (groups[g].items.size() == 1) {

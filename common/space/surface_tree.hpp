@@ -19,7 +19,8 @@ struct alignas(64) WideNode {
   static constexpr std::size_t kWidth = 8;
   static constexpr std::uint32_t kItemFlag = 0x80000000u;
 
-  std::array<std::array<float, kWidth>, 3> lo{}, hi{};
+  /// [0]: lower, [1]: upper sides, by axis.
+  std::array<std::array<std::array<float, kWidth>, 3>, 2> planes{};
   /// Inner: index of a node; with kItemFlag: of an item.
   std::array<std::uint32_t, kWidth> child{};
 };
@@ -34,8 +35,8 @@ struct TreeScratch {
   std::vector<Mailbox::Event> events;
   std::vector<std::uint64_t> flags_before, flags_after;
   WalkCounts counts;
-  /// The item that ended the last shadow ray towards each light; tried first.
-  std::vector<std::uint32_t> last_occluder;
+  /// The item that ended the last shadow ray in each octant of directions; tried first.
+  std::array<std::uint32_t, 8> last_occluder{};
 };
 
 /// Immutable once built; shared by all evaluator threads. The model must outlive it.
@@ -43,7 +44,8 @@ class SurfaceTree {
  public:
   static SurfaceTree build(const Model& model, const SurfaceTreeOptions& options = {});
 
-  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
+  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. 0 ≤ t0, here and
+  /// below: the slack with which boxes are tested is relative.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
                                          TreeScratch& scratch) const;
   /// Lets a shadow ray's light through the surfaces crossed in [t0, t1): multiplies `light` by each
@@ -139,7 +141,8 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
     // The first literal whose own membership changes at t.
     for (std::size_t i = 0; i < literals.size(); ++i) {
       const csg::Interval& own = intervals[i];
-      if ((own.enter == t) != (own.leave == t)) {
+      // An empty interval may have ends, the wrong way round; they change nothing.
+      if (own.enter < own.leave && (own.enter == t || own.leave == t)) {
         c.primitive = literals[i].primitive;
         break;
       }

@@ -20,23 +20,26 @@ constexpr float kSlack = 1e-6f;
 constexpr float kFlattest = 1e-30f;
 constexpr std::size_t kMaxStack = 512;
 
-/// A ray in floats, made so that no box which the exact ray meets is missed.
+/// A ray in floats, made so that no box which the exact ray meets is missed: distances are taken from a
+/// little before the origin to the near planes, from a little behind it to the far ones, and the
+/// reciprocals carry the slack.
 struct CullingRay {
   explicit CullingRay(const Ray& ray) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const double o = ray.origin[static_cast<int>(a)];
-      const auto f = static_cast<float>(o);
+      const auto f = static_cast<float>(ray.origin[static_cast<int>(a)]);
       const float error = std::fabs(f) * 1.2e-7f + 1e-37f;
       auto d = static_cast<float>(ray.direction[static_cast<int>(a)]);
       if (std::fabs(d) < kFlattest) d = std::signbit(d) ? -kFlattest : kFlattest;
-      inverse[a] = 1 / d;
-      backward[a] = d < 0;
-      above[a] = f + error;
-      below[a] = f - error;
+      near_side[a] = d < 0 ? 1 : 0;
+      near_inverse[a] = (1 - kSlack) / d;
+      far_inverse[a] = (1 + kSlack) / d;
+      near_origin[a] = d < 0 ? f - error : f + error;
+      far_origin[a] = d < 0 ? f + error : f - error;
     }
   }
-  std::array<float, 3> inverse, above, below;
-  std::array<bool, 3> backward;
+  std::array<float, 3> near_inverse, far_inverse, near_origin, far_origin;
+  /// Index into WideNode::planes of the side that the ray meets first.
+  std::array<std::size_t, 3> near_side;
 };
 
 struct StackEntry {
@@ -54,13 +57,14 @@ HWY_INLINE std::uint32_t meet(const WideNode& node, const CullingRay& ray, float
     auto from = hn::Set(d, t0);
     auto to = hn::Set(d, t1);
     for (std::size_t a = 0; a < 3; ++a) {
-      const auto inverse = hn::Set(d, ray.inverse[a]);
-      const auto lo = hn::Sub(hn::Load(d, node.lo[a].data() + i), hn::Set(d, ray.above[a]));
-      const auto hi = hn::Sub(hn::Load(d, node.hi[a].data() + i), hn::Set(d, ray.below[a]));
-      const auto enter = hn::Mul(ray.backward[a] ? hi : lo, inverse);
-      const auto leave = hn::Mul(ray.backward[a] ? lo : hi, inverse);
-      from = hn::Max(from, hn::Mul(enter, hn::Set(d, 1 - kSlack)));
-      to = hn::Min(to, hn::Mul(leave, hn::Set(d, 1 + kSlack)));
+      const auto near_plane = hn::Load(d, node.planes[ray.near_side[a]][a].data() + i);
+      const auto far_plane = hn::Load(d, node.planes[1 - ray.near_side[a]][a].data() + i);
+      const auto enter = hn::Mul(hn::Sub(near_plane, hn::Set(d, ray.near_origin[a])),
+                                 hn::Set(d, ray.near_inverse[a]));
+      const auto leave = hn::Mul(hn::Sub(far_plane, hn::Set(d, ray.far_origin[a])),
+                                 hn::Set(d, ray.far_inverse[a]));
+      from = hn::Max(from, enter);
+      to = hn::Min(to, leave);
     }
     hn::StoreU(from, d, near + i);
     std::uint8_t bits[8] = {};
@@ -138,6 +142,10 @@ bool FirstCrossing(const SurfaceTree& tree, const Ray& ray, double t0, double t1
   return any;
 }
 
+std::size_t octant(const Vec3& d) {
+  return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
+}
+
 bool PassLight(const SurfaceTree& tree, const Ray& ray, double t0, double t1, TreeScratch& scratch,
                Rgb& light) {
   struct Pane {
@@ -155,9 +163,17 @@ bool PassLight(const SurfaceTree& tree, const Ray& ray, double t0, double t1, Tr
           return transmit > 0;
         });
   };
+  // Neighbouring rays towards one light mostly end on the same object.
+  std::uint32_t& last = scratch.last_occluder[octant(ray.direction)];
+  if (last < tree.items().size() && crosses_opaque(last)) return false;
+  panes.clear();
   const bool arrives =
       each_item(tree, ray, t0, [&] { return t1; }, scratch,
-                [&](std::uint32_t index) { return !crosses_opaque(index); });
+                [&](std::uint32_t index) {
+                  if (!crosses_opaque(index)) return true;
+                  last = index;
+                  return false;
+                });
   if (!arrives) return false;
   std::sort(panes.begin(), panes.end(), [](const Pane& a, const Pane& b) {
     return a.t != b.t ? a.t < b.t : a.object < b.object;

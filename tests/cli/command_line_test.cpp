@@ -18,11 +18,12 @@ std::string refused(const std::vector<const char*>& arguments) {
 }
 
 TEST_CASE("every option of render arrives") {
-  const auto c = std::get<RenderCommand>(
-      parsed({"render", "a.json", "-o", "b.exr", "--png", "c.png", "--stats", "d.json", "-n", "16",
-              "--threads", "3", "--algorithm", "macro", "--grain", "line", "--shadows", "forward",
-              "--partition", "regular", "--scatter", "1", "--flow", "credit", "--size", "64x32",
-              "--samples", "2", "--max-depth", "7", "--timeout", "2.5", "--quiet"}));
+  const auto c = std::get<RenderCommand>(parsed(
+      {"render",      "a.json", "-o",        "b.exr",     "--png",       "c.png",       "--stats",
+       "d.json",      "-n",     "16",        "--threads", "3",           "--algorithm", "macro",
+       "--grain",     "line",   "--shadows", "forward",   "--partition", "regular",     "--scatter",
+       "1",           "--flow", "credit",    "--size",    "64x32",       "--samples",   "2",
+       "--max-depth", "7",      "--timeout", "2.5",       "--quiet"}));
   CHECK(c.scene == "a.json");
   CHECK(c.outputs.exr == "b.exr");
   CHECK(c.outputs.png == "c.png");
@@ -92,20 +93,20 @@ TEST_CASE("a mistyped command or option is guessed") {
 }
 
 TEST_CASE("a command line that means nothing is refused in one line") {
-  for (const auto& arguments : std::vector<std::vector<const char*>>{
-           {},
-           {"render"},
-           {"render", "a.json", "b.json"},
-           {"render", "a.json", "-n"},
-           {"render", "a.json", "-n", "4", "-n", "8"},
-           {"render", "a.json", "-n", "3"},
-           {"render", "a.json", "--threads", "0"},
-           {"render", "a.json", "--threads", "1025"},
-           {"render", "a.json", "--wait"},
-           {"up", "a.json"},
-           {"up", "--http", "localhost:80"},
-           {"convert", "a.json"},
-           {"--frobnicate"}}) {
+  for (const auto& arguments :
+       std::vector<std::vector<const char*>>{{},
+                                             {"render"},
+                                             {"render", "a.json", "b.json"},
+                                             {"render", "a.json", "-n"},
+                                             {"render", "a.json", "-n", "4", "-n", "8"},
+                                             {"render", "a.json", "-n", "3"},
+                                             {"render", "a.json", "--threads", "0"},
+                                             {"render", "a.json", "--threads", "1025"},
+                                             {"render", "a.json", "--wait"},
+                                             {"up", "a.json"},
+                                             {"up", "--http", "localhost:80"},
+                                             {"convert", "a.json"},
+                                             {"--frobnicate"}}) {
     const std::string line = refused(arguments);
     CHECK(line.starts_with("graycube: usage: "));
     CHECK(line.find('\n') == std::string::npos);

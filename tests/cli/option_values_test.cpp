@@ -39,21 +39,24 @@ TEST_CASE("counts are whole numbers within their limits") {
 TEST_CASE("a size is two numbers of pixels around an x") {
   CHECK(parse_size("--size", "640x480") == PictureSize{640, 480});
   CHECK(parse_size("--size", "1x16384") == PictureSize{1, 16384});
-  for (const char* bad : {"640", "640x", "x480", "640X480", "640x480x1", "0x5", "5x16385",
-                          "-1x5", "640 x 480", "axb", ""}) {
-    CHECK(refusal([&] { parse_size("--size", bad); })
-              .starts_with("graycube: usage: --size: expected WIDTHxHEIGHT"));
+  for (const char* bad : {"640", "640x", "x480", "640X480", "640x480x1", "0x5", "5x16385", "-1x5",
+                          "640 x 480", "axb", ""}) {
+    CHECK(refusal([&] {
+            parse_size("--size", bad);
+          }).starts_with("graycube: usage: --size: expected WIDTHxHEIGHT"));
   }
-  CHECK(refusal([] { parse_size("--size", "16384x16384"); })
-            .starts_with("graycube: usage: --size: expected at most 67108864 pixels"));
+  CHECK(refusal([] {
+          parse_size("--size", "16384x16384");
+        }).starts_with("graycube: usage: --size: expected at most 67108864 pixels"));
 }
 
 TEST_CASE("a time limit is a positive number of seconds") {
   CHECK(parse_seconds("--timeout", "90") == 90);
   CHECK(parse_seconds("--timeout", "0.25") == 0.25);
   for (const char* bad : {"0", "-1", "nan", "inf", "1e99", "5s", ""}) {
-    CHECK(refusal([&] { parse_seconds("--timeout", bad); })
-              .starts_with("graycube: usage: --timeout: expected a number of seconds above 0"));
+    CHECK(refusal([&] {
+            parse_seconds("--timeout", bad);
+          }).starts_with("graycube: usage: --timeout: expected a number of seconds above 0"));
   }
 }
 
@@ -68,8 +71,9 @@ TEST_CASE("names are read as written, and a misspelt one is guessed") {
   CHECK(refusal([] { parse_algorithm("--algorithm", "marco"); }) ==
         "graycube: usage: --algorithm: expected auto, serial, roth or macro, found \"marco\"; "
         "did you mean \"macro\"?");
-  CHECK(refusal([] { parse_grain("--grain", "Tile"); })
-            .starts_with("graycube: usage: --grain: expected pixel, line or tile"));
+  CHECK(refusal([] {
+          parse_grain("--grain", "Tile");
+        }).starts_with("graycube: usage: --grain: expected pixel, line or tile"));
 }
 
 TEST_CASE("what is not built yet says so, instead of rendering something else") {

@@ -66,7 +66,8 @@ TEST_CASE("the bar is half full at half time, and never as wide as the terminal"
   }
 }
 
-TEST_CASE("where no terminal is, a line comes for each change of state or round, not for each tile") {
+TEST_CASE(
+    "where no terminal is, a line comes for each change of state or round, not for each tile") {
   std::vector<control::Progress> steps(1);
   for (std::uint32_t tile = 0; tile <= 64; ++tile) {
     auto p = halfway();

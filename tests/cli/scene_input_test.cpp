@@ -55,17 +55,22 @@ TEST_CASE("every error of a scene has the file and the place") {
 TEST_CASE("an OpenSCAD tree's errors have the file and the line") {
   const TemporaryFolder folder;
   const auto path = write_file(folder / "bad.csg", "group() {\n  spere(r = 3);\n}\n");
-  CHECK(refusal([&] { read_scene_input(path); })
-            .starts_with("graycube: scene: " + path.string() + ":2: "));
+  CHECK(refusal([&] {
+          read_scene_input(path);
+        }).starts_with("graycube: scene: " + path.string() + ":2: "));
 }
 
 TEST_CASE("what is no scene file is told apart") {
   const TemporaryFolder folder;
-  CHECK(refusal([&] { read_scene_input(folder / "none.json"); }).ends_with("No such file or directory"));
-  CHECK(refusal([&] { read_scene_input(folder.path()); })
-            .ends_with("expected a name ending in .json or .csg"));
-  CHECK(refusal([&] { read_scene_input(write_file(folder / "a.scad", "")); })
-            .ends_with("openscad -o MODEL.csg MODEL.scad"));
+  CHECK(refusal([&] {
+          read_scene_input(folder / "none.json");
+        }).ends_with("No such file or directory"));
+  CHECK(refusal([&] {
+          read_scene_input(folder.path());
+        }).ends_with("expected a name ending in .json or .csg"));
+  CHECK(refusal([&] {
+          read_scene_input(write_file(folder / "a.scad", ""));
+        }).ends_with("openscad -o MODEL.csg MODEL.scad"));
   std::filesystem::create_directory(folder / "folder.json");
   CHECK(refusal([&] { read_scene_input(folder / "folder.json"); }).ends_with("is a folder"));
 }
@@ -78,12 +83,14 @@ TEST_CASE("what only serial can render is refused before a farm is asked") {
   settings.lights.resize(kMaxCreditLights);
   CHECK_NOTHROW(check_farm_limits(input, settings));
   settings.max_depth += 1;
-  CHECK(refusal([&] { check_farm_limits(input, settings); })
-            .starts_with("graycube: scene: deep.json:/max_depth: only --algorithm serial"));
+  CHECK(refusal([&] {
+          check_farm_limits(input, settings);
+        }).starts_with("graycube: scene: deep.json:/max_depth: only --algorithm serial"));
   settings.max_depth = 1;
   settings.lights.emplace_back();
-  CHECK(refusal([&] { check_farm_limits(input, settings); })
-            .starts_with("graycube: scene: deep.json:/lights: only --algorithm serial"));
+  CHECK(refusal([&] {
+          check_farm_limits(input, settings);
+        }).starts_with("graycube: scene: deep.json:/lights: only --algorithm serial"));
 }
 
 }  // namespace

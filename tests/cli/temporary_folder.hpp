@@ -32,7 +32,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline std::filesystem::path write_file(const std::filesystem::path& path, const std::string& text) {
+inline std::filesystem::path write_file(const std::filesystem::path& path,
+                                        const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }

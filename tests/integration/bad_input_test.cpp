@@ -21,7 +21,8 @@ constexpr const char* kGood = R"({
   ]
 })";
 
-/// The good scene with a piece of it replaced, and what its one error must be: where, and words of why.
+/// The good scene with a piece of it replaced, and what its one error must be: where, and words of
+/// why.
 struct Mistake {
   const char* name;
   std::string from, to;
@@ -31,18 +32,20 @@ struct Mistake {
 
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> list{
-      {"negative radius", "\"radius\": 1}", "\"radius\": -1}", ":/objects/0/csg/radius", "found -1"},
+      {"negative radius", "\"radius\": 1}", "\"radius\": -1}", ":/objects/0/csg/radius",
+       "found -1"},
       {"missing radius", ", \"radius\": 1}", "}", ":/objects/0/csg", "radius"},
       {"text for a number", "\"radius\": 1}", "\"radius\": \"1\"}", ":/objects/0/csg/radius",
        "number"},
-      {"short vector", "[0,0,0], \"radius\": 1}", "[0,0], \"radius\": 1}",
-       ":/objects/0/csg/center", ""},
+      {"short vector", "[0,0,0], \"radius\": 1}", "[0,0], \"radius\": 1}", ":/objects/0/csg/center",
+       ""},
       {"unknown shape type", "\"sphere\"", "\"spere\"", ":/objects/0/csg/type", "sphere"},
       {"unknown key", "\"radius\": 1}", "\"radius\": 1, \"radios\": 2}", ":/objects/0/csg/radios",
        "radius"},
-      {"unknown material", "\"ball\", \"material\": \"brass\"",
-       "\"ball\", \"material\": \"bras\"", ":/objects/0/material", "brass"},
-      {"no material", "\"ball\", \"material\": \"brass\"", "\"ball\"", ":/objects/0/csg", "material"},
+      {"unknown material", "\"ball\", \"material\": \"brass\"", "\"ball\", \"material\": \"bras\"",
+       ":/objects/0/material", "brass"},
+      {"no material", "\"ball\", \"material\": \"brass\"", "\"ball\"", ":/objects/0/csg",
+       "material"},
       {"reference to nothing", "\"shape\": \"bolt\"", "\"shape\": \"nut\"", ":/objects/1/csg/shape",
        "nut"},
       {"cycle of references",
@@ -102,8 +105,7 @@ TEST_CASE("the scene that the mistakes are made in is a good one") {
   const Outcome o = sandbox.run({"check", "s.json"});
   CHECK(o.status == 0);
   CHECK(o.err.empty());
-  CHECK(o.out ==
-        "s.json: fine: 2 objects, 2 primitives, 1 material, 1 light; picture 32 x 24\n");
+  CHECK(o.out == "s.json: fine: 2 objects, 2 primitives, 1 material, 1 light; picture 32 x 24\n");
   CHECK(sandbox.run({"render", "s.json", "-q"}).status == 0);
 }
 
@@ -158,45 +160,45 @@ TEST_CASE("files that are no scenes are refused") {
 TEST_CASE("bad usage is refused in one line") {
   Sandbox sandbox;
   sandbox.write("s.json", kGood);
-  for (const Arguments& arguments : std::vector<Arguments>{
-           {},
-           {"paint", "s.json"},
-           {"render"},
-           {"render", "s.json", "-n", "3"},
-           {"render", "s.json", "-n", "0"},
-           {"render", "s.json", "-n", "2048"},
-           {"render", "s.json", "-n", "many"},
-           {"render", "s.json", "--threads", "0"},
-           {"render", "s.json", "--size", "0x5"},
-           {"render", "s.json", "--size", "99999x99999"},
-           {"render", "s.json", "--samples", "65"},
-           {"render", "s.json", "--max-depth", "1001"},
-           {"render", "s.json", "--max-depth", "121", "--algorithm", "roth"},
-           {"render", "s.json", "--timeout", "0"},
-           {"render", "s.json", "--algorithm", "magic"},
-           {"render", "s.json", "--grain", "grain"},
-           {"render", "s.json", "--shadows", "horizon"},
-           {"render", "s.json", "--partition", "balanced"},
-           {"render", "s.json", "--scatter", "4"},
-           {"render", "s.json", "--flow", "blocking"},
-           {"render", "s.json", "-o", "none/out.exr"},
-           {"render", "s.json", "-o", "s.json"},
-           {"render", "s.json", "-o", "a.exr", "--stats", "a.exr"},
-           {"render", "s.json", "--pgn", "a.png"},
-           {"render", "s.json", "t.json"},
-           {"submit", "s.json", "-o", "a.exr"},
-           {"submit", "s.json", "--algorithm", "serial"},
-           {"status"},
-           {"status", "one"},
-           {"fetch", "1"},
-           {"jobs", "--connect", "tcp://198.51.100.1:80"},
-           {"jobs", "--connect", "somewhere"},
-           {"up", "--listen", "tcp://0.0.0.0:5555"},
-           {"up", "--http", "127.0.0.1:8080"},
-           {"compare", "s.json"},
-           {"convert", "s.json", "s.stl"},
-           {"convert", "s.json", "s.json"},
-           {"convert", "s.json"}}) {
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{},
+                              {"paint", "s.json"},
+                              {"render"},
+                              {"render", "s.json", "-n", "3"},
+                              {"render", "s.json", "-n", "0"},
+                              {"render", "s.json", "-n", "2048"},
+                              {"render", "s.json", "-n", "many"},
+                              {"render", "s.json", "--threads", "0"},
+                              {"render", "s.json", "--size", "0x5"},
+                              {"render", "s.json", "--size", "99999x99999"},
+                              {"render", "s.json", "--samples", "65"},
+                              {"render", "s.json", "--max-depth", "1001"},
+                              {"render", "s.json", "--max-depth", "121", "--algorithm", "roth"},
+                              {"render", "s.json", "--timeout", "0"},
+                              {"render", "s.json", "--algorithm", "magic"},
+                              {"render", "s.json", "--grain", "grain"},
+                              {"render", "s.json", "--shadows", "horizon"},
+                              {"render", "s.json", "--partition", "balanced"},
+                              {"render", "s.json", "--scatter", "4"},
+                              {"render", "s.json", "--flow", "blocking"},
+                              {"render", "s.json", "-o", "none/out.exr"},
+                              {"render", "s.json", "-o", "s.json"},
+                              {"render", "s.json", "-o", "a.exr", "--stats", "a.exr"},
+                              {"render", "s.json", "--pgn", "a.png"},
+                              {"render", "s.json", "t.json"},
+                              {"submit", "s.json", "-o", "a.exr"},
+                              {"submit", "s.json", "--algorithm", "serial"},
+                              {"status"},
+                              {"status", "one"},
+                              {"fetch", "1"},
+                              {"jobs", "--connect", "tcp://198.51.100.1:80"},
+                              {"jobs", "--connect", "somewhere"},
+                              {"up", "--listen", "tcp://0.0.0.0:5555"},
+                              {"up", "--http", "127.0.0.1:8080"},
+                              {"compare", "s.json"},
+                              {"convert", "s.json", "s.stl"},
+                              {"convert", "s.json", "s.json"},
+                              {"convert", "s.json"}}) {
     const Outcome o = sandbox.run(arguments);
     std::string name;
     for (const std::string& a : arguments) name += a + " ";
@@ -220,8 +222,10 @@ TEST_CASE("a folder that can't be written to is noticed before the render") {
 TEST_CASE("commands without a farm say so within seconds") {
   Sandbox sandbox;
   sandbox.write("s.json", kGood);
-  for (const Arguments& arguments :
-       std::vector<Arguments>{{"submit", "s.json"}, {"down"}, {"nodes", "--connect", "ipc://" + (sandbox / "no-socket").string()}}) {
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"submit", "s.json"},
+           {"down"},
+           {"nodes", "--connect", "ipc://" + (sandbox / "no-socket").string()}}) {
     const Outcome o = sandbox.run(arguments);
     INFO(o.err);
     CHECK(o.status == 1);

@@ -79,8 +79,7 @@ TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, dow
   REQUIRE(lines_of(nodes).size() == 5);
   CHECK(lines_of(ok(sandbox, {"jobs"})).size() == 1);
 
-  const std::string small =
-      submit(sandbox, {first(), "--size", "64x48", "--algorithm", "macro"});
+  const std::string small = submit(sandbox, {first(), "--size", "64x48", "--algorithm", "macro"});
   const std::string watched = ok(sandbox, {"watch", small});
   CHECK(lines_of(watched).back().starts_with("done: first.json, macro on 4 nodes, "));
   CHECK(ok(sandbox, {"status", small}).find("state: done\n") != std::string::npos);
@@ -88,8 +87,9 @@ TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, dow
   CHECK(sandbox.json("a.json")["algorithm"] == "macro");
   CHECK(sandbox.json("a.json")["token"]["rounds"] ==
         nlohmann::json::parse(ok(sandbox, {"status", small, "--json"}))["rounds"]);
-  REQUIRE(sandbox.run({"render", first(), "--algorithm", "serial", "--size", "64x48", "-q"}).status ==
-          0);
+  REQUIRE(
+      sandbox.run({"render", first(), "--algorithm", "serial", "--size", "64x48", "-q"}).status ==
+      0);
   CHECK((file_bytes(sandbox / "a.exr") == file_bytes(sandbox / "first.exr")));
 
   const std::string running =
@@ -148,8 +148,8 @@ TEST_CASE("a killed node fails the running job by name, and the next job works")
   ::kill(killed, SIGKILL);
   const Outcome o = submitted.wait(20s);
   CHECK(o.status == 1);
-  CHECK(lines_of(o.err).back() == "graycube: render: node 2 (process " + std::to_string(killed) +
-                                      "): killed by signal 9");
+  CHECK(lines_of(o.err).back() ==
+        "graycube: render: node 2 (process " + std::to_string(killed) + "): killed by signal 9");
   CHECK(ok(sandbox, {"jobs"}).find("node 2 (process") != std::string::npos);
   CHECK(sandbox.files().empty());
 
@@ -164,8 +164,8 @@ TEST_CASE("a killed node fails the running job by name, and the next job works")
 
 TEST_CASE("a render whose node is killed says which, and leaves nothing") {
   Sandbox sandbox;
-  Running running = sandbox.start(
-      {"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
+  Running running =
+      sandbox.start({"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
   running.wait_for("rendering");
   for (const std::string& process : sandbox.processes()) {
     if (process.find("graycube-node") == std::string::npos) continue;
@@ -184,8 +184,8 @@ TEST_CASE("a render whose node is killed says which, and leaves nothing") {
 
 TEST_CASE("a frontal that is killed is missed, and cleared away") {
   Sandbox sandbox;
-  Running running = sandbox.start(
-      {"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
+  Running running =
+      sandbox.start({"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
   running.wait_for("rendering");
   for (const std::string& process : sandbox.processes()) {
     if (process.find("graycube-frontal") != std::string::npos) ::kill(std::stoi(process), SIGKILL);
@@ -225,7 +225,8 @@ TEST_CASE("a second farm at the same place is refused, and a dead one's socket i
     CHECK(second.err.find("a farm is running there already") != std::string::npos);
     CHECK(lines_of(ok(sandbox, {"nodes"})).size() == 5);
     for (const std::string& process : sandbox.processes()) {
-      if (process.find("graycube-frontal") != std::string::npos) ::kill(std::stoi(process), SIGKILL);
+      if (process.find("graycube-frontal") != std::string::npos)
+        ::kill(std::stoi(process), SIGKILL);
     }
     CHECK(farm.up().wait(10s).status == 1);
   }

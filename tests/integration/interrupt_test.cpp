@@ -24,8 +24,10 @@ void check_gone(const Sandbox& sandbox, std::chrono::milliseconds limit) {
 /// One render with a signal after a while. The command has put everything away when it ends.
 void interrupt_render(const Arguments& how, int signal, std::chrono::milliseconds after) {
   Sandbox sandbox;
-  Arguments arguments{"render", scene_file("mirrors.json").string(), "-o", "out.exr",
-                      "--png",  "out.png", "--stats", "out.json"};
+  Arguments arguments{"render",  scene_file("mirrors.json").string(),
+                      "-o",      "out.exr",
+                      "--png",   "out.png",
+                      "--stats", "out.json"};
   arguments.insert(arguments.end(), how.begin(), how.end());
   Running running = sandbox.start(arguments);
   std::this_thread::sleep_for(after);
@@ -39,7 +41,8 @@ void interrupt_render(const Arguments& how, int signal, std::chrono::millisecond
     return;
   }
   CHECK(sandbox.files().empty());
-  if (o.status == 128 + signal) return;  // before it could take notice, so before anything was there
+  if (o.status == 128 + signal)
+    return;  // before it could take notice, so before anything was there
   CHECK(o.status == 1);
   CHECK(lines_of(o.err).size() == 1);
   CHECK(o.err.starts_with("graycube: render: SIG"));

@@ -45,8 +45,8 @@ TEST_CASE("OpenSCAD's own examples are rendered on 8 nodes") {
   }
   Sandbox sandbox;
   for (const char* name : {"Basics/CSG.scad", "Old/example001.scad", "Old/example005.scad"}) {
-    const Outcome o =
-        sandbox.run_program(*openscad, {"-o", (sandbox / "m.csg").string(), (examples / name).string()});
+    const Outcome o = sandbox.run_program(
+        *openscad, {"-o", (sandbox / "m.csg").string(), (examples / name).string()});
     INFO(name << ": " << o.err);
     REQUIRE(o.status == 0);
     check_model(sandbox, sandbox / "m.csg");

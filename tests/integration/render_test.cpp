@@ -10,7 +10,8 @@ namespace {
 using Json = nlohmann::json;
 
 Json render_stats(Sandbox& sandbox, const std::string& scene, Arguments options) {
-  options.insert(options.begin(), {"render", scene_file(scene).string(), "--stats", "s.json", "-q"});
+  options.insert(options.begin(),
+                 {"render", scene_file(scene).string(), "--stats", "s.json", "-q"});
   const Outcome o = sandbox.run(options);
   INFO(o.err);
   REQUIRE(o.status == 0);
@@ -19,9 +20,8 @@ Json render_stats(Sandbox& sandbox, const std::string& scene, Arguments options)
 
 TEST_CASE("the first scene is rendered on 8 nodes in seconds, and says how") {
   Sandbox sandbox;
-  const Outcome o =
-      sandbox.run({"render", scene_file("first.json").string(), "-n", "8", "--algorithm", "macro",
-                   "--png", "a.png", "--stats", "a.json"});
+  const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-n", "8",
+                                 "--algorithm", "macro", "--png", "a.png", "--stats", "a.json"});
   INFO(o.out << o.err);
   REQUIRE(o.status == 0);
   CHECK(o.err.empty());
@@ -131,8 +131,8 @@ TEST_CASE("a render's time limit ends it with status 1, and nothing stays") {
 
 TEST_CASE("a time limit that suffices changes nothing") {
   Sandbox sandbox;
-  const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "--size", "32x32",
-                                 "--timeout", "50", "-q"});
+  const Outcome o = sandbox.run(
+      {"render", scene_file("first.json").string(), "--size", "32x32", "--timeout", "50", "-q"});
   CHECK(o.status == 0);
   CHECK(o.out.empty());
   CHECK(o.err.empty());
@@ -140,8 +140,9 @@ TEST_CASE("a time limit that suffices changes nothing") {
 
 TEST_CASE("overrides decide size, samples and depth") {
   Sandbox sandbox;
-  const Json s = render_stats(sandbox, "mirrors.json", {"--algorithm", "roth", "--size", "40x24",
-                                                        "--samples", "2", "--max-depth", "0"});
+  const Json s = render_stats(
+      sandbox, "mirrors.json",
+      {"--algorithm", "roth", "--size", "40x24", "--samples", "2", "--max-depth", "0"});
   CHECK(s["image"] == Json{{"width", 40}, {"height", 24}, {"samples", 2}});
   CHECK(s["rays"]["primary"] == 40 * 24 * 4);
   CHECK(s["rays"]["reflection"] == 0);
@@ -150,8 +151,9 @@ TEST_CASE("overrides decide size, samples and depth") {
 TEST_CASE("a picture becomes a PNG by conversion just as by rendering") {
   Sandbox sandbox;
   for (const char* name : {"a.png", "a.linear.png"}) {
-    REQUIRE(sandbox.run({"render", scene_file("first.json").string(), "--size", "48x32", "-o",
-                         "a.exr", "--png", name, "-q"})
+    REQUIRE(sandbox
+                .run({"render", scene_file("first.json").string(), "--size", "48x32", "-o", "a.exr",
+                      "--png", name, "-q"})
                 .status == 0);
     const std::string other = std::string("b") + (name + 1);
     REQUIRE(sandbox.run({"convert", "a.exr", other}).status == 0);
@@ -163,10 +165,11 @@ TEST_CASE("a picture becomes a PNG by conversion just as by rendering") {
 TEST_CASE("a scene converted to a scene gives the same picture") {
   Sandbox sandbox;
   REQUIRE(sandbox.run({"convert", scene_file("mirrors.json").string(), "m.json"}).status == 0);
-  for (const auto& [scene, out] : {std::pair{scene_file("mirrors.json"), "a.exr"},
-                                   {sandbox / "m.json", "b.exr"}}) {
-    REQUIRE(sandbox.run({"render", scene.string(), "--algorithm", "serial", "--size", "64x64", "-o",
-                         out, "-q"})
+  for (const auto& [scene, out] :
+       {std::pair{scene_file("mirrors.json"), "a.exr"}, {sandbox / "m.json", "b.exr"}}) {
+    REQUIRE(sandbox
+                .run({"render", scene.string(), "--algorithm", "serial", "--size", "64x64", "-o",
+                      out, "-q"})
                 .status == 0);
   }
   // The header names the scene, so the files differ there.

@@ -131,8 +131,8 @@ Sandbox::Sandbox() {
   std::string pattern = (fs::temp_directory_path() / "gc-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
   root_ = pattern;
-  for (auto [member, name] : {std::pair{&work_, "w"}, {&temporary_, "t"}, {&runtime_, "r"},
-                              {&logs_, "l"}}) {
+  for (auto [member, name] :
+       {std::pair{&work_, "w"}, {&temporary_, "t"}, {&runtime_, "r"}, {&logs_, "l"}}) {
     *member = root_ / name;
     fs::create_directory(*member);
   }
@@ -199,7 +199,8 @@ Running Sandbox::start_program(const std::string& path, const Arguments& argumen
     ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
-    if (::chdir(work_.c_str()) == 0) ::execve(path.c_str(), argv_pointers.data(), environment.data());
+    if (::chdir(work_.c_str()) == 0)
+      ::execve(path.c_str(), argv_pointers.data(), environment.data());
     ::_exit(127);
   }
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
@@ -218,7 +219,8 @@ std::vector<std::string> Sandbox::processes() const {
       continue;
     }
     const std::string environment = file_bytes(entry.path() / "environ");
-    if ((std::string(1, '\0') + environment).find('\0' + mark + '\0') == std::string::npos) continue;
+    if ((std::string(1, '\0') + environment).find('\0' + mark + '\0') == std::string::npos)
+      continue;
     std::string command = file_bytes(entry.path() / "cmdline");
     std::replace(command.begin(), command.end(), '\0', ' ');
     found.push_back(name + " " + command);

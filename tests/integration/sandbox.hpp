@@ -1,4 +1,5 @@
-// Real processes, in folders of their own: run a command, look at what it says, at what it leaves behind.
+// Real processes, in folders of their own: run a command, look at what it says, at what it leaves
+// behind.
 #pragma once
 
 #include <sys/types.h>
@@ -63,8 +64,8 @@ class Running {
   std::chrono::steady_clock::time_point started_{};
 };
 
-/// Folders for a test's files, temporary files and sockets, and a mark in the environment of all processes
-/// started in it, by which they are found again.
+/// Folders for a test's files, temporary files and sockets, and a mark in the environment of all
+/// processes started in it, by which they are found again.
 class Sandbox {
  public:
   Sandbox();

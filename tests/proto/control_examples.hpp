@@ -78,7 +78,6 @@ inline std::vector<ControlMessage> example_messages() {
       TokenRound{9, 1, 3, 24, true, -5},
       Terminated{9, 1, 4, 32, 1000},
       NodeReport{9, 1, example_stats()},
-      NodeProgress{9, 12345},
       Pong{18446744073709551615ull},
       NodeError{0, "out of memory"},
       Goodbye{},

@@ -67,7 +67,7 @@ void for_random_bsps(std::uint64_t seeds, const Check& check) {
 }  // namespace
 
 TEST_CASE("every point lies in the cell of the region that the planes lead to") {
-  for_random_bsps(150, [](const Bsp& bsp, Dice& dice) {
+  for_random_bsps(300, [](const Bsp& bsp, Dice& dice) {
     for (int i = 0; i < 100; ++i) {
       const Vec3 p = dice.one_in(4) ? dice.grid_point(4) : std::pow(10, dice.between(-1, 4)) * dice.unit_vector();
       REQUIRE(leaf_of(bsp, p).cell.contains(p));
@@ -75,8 +75,8 @@ TEST_CASE("every point lies in the cell of the region that the planes lead to") 
   });
 }
 
-TEST_CASE("the cells of an inner node's leaf regions touch, and none overlaps another") {
-  for_random_bsps(40, [](const Bsp& bsp, Dice& dice) {
+TEST_CASE("no two regions overlap") {
+  for_random_bsps(100, [](const Bsp& bsp, Dice& dice) {
     for (int i = 0; i < 60; ++i) {
       const Vec3 p = dice.point(4);  // almost surely on no plane
       int holding = 0;
@@ -88,10 +88,9 @@ TEST_CASE("the cells of an inner node's leaf regions touch, and none overlaps an
 
 TEST_CASE("in its region a program has the membership of the whole object") {
   std::size_t programs = 0, constant = 0;
-  for_random_bsps(120, [&](const Bsp& bsp, Dice& dice) {
+  for_random_bsps(400, [&](const Bsp& bsp, Dice& dice) {
     const WholeTrees trees(bsp.model());
     for (const BspLeaf& leaf : bsp.leaves()) {
-      if (!dice.one_in(3)) continue;
       for (std::uint32_t o = 0; o < trees.object_count(); ++o) {
         const CellProgram* program = nullptr;
         for (std::uint32_t i = 0; i < leaf.program_count; ++i) {
@@ -110,12 +109,12 @@ TEST_CASE("in its region a program has the membership of the whole object") {
       }
     }
   });
-  CHECK(programs > 2000);
-  CHECK(constant > 2000);
+  CHECK(programs > 10000);
+  CHECK(constant > 10000);
 }
 
 TEST_CASE("programs are ordered by object and say what they hold") {
-  for_random_bsps(80, [](const Bsp& bsp, Dice&) {
+  for_random_bsps(300, [](const Bsp& bsp, Dice&) {
     for (const BspLeaf& leaf : bsp.leaves()) {
       for (std::uint32_t i = 0; i < leaf.program_count; ++i) {
         const CellProgram& program = bsp.programs()[leaf.first_program + i];
@@ -136,7 +135,7 @@ TEST_CASE("programs are ordered by object and say what they hold") {
 
 TEST_CASE("a neighbour link leads to the region on the other side of the face") {
   std::size_t links = 0, outside = 0;
-  for_random_bsps(80, [&](const Bsp& bsp, Dice& dice) {
+  for_random_bsps(300, [&](const Bsp& bsp, Dice& dice) {
     for (const BspLeaf& leaf : bsp.leaves()) {
       for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
@@ -164,15 +163,13 @@ TEST_CASE("a neighbour link leads to the region on the other side of the face") 
 }
 
 TEST_CASE("subdividing keeps within its depth, and pays") {
-  const RandomOptions options{
-      .coincidences = false, .unbounded = false, .max_objects = 200, .max_tree_depth = 1};
-  Scene scene = RandomModel(5, options).scene();
-  Dice dice(5);
-  for (SceneObject& o : scene.objects) {
-    o.csg = transformed(transformed(o.csg, scaling({0.1, 0.1, 0.1})), translation(dice.point(5)));
+  RandomModel random(3, {.coincidences = false, .unbounded = false});
+  std::vector<CsgNode> small;
+  for (int i = 0; i < 150; ++i) {
+    CsgNode leaf = random.leaf(random.dice().below(kLeafKinds - 1));
+    small.push_back(transformed(transformed(leaf, scaling({0.1, 0.1, 0.1})), translation(random.dice().point(5))));
   }
-  const Model model = compile_scene(scene);
-  REQUIRE(model.objects.size() > 100);
+  const Model model = compile_scene(scene_of(small));
   const Bsp bsp = Bsp::build(model);
   std::size_t programs = 0;
   for (const BspLeaf& leaf : bsp.leaves()) programs += leaf.program_count;

@@ -1,0 +1,195 @@
+// A job's way through the frontal: prepared, loaded, rendered, kept.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "frontal/frontal.hpp"
+#include "proto/control.hpp"
+#include "proto/statistics.hpp"
+
+namespace graycube {
+
+std::optional<PreparationWork> Frontal::take_work() {
+  start_next_job();
+  if (!running_ || !running_->is_preparing || queue_.empty() ||
+      queue_.front().info.job != running_->info.job) {
+    return std::nullopt;
+  }
+  PreparationWork work = std::move(queue_.front().work);
+  queue_.pop_front();
+  return work;
+}
+
+void Frontal::start_next_job() {
+  if (running_ || queue_.empty() || going_down_) return;
+  const QueuedJob& next = queue_.front();
+  Running& job = running_.emplace();
+  job.info = next.info;
+  job.options = next.work.options;
+  job.submitted_at_s = next.submitted_at_s;
+  job.began_at_s = now_s_;
+  job.is_preparing = true;
+  job.cpu_at_start_s = job.info.job == 1 ? 0 : cpu_seconds();
+  job.info.state = JobState::kLoading;
+  job.info.started_s = unix_s_;
+  report_progress(true);
+}
+
+void Frontal::give_result(PreparationResult result) {
+  if (!running_ || running_->info.job != result.job) return;  // cancelled meanwhile
+  running_->is_preparing = false;
+  if (!result.scene) {
+    return end_job(JobState::kFailed, FailureCode::kBadInput, std::move(result.errors));
+  }
+  const std::uint32_t threads =
+      running_->options.threads != 0 ? running_->options.threads : options_.threads;
+  running_->render.emplace(result.job, std::move(*result.scene), options_.cube.nodes(), threads);
+  running_->info.algorithm = running_->render->scene().algorithm;
+  running_->info.tiles = static_cast<std::uint32_t>(running_->render->tiles());
+  load_when_possible();
+}
+
+void Frontal::load_when_possible() {
+  if (!running_ || !running_->render || running_->is_loaded || !all_nodes_here()) return;
+  running_->is_loaded = true;
+  running_->build_began_s = now_s_;
+  running_->info.state = JobState::kBuilding;
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
+    send(nodes_[rank].peer, running_->render->load_for(Rank{rank}),
+         running_->render->take_slice(Rank{rank}));
+  }
+  report_progress(true);
+}
+
+void Frontal::start_rendering() {
+  running_->is_started = true;
+  running_->render_began_s = now_s_;
+  running_->info.state = JobState::kRendering;
+  control::Start m;
+  m.job = running_->render->id();
+  m.epoch = running_->render->epoch();
+  for (const NodeRecord& n : nodes_) m.incarnations.push_back(n.incarnation);
+  send_to_nodes(m);
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) hand_out(Rank{rank});
+  report_progress(true);
+  finish_when_complete();
+}
+
+void Frontal::hand_out(Rank rank) {
+  RenderJob& render = *running_->render;
+  const auto tiles = render.next_tiles(rank);
+  if (tiles.empty()) return;
+  const BatchStamp stamp{render.id(), render.epoch(), kFrontalRank, 0,
+                         render.next_assignment_sequence(rank)};
+  outgoing_.push_back(
+      {nodes_[rank.value].peer, Message::of_batch(encode_assignment(stamp, tiles))});
+}
+
+void Frontal::on_contributions(const Bytes& batch) {
+  if (!running_ || !running_->is_started || running_->is_finishing) return;
+  const auto header = peek_header(batch);
+  if (const auto* h = std::get_if<BatchHeader>(&header);
+      h != nullptr && h->stamp.job != running_->render->id()) {
+    return;
+  }
+  std::vector<Rank> opened;
+  const std::string wrong = running_->render->add_contributions(batch, opened);
+  if (!wrong.empty()) {
+    return end_job(JobState::kFailed, FailureCode::kFailed, {{"the frontal", wrong}});
+  }
+  std::sort(opened.begin(), opened.end());
+  opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
+  for (const Rank rank : opened) hand_out(rank);
+  running_->info.tiles_whole = static_cast<std::uint32_t>(running_->render->tiles_whole());
+  finish_when_complete();
+}
+
+void Frontal::finish_when_complete() {
+  const std::string wrong = running_->render->contradiction();
+  if (!wrong.empty()) {
+    return end_job(JobState::kFailed, FailureCode::kFailed, {{"the frontal", wrong}});
+  }
+  if (!running_->render->is_complete() || running_->is_finishing) return;
+  running_->is_finishing = true;
+  running_->render_ended_s = now_s_;
+  send_to_nodes(control::Finish{running_->render->id()});
+}
+
+void Frontal::complete() {
+  const Picture picture = running_->render->film().develop();
+  running_->info.state = JobState::kDone;
+  running_->info.finished_s = unix_s_;
+  running_->info.fraction = 1;
+  const EndedJob job{running_->info, statistics()};
+  running_.reset();
+  keep(job, picture);
+}
+
+/// Ends the running job without a picture; the nodes drop it.
+void Frontal::end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors) {
+  if (running_->is_loaded) send_to_nodes(control::Finish{running_->info.job});
+  EndedJob job{running_->info, "{}"};
+  if (running_->is_preparing && !queue_.empty() && queue_.front().info.job == job.info.job) {
+    queue_.pop_front();
+  }
+  running_.reset();
+  job.info.state = state;
+  job.info.finished_s = unix_s_;
+  if (!errors.empty()) {
+    job.info.message = (errors.front().where.empty() ? "" : errors.front().where + ": ") +
+                       errors.front().why;
+  }
+  for (const PeerId& peer : watchers_[job.info.job]) {
+    send(peer, control::Failed{job.info.job, code, errors});
+  }
+  watchers_.erase(job.info.job);
+  keep(std::move(job), {});
+}
+
+void Frontal::keep(EndedJob job, const Picture& picture) {
+  try {
+    store_.keep(job, picture);
+  } catch (const std::runtime_error& e) {
+    job.info.message = e.what();
+    if (job.info.state == JobState::kDone) job.info.state = JobState::kFailed;
+  }
+  const auto watchers = std::exchange(watchers_[job.info.job], {});
+  watchers_.erase(job.info.job);
+  for (const PeerId& peer : watchers) {
+    if (job.info.state == JobState::kDone) {
+      send(peer, control::Done{job.info.job, {job.stats_json}});
+    } else {
+      refuse(peer, job.info.job, FailureCode::kFailed, "the job store", job.info.message);
+    }
+  }
+  ended_.push_back(std::move(job));
+  if (ended_.size() > kMaxEndedJobs) ended_.pop_front();
+}
+
+std::string Frontal::statistics() const {
+  const RenderJob& render = *running_->render;
+  Statistics s;
+  s.version = options_.version;
+  s.scene = running_->info.scene;
+  s.algorithm = render.scene().algorithm;
+  s.nodes = options_.cube.nodes();
+  s.threads = render.threads();
+  s.dimension = options_.cube.dimension();
+  s.grid = {options_.cube.columns(), options_.cube.rows()};
+  s.image = render.scene().settings.image;
+  s.primitives = render.scene().primitives;
+  s.objects = render.scene().objects;
+  s.wall_s = now_s_ - running_->submitted_at_s;
+  s.cpu_s = cpu_seconds() - running_->cpu_at_start_s;
+  s.load_s = render.scene().load_s;
+  s.partition_s = render.scene().partition_s;
+  s.build_s = running_->render_began_s - running_->build_began_s;
+  s.render_s = running_->render_ended_s - running_->render_began_s;
+  s.token_rounds = render.rounds();
+  s.token_hops = render.hops();
+  s.per_node = render.reports();
+  for (const control::NodeStats& n : s.per_node) s.cpu_s += n.cpu_s;
+  return statistics_json(s);
+}
+
+}  // namespace graycube

@@ -1,0 +1,116 @@
+// What a node's brain sends, and when: rays, grants of credit, contributions, the token.
+#include <algorithm>
+#include <utility>
+
+#include "geometry/check.hpp"
+#include "node/node.hpp"
+#include "proto/control.hpp"
+
+namespace graycube {
+namespace {
+
+/// A batch this small still goes out at once when its link is empty.
+constexpr std::size_t kLeastEagerRays = 32;
+/// A batch may be slow while the token goes round quickly, so after so many white rounds with the same
+/// non-zero sum each further one waits for the frontal's next ping.
+constexpr std::uint32_t kFreeRounds = 1;
+
+}  // namespace
+
+BatchStamp Node::stamp(std::uint64_t sequence) const {
+  return {job_, epoch_, id_.rank.value, id_.incarnation, sequence};
+}
+
+void Node::send_control(const ControlMessage& message) {
+  outgoing_.push_back({std::nullopt, Message::of_text(encode(message))});
+}
+
+/// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under way on
+/// the link, smaller ones.
+void Node::send_rays(Link& link, bool partial) {
+  const std::size_t full = std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
+  std::size_t sent = 0;
+  for (;;) {
+    const std::size_t waiting = link.outbox.size() - sent;
+    const std::size_t allowed = static_cast<std::size_t>(link.send_credit / kRayBytes);
+    const std::size_t count = std::min({waiting, allowed, full});
+    const bool eager = link.send_credit == load_.link_credit_bytes && waiting >= kLeastEagerRays;
+    if (count == 0 || (count < full && !partial && !eager)) break;
+    const std::span<const RayTask> rays{link.outbox.data() + sent, count};
+    Bytes batch = encode_rays(stamp(link.next_sequence++), rays);
+    ring_.message_sent();
+    ++stats_.ray_batches;
+    stats_.ray_bytes += batch.size();
+    stats_.rays_out += count;
+    link.send_credit -= count * kRayBytes;
+    outgoing_.push_back({link.peer, Message::of_batch(std::move(batch))});
+    sent += count;
+  }
+  link.outbox.erase(link.outbox.begin(), link.outbox.begin() + static_cast<std::ptrdiff_t>(sent));
+}
+
+void Node::grant_credit(Link& link) {
+  if (link.ungranted == 0) return;
+  outgoing_.push_back({link.peer, Message::of_batch(encode_link_credit(stamp(link.next_sequence++),
+                                                                       link.ungranted))});
+  link.ungranted = 0;
+}
+
+void Node::flush_contributions() {
+  while (!merge_.is_empty()) {
+    const MergeBuffer::Merged merged = merge_.take(*plan_);
+    Bytes batch =
+        encode_contributions(stamp(contribution_sequence_++), merged.credits, merged.contributions);
+    ring_.contribution_batch_sent();
+    ++stats_.contribution_batches;
+    stats_.contribution_bytes += batch.size();
+    outgoing_.push_back({std::nullopt, Message::of_batch(std::move(batch))});
+  }
+}
+
+void Node::flush_on_idle() {
+  for (Link& link : links_) {
+    send_rays(link, true);
+    grant_credit(link);
+  }
+  flush_contributions();
+  pass_token();
+}
+
+bool Node::is_passive() const {
+  return state_ == State::kRendering && rays_.is_empty() && tiles_.empty() &&
+         unassigned_tiles_ == 0 && working_ == 0 && merge_.is_empty() &&
+         std::all_of(links_.begin(), links_.end(), [](const Link& l) { return l.outbox.empty(); });
+}
+
+void Node::pass_token(bool is_pinged) {
+  if (load_.algorithm != Algorithm::kMacro || state_ != State::kRendering) return;
+  if (ring_.stalled_rounds() > kFreeRounds && !is_pinged) return;
+  const bool had_verdict = ring_.verdict().has_value();
+  while (const auto token = ring_.try_pass(is_passive())) {
+    const Rank next = cube_->ring_next(id_.rank);
+    if (next == id_.rank) {
+      GRAYCUBE_CHECK(ring_.token_arrived(*token), "a ring of one lost its token");
+      send_control(control::TokenRound{job_, epoch_, token->round, token->hops, token->black,
+                                       token->count});
+      continue;
+    }
+    Link& link = links_[bit_of(next)];
+    const TokenRecord record{token->black, token->count, token->round, token->hops,
+                             token->contribution_batches};
+    outgoing_.push_back(
+        {next, Message::of_batch(encode_token(stamp(link.next_sequence++), record))});
+  }
+  if (had_verdict || !ring_.verdict()) return;
+  const Verdict& v = *ring_.verdict();
+  if (v.outcome == Verdict::Outcome::kLost) {
+    send_control(control::NodeError{
+        job_, "the token counts " + std::to_string(v.missing) + " batches sent but never received"});
+    return;
+  }
+  send_control(control::Terminated{job_, epoch_, v.rounds, v.hops, v.contribution_batches});
+}
+
+std::vector<Node::Outgoing> Node::take_outgoing() { return std::exchange(outgoing_, {}); }
+
+}  // namespace graycube

@@ -1,0 +1,268 @@
+// Macro-regions against the whole: rays handed from domain to domain must give the same picture bit for bit,
+// the same counts, and all credit back.
+#include <catch2/catch.hpp>
+#include <deque>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "csg/random_model.hpp"
+#include "space/restrict.hpp"
+#include "trace/render_serial.hpp"
+#include "trace/tile_plan.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+/// What came back from all rays of a picture.
+struct Harvest {
+  std::vector<FixedRgb> light;
+  std::vector<Credit> credit;
+  RayCounts rays;
+  RoundingCounts rounding;
+  std::uint64_t handed_over = 0;
+
+  explicit Harvest(const ImageSize& image)
+      : light(std::size_t{image.width} * image.height), credit(light.size()) {}
+
+  void take(const Step& step) {
+    for (const PixelReturn& r : step.returns) {
+      REQUIRE(r.merged <= kMaxMergedContributions);
+      light[r.pixel].add(r.light);
+      credit[r.pixel].add(r.credit);
+    }
+    rays.add(step.rays);
+    rounding.add(step.rounding);
+  }
+};
+
+Harvest trace_whole(const Model& model, Subdivision subdivision = Subdivision::kSurfaceTree) {
+  const ImageSize& image = model.settings.image;
+  Harvest harvest(image);
+  const Domain domain(model, subdivision);
+  Evaluator evaluator(domain);
+  Step step;
+  evaluator.trace_pixels({0, 0, image.width, image.height}, step);
+  REQUIRE(step.leaving.empty());
+  harvest.take(step);
+  return harvest;
+}
+
+/// All regions of a grid, each with its own restricted model and evaluator.
+class Machine {
+ public:
+  Machine(const Model& model, const MacroGrid& grid,
+          Subdivision subdivision = Subdivision::kSurfaceTree)
+      : image_(model.settings.image), grid_(grid) {
+    for (std::uint32_t row = 0; row < grid.rows(); ++row) {
+      for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+        const RegionIndex r{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)};
+        domains_.push_back(std::make_unique<Domain>(
+            grid, r, restrict_to_region(model, grid, r), subdivision));
+        evaluators_.emplace_back(*domains_.back());
+      }
+    }
+  }
+
+  /// Rays wait in one queue for all regions and are taken from either end, in batches as they come.
+  Harvest trace(Dice& dice) {
+    Harvest harvest(image_);
+    const TilePlan plan(image_, {5, 3}, grid_);
+    std::deque<RayTask> waiting;
+    Step step;
+    const auto finish = [&](std::size_t at) {
+      harvest.take(step);
+      for (const RayTask& task : step.leaving) {
+        REQUIRE(number(task.region) != at);
+        waiting.push_back(task);
+      }
+      harvest.handed_over += step.leaving.size();
+      step.clear();
+    };
+    for (std::uint32_t tile = 0; tile < plan.tile_count(); ++tile) {
+      const std::size_t at = plan.area_of_tile(tile);
+      evaluators_[at].trace_pixels(plan.rect(tile), step);
+      finish(at);
+    }
+    while (!waiting.empty()) {
+      const bool front = dice.one_in(2);
+      const RayTask task = front ? waiting.front() : waiting.back();
+      front ? waiting.pop_front() : waiting.pop_back();
+      const std::size_t at = number(task.region);
+      evaluators_[at].trace_rays(std::span(&task, 1), step);
+      finish(at);
+    }
+    return harvest;
+  }
+
+ private:
+  std::size_t number(RegionIndex r) const { return r.row * grid_.columns() + r.column; }
+
+  ImageSize image_;
+  const MacroGrid& grid_;
+  std::vector<std::unique_ptr<Domain>> domains_;
+  std::deque<Evaluator> evaluators_;
+};
+
+void check_equal(const Harvest& whole, const Harvest& parts, const ImageSize& image) {
+  const std::uint64_t primary = std::uint64_t{image.samples} * image.samples;
+  for (std::size_t pixel = 0; pixel < whole.light.size(); ++pixel) {
+    INFO("pixel " << pixel % image.width << ", " << pixel / image.width);
+    REQUIRE(parts.light[pixel] == whole.light[pixel]);
+    REQUIRE(whole.credit[pixel].is_exactly(primary));
+    REQUIRE(parts.credit[pixel].is_exactly(primary));
+  }
+  CHECK(parts.rays.created == whole.rays.created);
+  CHECK(parts.rounding.clamped == whole.rounding.clamped);
+  CHECK(parts.rounding.non_finite == whole.rounding.non_finite);
+}
+
+MacroGrid uneven_grid(const CameraFrame& frame, Dice& dice) {
+  const auto edges = [&](std::int64_t pixels) {
+    std::vector<std::int64_t> r;
+    for (std::int64_t at = -3; at < pixels + 3;) {
+      at += 1 + static_cast<std::int64_t>(dice.below(9));
+      r.push_back(at);
+    }
+    return r;
+  };
+  auto columns = edges(frame.image.width);
+  auto rows = edges(frame.image.height);
+  return {frame, std::move(columns), std::move(rows)};
+}
+
+struct Size {
+  std::uint32_t columns, rows;
+};
+const std::vector<Size> kSizes{{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1}, {1, 3}, {3, 3}, {4, 2}, {5, 4}, {8, 4}};
+
+}  // namespace
+
+TEST_CASE("macro-regions give bit for bit the picture of the whole") {
+  std::uint64_t handed_over = 0, secondary = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const Harvest whole = trace_whole(model);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    Dice dice(seed);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Size size = kSizes[dice.below(kSizes.size())];
+      const MacroGrid grid = i == 3 ? uneven_grid(frame, dice) : MacroGrid::regular(frame, size.columns, size.rows);
+      INFO("seed " << seed << ", grid " << grid.columns() << " x " << grid.rows() << (i == 3 ? ", uneven" : ""));
+      const Harvest parts = Machine(model, grid).trace(dice);
+      check_equal(whole, parts, model.settings.image);
+      handed_over += parts.handed_over;
+    }
+    for (std::size_t kind = 1; kind < kRayKinds; ++kind) secondary += whole.rays.created[kind];
+  }
+  CHECK(handed_over > 20000);
+  CHECK(secondary > 20000);
+}
+
+TEST_CASE("both subdivisions give the same picture, of the whole and of macro-regions") {
+  for (std::uint64_t seed = 1000; seed < 1080; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const Harvest whole = trace_whole(model);
+    check_equal(whole, trace_whole(model, Subdivision::kLinkedCells), model.settings.image);
+    const MacroGrid grid =
+        MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
+    Dice dice(seed);
+    check_equal(whole, Machine(model, grid, Subdivision::kLinkedCells).trace(dice), model.settings.image);
+  }
+}
+
+TEST_CASE("a grid of each size renders one scene alike") {
+  const Model model = compile_scene(RandomModel(12, {.max_objects = 12}).scene());
+  const Harvest whole = trace_whole(model);
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  Dice dice(1);
+  for (std::uint32_t columns = 1; columns <= 8; ++columns) {
+    for (std::uint32_t rows = 1; rows <= 4; ++rows) {
+      INFO("grid " << columns << " x " << rows);
+      const MacroGrid grid = MacroGrid::regular(frame, columns, rows);
+      check_equal(whole, Machine(model, grid).trace(dice), model.settings.image);
+    }
+  }
+}
+
+TEST_CASE("more columns and rows than pixels render the same picture") {
+  for (std::uint64_t seed = 500; seed < 506; ++seed) {
+    Scene scene = RandomModel(seed).scene();
+    scene.settings.image = {6, 5, 1};
+    const Model model = compile_scene(scene);
+    const MacroGrid grid =
+        MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 16, 8);
+    INFO("seed " << seed);
+    Dice dice(seed);
+    check_equal(trace_whole(model), Machine(model, grid).trace(dice), scene.settings.image);
+  }
+}
+
+TEST_CASE("the serial picture is the same for any number of threads, and that of the pure step") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = RandomModel(seed).scene();
+    scene.settings.image = {70, 40, scene.settings.image.samples};
+    const Model model = compile_scene(scene);
+    const Harvest harvest = trace_whole(model);
+    const std::uint32_t samples = scene.settings.image.samples;
+    Film expected(70, 40, samples * samples);
+    for (std::uint32_t pixel = 0; pixel < harvest.light.size(); ++pixel) expected.add(pixel, harvest.light[pixel]);
+    const Domain domain{Model(model)};
+    for (const unsigned threads : {1u, 3u}) {
+      Film film(70, 40, samples * samples);
+      const SerialResult result = render_serial(domain, {.threads = threads, .progress = {}}, film);
+      REQUIRE(result.finished);
+      REQUIRE(film.develop() == expected.develop());
+      REQUIRE(result.rays.created == harvest.rays.created);
+    }
+  }
+}
+
+TEST_CASE("a cancelled serial render says so") {
+  const Domain domain(compile_scene(RandomModel(1).scene()));
+  const ImageSize& image = domain.settings().image;
+  Film film(image.width, image.height, image.samples * image.samples);
+  CHECK_FALSE(render_serial(domain, {.threads = 1, .progress = [](double) { return false; }}, film).finished);
+}
+
+TEST_CASE("credit comes back whole from the deepest trees and from many lights") {
+  // A hall of glass and mirrors, with as many lights as credit allows.
+  Scene scene = scene_of({});
+  Material m;
+  m.transmit = 0.6;
+  m.reflect = 0.4;
+  m.ior = 1.3;
+  scene.materials = {{"glass", m}};
+  for (int i = 0; i < 3; ++i) {
+    scene.objects.push_back({"", 0, node_of(SphereShape{{0.1 * i, 0, 3.0 * i}, 1})});
+  }
+  scene.settings.max_depth = 9;
+  scene.settings.image = {2, 2, 2};
+  for (std::uint32_t i = 0; i < kMaxCreditLights; ++i) {
+    scene.settings.lights.push_back({{0.5 * i - 16, 9, -4}, {0.01, 0.01, 0.01}, Falloff::kNone});
+  }
+  const Model model = compile_scene(scene);
+  const Harvest whole = trace_whole(model);
+  CHECK(whole.rays.created[static_cast<std::size_t>(RayKind::kShadow)] > 10000);
+  const MacroGrid grid =
+      MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
+  Dice dice(3);
+  check_equal(whole, Machine(model, grid).trace(dice), scene.settings.image);
+}
+
+TEST_CASE("credit comes back whole from a chain as deep as credit allows") {
+  Scene scene = scene_of({node_of(HalfSpaceShape{{0, 0, -1}, -1}), node_of(HalfSpaceShape{{0, 0, 1}, -1})});
+  scene.materials[0].material.reflect = 1;
+  scene.settings.camera.eye = {0, 0, 0};
+  scene.settings.camera.look_at = {0, 0, 1};
+  scene.settings.max_depth = kMaxCreditDepth;
+  for (std::uint32_t i = 0; i < kMaxCreditLights; ++i) scene.settings.lights.push_back({{0.1 * i, 0, 0}, {}, {}});
+  const Model model = compile_scene(scene);
+  const Harvest whole = trace_whole(model);
+  CHECK(whole.rays.created[static_cast<std::size_t>(RayKind::kReflection)] == kMaxCreditDepth);
+  CHECK(whole.credit[0].is_exactly(1));
+}
