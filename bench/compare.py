@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Measures Graycube beside POV-Ray and a plain tracer on Embree, on generated scenes.
 
-Every scene is rendered by each, one after the other, one thread each; the pictures must agree. Times are
-CPU seconds: of whole processes for POV-Ray and Graycube, of tracing alone where it says "trace". So they
-mean something on a busy machine too, but less than on an idle one. Needs the programs that deploy/bench.sh
-builds. Status: 0 done, 1 something failed or pictures differ, 2 bad usage.
+Every scene is rendered by each, one after the other, one thread each; the pictures must agree.
+Times are CPU seconds: of whole processes for POV-Ray and Graycube, of tracing alone where it says
+"trace". So they mean something on a busy machine too, but less than on an idle one. Needs the
+programs that deploy/bench.sh builds. Status: 0 done, 1 something failed, took too long, or pictures
+differ, 2 bad usage.
 """
 
 import argparse
@@ -16,13 +17,18 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # nothing is left in the source folder
+
 import report
 from measure import Bench, Failure, Measurement
 
+PROGRAMS = Path(__file__).resolve().parent.parent / "build/bench/bin"
 FAMILIES = "csg:1000,csg:10000,csg:100000,flake:5,menger:3,deepcsg:250,deepcsg:2000,glasslens:9"
-QUICK_FAMILIES = "csg:1000,flake:3,menger:2,deepcsg:250,glasslens:4"
+QUICK_PROGRAMS = Path(__file__).resolve().parent.parent / "build/bench/bin"
+FAMILIES = "csg:1000,flake:3,menger:2,deepcsg:250,glasslens:4"
 GROWTH = ("spheres:1000,spheres:10000,spheres:100000,spheres:1000000,"
-          "csg:1000,csg:10000,csg:100000,csg:1000000,deepcsg:250,deepcsg:500,deepcsg:1000,deepcsg:2000")
+          "csg:1000,csg:10000,csg:100000,csg:1000000,"
+          "deepcsg:250,deepcsg:500,deepcsg:1000,deepcsg:2000")
 QUICK_GROWTH = "spheres:1000,spheres:10000,deepcsg:250,deepcsg:500"
 # POV-Ray takes minutes at 512² for one solid with thousands of holes.
 SLOW_FAMILIES = {"menger", "deepcsg"}
@@ -48,18 +54,23 @@ def number_list(text: str) -> list:
 
 
 def parse_arguments() -> argparse.Namespace:
-    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--bin", type=Path, default=Path(__file__).resolve().parent.parent / "build/bench/bin",
+    p = argparse.ArgumentParser(description=__doc__,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--bin", type=Path, default=PROGRAMS,
                    help="folder of the programs (default: build/bench/bin)")
     p.add_argument("--seeds", type=number_list, help="seeds (default 11,12,13)")
-    p.add_argument("--size", type=int, help=f"pictures are SIZE² (default 512); {' and '.join(sorted(SLOW_FAMILIES))} "
-                   f"at most {SLOW_SIDE}², for POV-Ray's sake")
+    slow = " and ".join(sorted(SLOW_FAMILIES))
+    p.add_argument("--size", type=int, help=f"pictures are SIZE² (default 512); {slow} at most "
+                   f"{SLOW_SIDE}², for POV-Ray's sake")
     p.add_argument("--families", type=scene_list, help=f"FAMILY:SIZE,… (default {FAMILIES})")
-    p.add_argument("--growth", type=scene_list, help="scenes to show how Graycube's cost grows; '' for none")
-    p.add_argument("--quick", action="store_true", help="small scenes and pictures, one seed: a trial run")
+    p.add_argument("--growth", type=scene_list,
+                   help="scenes to show how Graycube's cost grows; '' for none")
+    p.add_argument("--quick", action="store_true",
+                   help="small scenes and pictures, one seed: a trial run")
     p.add_argument("--no-pov", action="store_true", help="leave out POV-Ray")
     p.add_argument("--no-plain", action="store_true", help="leave out the plain tracer")
-    p.add_argument("--timeout", type=float, default=600, help="seconds of wall time a run may take (default 600)")
+    p.add_argument("--timeout", type=float, default=600,
+                   help="seconds of wall time a run may take (default 600)")
     p.add_argument("--json", type=Path, help="also write all measurements to this file")
     a = p.parse_args()
     if a.seeds is None:
@@ -118,8 +129,8 @@ def complaints(measurements: list) -> list:
             found.append(f"{m.name}, seed {m.seed}: {program} took too long and was ended")
         for other, agreement in (("POV-Ray", m.pov_off), ("the plain tracer", m.plain_off)):
             if agreement and not agreement.holds:
-                found.append(f"{m.name}, seed {m.seed}: {agreement.percent_off} % of the pixels differ from "
-                             f"{other}'s, by up to {agreement.largest}/65535")
+                found.append(f"{m.name}, seed {m.seed}: {agreement.percent_off} % of the pixels "
+                             f"differ from {other}'s, by up to {agreement.largest}/65535")
     return found
 
 
@@ -140,8 +151,8 @@ def main() -> int:
         except Failure as e:
             print(f"compare: {e}", file=sys.stderr)
             return 1
-    load = os.getloadavg()[0]
-    print(f"{platform.machine()}, {os.cpu_count()} processors, load {load:.1f}; one thread, CPU seconds")
+    machine, processors, load = platform.machine(), os.cpu_count(), os.getloadavg()[0]
+    print(f"{machine}, {processors} processors, load {load:.1f}; one thread, CPU seconds")
     if measurements:
         print_section("Beside POV-Ray and a plain tracer", report.table(measurements))
     print_section("Medians over seeds", "\n".join(report.goal_lines(measurements)))
@@ -153,9 +164,10 @@ def main() -> int:
     print_section("Not as it should be", "\n".join(wrong))
     if a.json:
         a.json.write_text(json.dumps({
-            "machine": platform.machine(), "processors": os.cpu_count(), "load": load,
+            "machine": machine, "processors": processors, "load": load,
             "compared": [dataclasses.asdict(m) for m in measurements],
-            "growth": [dataclasses.asdict(m) for m in growth], "single_rays": rates}, indent=1) + "\n")
+            "growth": [dataclasses.asdict(m) for m in growth],
+            "single_rays": rates}, indent=1) + "\n")
     return 1 if wrong else 0
 
 

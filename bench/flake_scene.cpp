@@ -1,6 +1,6 @@
 // A sphere flake: nine balls a third as large sit on every ball, six about its equator and three
-// above, seen from where it sits on its own parent (after E. Haines's standard procedural databases,
-// 1987). The seed turns the wreath on every ball.
+// above, seen from where it sits on its own parent (after E. Haines's standard procedural
+// databases, 1987). The seed turns the wreath on every ball.
 #include "bench/scene_parts.hpp"
 #include "geometry/portable_math.hpp"
 
@@ -15,8 +15,8 @@ class Flake {
   void grow(const Vec3& center, const Vec3& axis, double radius, std::uint32_t depth) {
     parts_.object(material_, sphere(center, radius));
     if (depth == 0) return;
-    const Vec3 side = normalized(cross(axis, std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0}
-                                                                     : Vec3{0, 1, 0}));
+    const Vec3 side =
+        normalized(cross(axis, std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     const Vec3 other = cross(axis, side);
     const double turn = dice_.between(0, 360);
     const auto child = [&](double azimuth, double elevation) {

@@ -1,5 +1,5 @@
-// Refraction many levels deep: a ball of nested shells amid a wreath of lenses, a triplet of lenses, a
-// Fresnel disc, a prism and blocks with bubbles, before a wall of drilled bricks.
+// Refraction many levels deep: a ball of nested shells amid a wreath of lenses, a triplet of
+// lenses, a Fresnel disc, a prism and blocks with bubbles, before a wall of drilled bricks.
 #include <utility>
 
 #include "bench/scene_parts.hpp"
@@ -51,14 +51,16 @@ class Glassware {
     const Vec3 c{-20, 17, 0};
     parts_.object(crown_, shell(c, 16, 14.5 + dice_.between(-0.3, 0.3)));
     parts_.object(flint_, shell(c, 9.5, 8 + dice_.between(-0.3, 0.3)));
-    parts_.object(crown_, difference({sphere(c, 5), cylinder(c - Vec3{20, 0, 0}, c + Vec3{20, 0, 0}, 1.2),
-                                      torus(c, {0, 1, 0}, 3.4, 0.7)}));
+    parts_.object(crown_,
+                  difference({sphere(c, 5), cylinder(c - Vec3{20, 0, 0}, c + Vec3{20, 0, 0}, 1.2),
+                              torus(c, {0, 1, 0}, 3.4, 0.7)}));
     const double turn = dice_.between(0, 60);
     for (int i = 0; i < 6; ++i) {
       const double angle = turn + 60 * i;
       const Vec3 at = c + 12.0 * Vec3{cos_degrees(angle), sin_degrees(angle), 0};
-      parts_.object(i % 2 == 0 ? crown_ : flint_,
-                    intersection({sphere(at - Vec3{0, 0, 1.5}, 2.6), sphere(at + Vec3{0, 0, 1.5}, 2.6)}));
+      parts_.object(
+          i % 2 == 0 ? crown_ : flint_,
+          intersection({sphere(at - Vec3{0, 0, 1.5}, 2.6), sphere(at + Vec3{0, 0, 1.5}, 2.6)}));
     }
   }
 
@@ -68,8 +70,9 @@ class Glassware {
     const double convex = dice_.between(17.5, 18.5);
     parts_.object(flint_, intersection({sphere(on_axis(-21), convex), sphere(on_axis(7), convex)}));
     const double concave = dice_.between(13.5, 14);
-    parts_.object(crown_, difference({cylinder(on_axis(2), on_axis(8), 10), sphere(on_axis(-9.9), concave),
-                                      sphere(on_axis(19.9), concave)}));
+    parts_.object(crown_,
+                  difference({cylinder(on_axis(2), on_axis(8), 10), sphere(on_axis(-9.9), concave),
+                              sphere(on_axis(19.9), concave)}));
     parts_.object(crown_, intersection({sphere(on_axis(9), 12), half_space({0, 0, -1}, on_axis(17)),
                                         cylinder(on_axis(-35), on_axis(45), 9)}));
   }
@@ -90,8 +93,9 @@ class Glassware {
                                         half_space({0.447213595, 0.894427191, 0}, ridge)}));
     add_bubbles(box({-33, 0.2, -30}, {-19, 6, -20}), {-32, 1.2, -29}, {-20, 5, -21}, crown_);
     const Vec3 axes{8, 4.6, 5};
-    add_bubbles(leaf(EllipsoidShape{{24, 5, -25}, {{{axes.x, 0, 0}, {0, axes.y, 0}, {0, 0, axes.z}}}}),
-                {20, 3.4, -27}, {28, 6.6, -23}, flint_);
+    add_bubbles(
+        leaf(EllipsoidShape{{24, 5, -25}, {{{axes.x, 0, 0}, {0, axes.y, 0}, {0, 0, axes.z}}}}),
+        {20, 3.4, -27}, {28, 6.6, -23}, flint_);
   }
 
   void add_mirror_bowl() {
@@ -105,7 +109,8 @@ class Glassware {
   }
 
  private:
-  MaterialIndex glass(std::string name, const Rgb& color, double reflect, double transmit, double ior) {
+  MaterialIndex glass(std::string name, const Rgb& color, double reflect, double transmit,
+                      double ior) {
     return parts_.material(std::move(name), {.color = color,
                                              .ambient = 0.02,
                                              .diffuse = 0.05,

@@ -1,5 +1,6 @@
-// Google Benchmark micro-benchmarks of the hot kernels: intersection and normal of every kind of primitive,
-// first crossings and shadow rays through whole scenes, the highlight's power, reading, compiling, building.
+// Google Benchmark micro-benchmarks of the hot kernels: intersection and normal of every kind of
+// primitive, first crossings and shadow rays through whole scenes, the highlight's power, reading,
+// compiling, building.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -36,12 +37,15 @@ struct Specimen {
       case PrimitiveKind::kParallelepiped:
         primitive = build_box(skewed, {-1, -1, -1}, {1, 1, 1});
         break;
-      case PrimitiveKind::kCylinder: primitive = build_cylinder(none, {0, -1, 0}, {0, 1, 0}, 1); break;
+      case PrimitiveKind::kCylinder:
+        primitive = build_cylinder(none, {0, -1, 0}, {0, 1, 0}, 1);
+        break;
       case PrimitiveKind::kCone: primitive = build_cone(none, {0, -1, 0}, 1, {0, 1, 0}, 0.3); break;
       case PrimitiveKind::kTorus: primitive = build_torus(none, {}, {0, 1, 0}, 0.8, 0.3); break;
       case PrimitiveKind::kHalfSpace: primitive = build_half_space(none, {{0, 1, 0}, 0.2}); break;
       case PrimitiveKind::kPolyhedron: {
-        const std::array<Plane, 4> faces{{{{1, 1, 1}, 1}, {{-1, -1, 1}, 1}, {{-1, 1, -1}, 1}, {{1, -1, -1}, 1}}};
+        const std::array<Plane, 4> faces{
+            {{{1, 1, 1}, 1}, {{-1, -1, 1}, 1}, {{-1, 1, -1}, 1}, {{1, -1, -1}, 1}}};
         primitive = build_polyhedron(none, faces, planes);
         break;
       }
@@ -63,7 +67,8 @@ std::vector<Ray> rays_about_the_origin() {
 }
 
 constexpr std::array<const char*, kPrimitiveKinds> kKindNames{
-    "sphere", "ellipsoid", "box", "parallelepiped", "cylinder", "cone", "torus", "half_space", "polyhedron"};
+    "sphere", "ellipsoid", "box",        "parallelepiped", "cylinder",
+    "cone",   "torus",     "half_space", "polyhedron"};
 
 void spans_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);
@@ -122,7 +127,8 @@ struct Lit {
 std::vector<Ray> primary_rays(const Domain& domain) {
   std::vector<Ray> rays;
   for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x) rays.push_back(domain.frame().primary_ray(x, y, 0, 0));
+    for (std::uint32_t x = 0; x < kSide; ++x)
+      rays.push_back(domain.frame().primary_ray(x, y, 0, 0));
   }
   return rays;
 }

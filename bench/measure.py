@@ -1,4 +1,4 @@
-"""Runs programs and measures them: CPU time and memory of whole processes, agreement of pictures."""
+"""Runs programs and measures them: CPU time, memory, agreement of the pictures."""
 
 import dataclasses
 import json
@@ -10,7 +10,7 @@ import threading
 from pathlib import Path
 from typing import Optional
 
-# A pixel is off when a channel differs by more, in 1/65535; so many percent of the pixels may be off.
+# A pixel is off when a channel differs by more, in 1/65535; so many percent may be off.
 TOLERANCE = 4
 MOST_PERCENT_OFF = 0.2
 
@@ -136,7 +136,8 @@ class Bench:
 
     def pov(self, m: Measurement) -> None:
         done = self._run(["povray", "+Iscene.pov", "+Opov.png", "+FN16", "File_Gamma=1.0",
-                          f"+W{m.side}", f"+H{m.side}", "-A", "-D", "-P", "-GA", "+WT1"], "povray", m)
+                          f"+W{m.side}", f"+H{m.side}", "-A", "-D", "-P", "-GA", "+WT1"],
+                         "povray", m)
         if done is None:
             return
         m.pov_cpu_s = done.cpu_s

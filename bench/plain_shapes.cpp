@@ -24,7 +24,8 @@ double horner(const std::array<double, kCount>& c, double t) {
   return v;
 }
 
-/// The root in [a, b], at whose ends the signs differ: Newton's method, bisecting where that strays.
+/// The root in [a, b], at whose ends the signs differ: Newton's method, bisecting where that
+/// strays.
 template <std::size_t kCount>
 double root_between(const std::array<double, kCount>& c,
                     const std::array<double, kCount - 1>& derivative, double a, double b) {
@@ -42,7 +43,8 @@ double root_between(const std::array<double, kCount>& c,
   return t;
 }
 
-/// A polynomial's real roots in [lo, hi], ascending: between the roots of its derivative it is monotone.
+/// A polynomial's real roots in [lo, hi], ascending: between the roots of its derivative it is
+/// monotone.
 template <std::size_t kCount>
 std::size_t roots_of(const std::array<double, kCount>& c, double lo, double hi,
                      std::array<double, kCount - 1>& roots) {

@@ -90,7 +90,8 @@ void subtract(Spans& s, std::size_t start, std::size_t second) {
     while (j < end && s[j].leave <= rest.enter) ++j;
     for (std::size_t k = j; k < end && s[k].enter < rest.leave; ++k) {
       const Span hole = s[k];
-      if (hole.enter > rest.enter) s.push_back({rest.enter, hole.enter, rest.enter_leaf, hole.enter_leaf});
+      if (hole.enter > rest.enter)
+        s.push_back({rest.enter, hole.enter, rest.enter_leaf, hole.enter_leaf});
       rest.enter = hole.leave;
       rest.enter_leaf = hole.leave_leaf;
     }
@@ -126,7 +127,8 @@ void invert(Spans& s, std::size_t start) {
   Span gap{-kInf, kInf, 0, 0};
   for (std::size_t i = start; i < end; ++i) {
     const Span solid = s[i];
-    if (solid.enter > gap.enter) s.push_back({gap.enter, solid.enter, gap.enter_leaf, solid.enter_leaf});
+    if (solid.enter > gap.enter)
+      s.push_back({gap.enter, solid.enter, gap.enter_leaf, solid.enter_leaf});
     gap.enter = solid.leave;
     gap.enter_leaf = solid.leave_leaf;
   }
@@ -142,7 +144,8 @@ Solids::Solids(const Scene& scene) : scene_(&scene) {
   scene_ = nullptr;
 }
 
-std::uint32_t Solids::add_node(const CsgNode& node, MaterialIndex material, const Affine& to_world) {
+std::uint32_t Solids::add_node(const CsgNode& node, MaterialIndex material,
+                               const Affine& to_world) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
   bounds_.push_back(node_bounds(*scene_, node, {}));

@@ -1,6 +1,6 @@
-// The solids of the plain tracer: CSG by Roth's interval lists (1982) in doubles, with a small bounding
-// hierarchy over the children of every large operation. Nothing here is shared with the engine, so that it
-// is both a yardstick and a check.
+// The solids of the plain tracer: CSG by Roth's interval lists (1982) in doubles, with a small
+// bounding hierarchy over the children of every large operation. Nothing here is shared with the
+// engine, so that it is both a yardstick and a check.
 #pragma once
 
 #include <cstdint>
@@ -86,10 +86,11 @@ class Solids {
   struct Node {
     std::optional<Operation> operation;  // none: `first` is a leaf
     std::uint32_t first = 0, count = 0;  // children_
-    std::int32_t bundle = -1;            // root of the hierarchy over the children that are added up
-    std::int32_t map = -1;               // inverse_maps_
+    std::int32_t bundle = -1;  // root of the hierarchy over the children that are added up
+    std::int32_t map = -1;     // inverse_maps_
   };
-  /// A node of a hierarchy: two bundles, `first` and the next, or `count` nodes, from sorted_[first] on.
+  /// A node of a hierarchy: two bundles, `first` and the next, or `count` nodes, from
+  /// sorted_[first] on.
   struct Bundle {
     Aabb bounds;
     std::uint32_t first = 0, count = 0;

@@ -1,6 +1,7 @@
-// plain_tracer SCENE [--size N] [--exr OUT.exr]: a plain tracer of CSG scenes to measure Graycube by, and to
-// check it: Embree over the objects' bounds, Roth's interval lists within them, the photometric model of the
-// README. One thread. Prints one JSON object; trace_cpu_s leaves out loading and building.
+// plain_tracer SCENE [--size N] [--exr OUT.exr]: a plain tracer of CSG scenes to measure Graycube
+// by, and to check it: Embree over the objects' bounds, Roth's interval lists within them, the
+// photometric model of the README. One thread. Prints one JSON object; trace_cpu_s leaves out
+// loading and building.
 #include <embree3/rtcore.h>
 
 #include <cmath>
@@ -22,7 +23,8 @@ struct Ray {
   double from = 0, to = kInf;
 };
 
-/// What Embree's callbacks get at: Embree's own ray is of single precision and only finds candidates.
+/// What Embree's callbacks get at: Embree's own ray is of single precision and only finds
+/// candidates.
 struct Query {
   RTCIntersectContext base;
   const Line* line;
@@ -50,7 +52,8 @@ class Tracer {
       for (std::uint32_t s = 0; s < samples * samples; ++s) {
         ++rays_;
         sum = sum + light_along(primary_ray(i % width + (s % samples + 0.5) / samples,
-                                            i / width + (s / samples + 0.5) / samples), 0, {1, 1, 1});
+                                            i / width + (s / samples + 0.5) / samples),
+                                0, {1, 1, 1});
       }
       const double n = 1.0 / (samples * samples);
       for (const double v : {sum.r, sum.g, sum.b}) picture.rgb.push_back(static_cast<float>(n * v));
@@ -191,7 +194,8 @@ class Tracer {
     const Vec3 right = c.handedness == Handedness::kRight ? sideways : -sideways;
     const Vec3 down = cross(forward, sideways);
     const bool fans = c.projection == Projection::kPerspective;
-    const double pixel = (fans ? 2 * std::tan(c.fov_degrees * 3.14159265358979323846 / 360) : c.width) / width;
+    const double pixel =
+        (fans ? 2 * std::tan(c.fov_degrees * 3.14159265358979323846 / 360) : c.width) / width;
     const Vec3 across = pixel * (x - 0.5 * width) * right + pixel * (y - 0.5 * height) * down;
     if (!fans) return {c.eye + across, forward};
     return {c.eye, normalized(forward + across)};
@@ -211,7 +215,8 @@ class Tracer {
     Vec3 n = solids_.normal(hit.leaf, p);
     if (dot(n, d) > 0) n = -n;
     const Vec3 r = normalized(d - 2 * dot(d, n) * n);
-    Rgb sum = (m.ambient * (1 - m.transmit)) * (m.color * settings_.ambient) + direct_light(m, p, n, r);
+    Rgb sum =
+        (m.ambient * (1 - m.transmit)) * (m.color * settings_.ambient) + direct_light(m, p, n, r);
     if (depth == settings_.max_depth) return sum;
     const auto add = [&](const Vec3& direction, double share) {
       if (!(share > 0) || share * max_component(weight) < settings_.min_weight) return;
@@ -273,10 +278,11 @@ void run(const bench::SceneArguments& arguments) {
   const Picture picture = tracer.render();
   const double trace_cpu_s = clock.lap();
   if (arguments.exr) write_exr(*arguments.exr, picture, {});
-  std::printf("{\"load_s\": %.6f, \"build_s\": %.6f, \"trace_cpu_s\": %.6f, \"rays\": %llu, "
-              "\"peak_rss_bytes\": %llu}\n",
-              load_s, build_s, trace_cpu_s, static_cast<unsigned long long>(tracer.rays()),
-              static_cast<unsigned long long>(bench::peak_resident_bytes()));
+  std::printf(
+      "{\"load_s\": %.6f, \"build_s\": %.6f, \"trace_cpu_s\": %.6f, \"rays\": %llu, "
+      "\"peak_rss_bytes\": %llu}\n",
+      load_s, build_s, trace_cpu_s, static_cast<unsigned long long>(tracer.rays()),
+      static_cast<unsigned long long>(bench::peak_resident_bytes()));
 }
 
 }  // namespace

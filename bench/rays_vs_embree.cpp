@@ -1,6 +1,7 @@
-// rays_vs_embree [--depth D] [--size N] [--seed S] [--rounds R]: the spheres of a flake, and the same rays
-// through Graycube's engine and through Embree's own spheres, one ray at a time: primary rays alone, then
-// shadow rays alone. Prints rays per second of CPU time, the best of the rounds, as one JSON object.
+// rays_vs_embree [--depth D] [--size N] [--seed S] [--rounds R]: the spheres of a flake, and the
+// same rays through Graycube's engine and through Embree's own spheres, one ray at a time: primary
+// rays alone, then shadow rays alone. Prints rays per second of CPU time, the best of the rounds,
+// as one JSON object.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -48,10 +49,12 @@ Options parse(std::span<char*> arguments) {
                      : name == "--rounds" ? decltype(option){&options.rounds, 1000}
                                           : decltype(option){nullptr, 0};
     if (option.value == nullptr) throw UsageError("what is " + std::string(name) + "?");
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *option.value);
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), *option.value);
     if (error != std::errc{} || end != text.data() + text.size() || *option.value < 1 ||
         *option.value > option.most) {
-      throw UsageError(std::string(name) + ": not a number from 1 to " + std::to_string(option.most));
+      throw UsageError(std::string(name) + ": not a number from 1 to " +
+                       std::to_string(option.most));
     }
   }
   return options;
@@ -115,7 +118,8 @@ class EmbreeSpheres {
     if (v == nullptr) throw std::runtime_error("Embree gave no buffer");
     for (const SceneObject& o : scene.objects) {
       const auto& s = std::get<SphereShape>(o.csg.value);
-      for (const double x : {s.center.x, s.center.y, s.center.z, s.radius}) *v++ = static_cast<float>(x);
+      for (const double x : {s.center.x, s.center.y, s.center.z, s.radius})
+        *v++ = static_cast<float>(x);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
@@ -190,10 +194,12 @@ std::pair<Rate, Rate> race(std::uint32_t rounds, std::size_t rays, A&& ours, B&&
 
 void print(const char* what, std::size_t rays, const std::pair<Rate, Rate>& rates) {
   const auto& [ours, embree] = rates;
-  std::printf("  \"%s\": {\"rays\": %zu, \"graycube_per_s\": %.0f, \"embree_per_s\": %.0f, \"ratio\": %.3f,\n"
-              "    \"graycube_hits\": %zu, \"embree_hits\": %zu}",
-              what, rays, ours.per_second, embree.per_second, ours.per_second / embree.per_second,
-              ours.found, embree.found);
+  std::printf(
+      "  \"%s\": {\"rays\": %zu, \"graycube_per_s\": %.0f, \"embree_per_s\": %.0f, \"ratio\": "
+      "%.3f,\n"
+      "    \"graycube_hits\": %zu, \"embree_hits\": %zu}",
+      what, rays, ours.per_second, embree.per_second, ours.per_second / embree.per_second,
+      ours.found, embree.found);
 }
 
 void run(const Options& options) {

@@ -128,16 +128,18 @@ def growth_lines(measurements: list) -> list:
         if trace is None or whole is None:
             continue
         goal = " (goal: at most 0.40)" if family == "deepcsg" else ""
-        lines.append(f"{family} {min(sizes)} to {max(sizes)}: trace time grows as size^{trace:.2f}{goal}, "
-                     f"the whole process as size^{whole:.2f}")
+        lines.append(f"{family} {min(sizes)} to {max(sizes)}: trace time grows as "
+                     f"size^{trace:.2f}{goal}, the whole process as size^{whole:.2f}")
     return lines
 
 
-# What is asked of which scenes: name, families with sizes (None: any), value, goal of the geometric mean, of each.
+# What is asked of which scenes: name, families with sizes (None: any), value, goal of the geometric
+# mean, goal of each.
 GOALS: list = [
-    ("POV-Ray / Graycube, csg and flake", {("csg", 1000), ("csg", 10000), ("csg", 100000), ("flake", 5)},
-     pov_ratio, 5.0, 4.0),
-    ("POV-Ray / Graycube, deepcsg and menger", {("deepcsg", 2000), ("menger", 3)}, pov_ratio, 100.0, 100.0),
+    ("POV-Ray / Graycube, csg and flake",
+     {("csg", 1000), ("csg", 10000), ("csg", 100000), ("flake", 5)}, pov_ratio, 5.0, 4.0),
+    ("POV-Ray / Graycube, deepcsg and menger",
+     {("deepcsg", 2000), ("menger", 3)}, pov_ratio, 100.0, 100.0),
     ("POV-Ray / Graycube, glasslens", {("glasslens", 9)}, pov_ratio, 2.5, 2.5),
     ("plain tracer / Graycube, trace", None, plain_ratio, 1.6, 0.0),
 ]
@@ -155,13 +157,15 @@ def goal_lines(measurements: list) -> list:
         if not known:
             continue
         least = min(known, key=known.get)
-        line = (f"{name}: geometric mean {statistics.geometric_mean(known.values()):.2f} of {len(known)} "
-                f"scenes (goal {mean_goal:g}), least {known[least]:.2f} at {least}")
+        mean = statistics.geometric_mean(known.values())
+        line = (f"{name}: geometric mean {mean:.2f} of {len(known)} scenes (goal {mean_goal:g}), "
+                f"least {known[least]:.2f} at {least}")
         lines.append(line + (f" (goal {each_goal:g})" if each_goal else ""))
     return lines
 
 
 def embree_lines(rates: dict) -> list:
-    return [f"{kind} rays alone, {rates['spheres']} spheres: Graycube {r['graycube_per_s'] / 1e6:.2f}, "
-            f"Embree {r['embree_per_s'] / 1e6:.2f} million rays/s, ratio {r['ratio']:.2f} (goal 0.5)"
+    return [f"{kind} rays alone, {rates['spheres']} spheres: Graycube "
+            f"{r['graycube_per_s'] / 1e6:.2f}, Embree {r['embree_per_s'] / 1e6:.2f} million rays/s, "
+            f"ratio {r['ratio']:.2f} (goal 0.5)"
             for kind in ("primary", "shadow") if (r := rates.get(kind))]

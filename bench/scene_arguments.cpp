@@ -74,9 +74,9 @@ int run_with_scene(const char* program, int argc, char** argv,
     run(parse(std::span(argv + 1, static_cast<std::size_t>(argc - 1))));
     return 0;
   } catch (const UsageError& e) {
-    std::fprintf(stderr,
-                 "%s: %s\nusage: %s SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]\n",
-                 program, e.what(), program);
+    std::fprintf(
+        stderr, "%s: %s\nusage: %s SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]\n",
+        program, e.what(), program);
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s: %s\n", program, e.what());

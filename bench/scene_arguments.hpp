@@ -22,11 +22,12 @@ struct SceneArguments {
   bool build_only = false;
 };
 
-/// Reads the scene, with the size asked for. Throws std::runtime_error with the reader's first message.
+/// Reads the scene, with the size asked for. Throws std::runtime_error with the reader's first
+/// message.
 Scene load(const SceneArguments& arguments);
 
-/// Parses the command line and calls `run`; catches what it throws. Returns main's status: 0, 1 when `run`
-/// threw, 2 on bad usage.
+/// Parses the command line and calls `run`; catches what it throws. Returns main's status: 0, 1
+/// when `run` threw, 2 on bad usage.
 int run_with_scene(const char* program, int argc, char** argv,
                    const std::function<void(const SceneArguments&)>& run);
 

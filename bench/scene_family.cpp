@@ -1,5 +1,5 @@
-// scene_family FAMILY SIZE SEED OUT…: writes a scene of a family as scene files (.json) and for POV-Ray
-// (.pov).
+// scene_family FAMILY SIZE SEED OUT…: writes a scene of a family, as scene files (.json) and for
+// POV-Ray (.pov).
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -54,7 +54,8 @@ void run(std::span<char*> arguments) {
   const auto family = family_of(arguments[0]);
   if (!family) throw UsageError("unknown family: " + std::string(arguments[0]));
   const FamilyInfo& info = families()[static_cast<std::size_t>(*family)];
-  const auto size = static_cast<std::uint32_t>(parse_number(arguments[1], info.smallest, info.largest));
+  const auto size =
+      static_cast<std::uint32_t>(parse_number(arguments[1], info.smallest, info.largest));
   const Scene scene = make_scene(*family, size, parse_number(arguments[2], 0, ~std::uint64_t{0}));
   for (const char* out : arguments.subspan(3)) {
     const std::filesystem::path path = out;

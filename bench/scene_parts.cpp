@@ -29,7 +29,8 @@ constexpr std::array<Rgb, kMattes> kMatteColors{{{0.85, 0.25, 0.2},
 
 double nine_digits(double value) {
   char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr;
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr;
   double rounded = 0;
   std::from_chars(text, end, rounded);
   return rounded + 0.0;

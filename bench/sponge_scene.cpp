@@ -12,7 +12,8 @@ constexpr double kSpongeHalf = 40.5;
 constexpr double kOverhang = 0.004;
 
 /// Cuts the three square bars out of a cube, then goes into the twenty cubes that are left.
-void cut_bars(std::vector<CsgNode>& children, const Vec3& center, double half, std::uint32_t level) {
+void cut_bars(std::vector<CsgNode>& children, const Vec3& center, double half,
+              std::uint32_t level) {
   const double reach = half + kOverhang;
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 e{half / 3, half / 3, half / 3};
@@ -23,7 +24,8 @@ void cut_bars(std::vector<CsgNode>& children, const Vec3& center, double half, s
   for (int i = 0; i < 27; ++i) {
     const Vec3 step{static_cast<double>(i / 9 - 1), static_cast<double>(i / 3 % 3 - 1),
                     static_cast<double>(i % 3 - 1)};
-    if (dot(step, step) > 1) cut_bars(children, center + (2 * half / 3) * step, half / 3, level - 1);
+    if (dot(step, step) > 1)
+      cut_bars(children, center + (2 * half / 3) * step, half / 3, level - 1);
   }
 }
 
@@ -74,8 +76,7 @@ Scene drilled_block(std::uint32_t holes, std::uint64_t seed, std::uint32_t side)
     children.push_back(sphere(center, scale * dice.between(3, 7)));
   }
   CsgNode drilled = operation(Operation::kDifference, std::move(children));
-  parts.object(cheese,
-               operation(Operation::kIntersection, {std::move(drilled), sphere({}, 64)}));
+  parts.object(cheese, operation(Operation::kIntersection, {std::move(drilled), sphere({}, 64)}));
   return parts.take();
 }
 

@@ -1,5 +1,5 @@
-// trace_time SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]: where a serial render's time and
-// memory go. Prints one JSON object; times are CPU seconds of all threads together.
+// trace_time SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]: where a serial render's
+// time and memory go. Prints one JSON object; times are CPU seconds of all threads together.
 #include <cstdio>
 
 #include "bench/clocks.hpp"
@@ -19,11 +19,12 @@ void print_trace(const SerialResult& r) {
   unsigned long long all = 0;
   for (const std::uint64_t n : r.rays.created) all += n;
   const double rays = all > 0 ? static_cast<double>(all) : 1;
-  std::printf(", \"trace_cpu_s\": %.6f, \"rays\": {\"primary\": %llu, \"shadow\": %llu, "
-              "\"reflection\": %llu, \"refraction\": %llu}, \"skipped_by_horizon\": %llu",
-              r.busy_s, created(r, RayKind::kPrimary), created(r, RayKind::kShadow),
-              created(r, RayKind::kReflection), created(r, RayKind::kRefraction),
-              static_cast<unsigned long long>(r.rays.skipped_by_horizon));
+  std::printf(
+      ", \"trace_cpu_s\": %.6f, \"rays\": {\"primary\": %llu, \"shadow\": %llu, "
+      "\"reflection\": %llu, \"refraction\": %llu}, \"skipped_by_horizon\": %llu",
+      r.busy_s, created(r, RayKind::kPrimary), created(r, RayKind::kShadow),
+      created(r, RayKind::kReflection), created(r, RayKind::kRefraction),
+      static_cast<unsigned long long>(r.rays.skipped_by_horizon));
   std::printf(", \"cells_per_ray\": %.4f, \"primitives_per_ray\": %.4f",
               static_cast<double>(r.walk.cells_visited) / rays,
               static_cast<double>(r.walk.primitives_tested) / rays);
@@ -38,10 +39,11 @@ void run(const SceneArguments& arguments) {
   const Domain domain(std::move(model));
   const double build_s = clock.lap();
   const std::uint64_t held = heap_bytes() - heap_before;
-  std::printf("{\"primitives\": %zu, \"load_s\": %.6f, \"build_s\": %.6f, \"held_bytes\": %llu, "
-              "\"bytes_per_primitive\": %.1f",
-              primitives, load_s, build_s, static_cast<unsigned long long>(held),
-              static_cast<double>(held) / static_cast<double>(primitives > 0 ? primitives : 1));
+  std::printf(
+      "{\"primitives\": %zu, \"load_s\": %.6f, \"build_s\": %.6f, \"held_bytes\": %llu, "
+      "\"bytes_per_primitive\": %.1f",
+      primitives, load_s, build_s, static_cast<unsigned long long>(held),
+      static_cast<double>(held) / static_cast<double>(primitives > 0 ? primitives : 1));
   if (!arguments.build_only) {
     const ImageSize& image = domain.settings().image;
     Film film(image.width, image.height, image.samples * image.samples);

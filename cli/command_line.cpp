@@ -159,8 +159,8 @@ class Parser {
         [&up](const std::string& text) { up.listen = text; });
     add(*sub, "--state", "DIR", "Keep jobs and pictures there, over restarts",
         [&up](const std::string& text) { up.state = text; });
-    add(*sub, "--http", "HOST:PORT", "A web page; not built yet",
-        [](const std::string&) { throw usage_failure("--http", "not built yet"); });
+    add(*sub, "--http", "HOST:PORT", "A web page of the farm at this loopback address",
+        [&up](const std::string& text) { up.http = text; });
   }
 
   void declare_client() {

@@ -28,7 +28,7 @@ struct SubmitCommand {
 };
 
 struct UpCommand {
-  std::string listen, state;
+  std::string listen, state, http;
   std::uint32_t nodes = 1, threads = 1;
 };
 

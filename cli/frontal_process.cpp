@@ -110,6 +110,7 @@ FrontalProcess::~FrontalProcess() {
 
 const std::string& FrontalProcess::wait_until_listening() {
   constexpr std::string_view prefix = "listening ";
+  constexpr std::string_view page_prefix = "page ";
   const auto until = std::chrono::steady_clock::now() + kStartLimit;
   std::string line;
   while (std::chrono::steady_clock::now() < until) {
@@ -132,6 +133,7 @@ const std::string& FrontalProcess::wait_until_listening() {
       endpoint_ = line.substr(prefix.size());
       return endpoint_;
     } else {
+      if (line.starts_with(page_prefix)) page_ = line.substr(page_prefix.size());
       line.clear();
     }
   }

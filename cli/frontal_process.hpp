@@ -28,6 +28,8 @@ class FrontalProcess {
   /// Waits for it to say where it listens. Throws a Failure when it ends instead, or an
   /// interrupt's.
   const std::string& wait_until_listening();
+  /// Where its web page is, once it listens; empty when there is none.
+  const std::string& page() const { return page_; }
   /// Throws a Failure when it has ended.
   void check_running();
   bool has_ended();
@@ -46,7 +48,7 @@ class FrontalProcess {
   int output_ = -1;
   bool has_ended_ = false, is_stop_requested_ = false, is_private_ = false;
   int wait_status_ = 0;
-  std::string endpoint_;
+  std::string endpoint_, page_;
 };
 
 }  // namespace graycube

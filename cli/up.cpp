@@ -83,6 +83,7 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const std::
   if (!command.state.empty()) {
     arguments.insert(arguments.end(), {"--state", command.state});
   }
+  if (!command.http.empty()) arguments.insert(arguments.end(), {"--http", command.http});
   return arguments;
 }
 
@@ -104,13 +105,20 @@ ExitStatus run(const UpCommand& command) {
   if (const auto problem = endpoint_problem(endpoint)) {
     throw usage_failure("--listen " + endpoint, *problem);
   }
+  if (!command.http.empty()) {
+    if (const auto problem = endpoint_problem("tcp://" + command.http)) {
+      throw usage_failure("--http " + command.http, *problem);
+    }
+  }
   catch_interrupts("up", 0);
   if (is_default) make_private_folder(endpoint);
   refuse_second_farm(endpoint);
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
   FrontalProcess frontal(frontal_arguments(command, endpoint));
-  print_usage_hint(command, frontal.wait_until_listening(), is_default);
+  const std::string listening = frontal.wait_until_listening();
+  if (!frontal.page().empty()) std::printf("web page at %s\n", frontal.page().c_str());
+  print_usage_hint(command, listening, is_default);
   while (!frontal.has_ended()) {
     if (is_interrupted()) {
       frontal.stop();

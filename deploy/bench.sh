@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures Graycube beside POV-Ray and Embree, on a bare Debian 12: installs what is absent, builds in
-# build/bench, generates scenes, runs, prints tables. Arguments go to bench/compare.py, for instance
+# Measures Graycube beside POV-Ray and Embree, on a bare Debian 12: installs what is absent, builds
+# in build/bench, generates scenes, runs, prints tables. Arguments go to bench/compare.py, as in
 #   deploy/bench.sh --quick
 #   deploy/bench.sh --seeds 21,22,23 --size 1024 --families csg:1000,flake:5 --json out/bench.json
 # `deploy/bench.sh --kernels [Google Benchmark's options]` runs the micro-benchmarks instead.
@@ -41,8 +41,8 @@ install_absent povray libembree-dev libbenchmark-dev python3
 
 say "Building in build/bench"
 # Tests are configured for compare_pictures, which is among them.
-cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DGRAYCUBE_BENCH=ON -DGRAYCUBE_TESTS=ON \
-  --log-level=WARNING >&2
+cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DGRAYCUBE_BENCH=ON \
+  -DGRAYCUBE_TESTS=ON --log-level=WARNING >&2
 cmake --build build/bench --parallel "$(nproc)" --target graycube compare_pictures scene_family \
   trace_time plain_tracer rays_vs_embree kernels -- --quiet >&2
 

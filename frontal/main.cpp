@@ -85,8 +85,8 @@ class FrontalProcess {
         preparation_(wakeup_) {
     frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
-    std::cout << "listening " << inbox_.endpoint() << std::endl;
     if (http_) std::cout << "page " << http_->url() << std::endl;
+    std::cout << "listening " << inbox_.endpoint() << std::endl;
   }
 
   void run() {

@@ -35,6 +35,14 @@ void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem
   }
 }
 
+/// The other models' names are reserved.
+void check_is_built(const Scene& scene, std::vector<control::ErrorItem>& errors) {
+  for (const NamedMaterial& m : scene.materials) {
+    if (m.material.model == ShadingModel::kPhong) continue;
+    add_error(errors, "/materials/" + m.name + "/model", "not built yet; only \"phong\" is");
+  }
+}
+
 Algorithm chosen(Algorithm wanted, const Model& model) {
   if (wanted != Algorithm::kAuto) return wanted;
   return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
@@ -90,6 +98,7 @@ PreparationResult run(const PreparationWork& work) {
   ReadResult read = read_scene_text(text);
   for (const SceneError& e : read.errors) add_error(result.errors, e.pointer, e.message);
   if (!read.scene) return result;
+  check_is_built(*read.scene, result.errors);
   Model model = compile_scene(*read.scene);
   read.scene.reset();
   apply_overrides(work.options, model.settings, result.errors);

@@ -142,7 +142,10 @@ Inbox::Inbox(ZmqContext& context, const std::string& endpoint)
     throw TransportError(endpoint + ": " + e.what());
   }
 }
-Inbox::~Inbox() = default;
+Inbox::~Inbox() {
+  // libzmq may leave the file of a local socket behind.
+  if (impl_->endpoint.starts_with("ipc://")) ::unlink(impl_->endpoint.c_str() + 6);
+}
 
 std::optional<Inbox::Received> Inbox::receive() {
   for (;;) {

@@ -65,9 +65,9 @@ TEST_CASE("sizes mean what they say") {
 
 TEST_CASE("one in five solids of a field is a mirror") {
   const Scene scene = make_scene(Family::kCsg, 10'000, 11);
-  const auto mirrors = std::count_if(scene.objects.begin(), scene.objects.end(), [&](const auto& o) {
-    return scene.materials[o.material].material.reflect > 0;
-  });
+  const auto mirrors = std::count_if(
+      scene.objects.begin(), scene.objects.end(),
+      [&](const auto& o) { return scene.materials[o.material].material.reflect > 0; });
   CHECK(mirrors > 3333 * 17 / 100);
   CHECK(mirrors < 3333 * 23 / 100);
 }

@@ -104,7 +104,6 @@ TEST_CASE("a command line that means nothing is refused in one line") {
                                              {"render", "a.json", "--threads", "1025"},
                                              {"render", "a.json", "--wait"},
                                              {"up", "a.json"},
-                                             {"up", "--http", "localhost:80"},
                                              {"convert", "a.json"},
                                              {"--frobnicate"}}) {
     const std::string line = refused(arguments);

@@ -194,7 +194,7 @@ TEST_CASE("bad usage is refused in one line") {
                               {"jobs", "--connect", "tcp://198.51.100.1:80"},
                               {"jobs", "--connect", "somewhere"},
                               {"up", "--listen", "tcp://0.0.0.0:5555"},
-                              {"up", "--http", "127.0.0.1:8080"},
+                              {"up", "--http", "0.0.0.0:8080"},
                               {"compare", "s.json"},
                               {"convert", "s.json", "s.stl"},
                               {"convert", "s.json", "s.json"},

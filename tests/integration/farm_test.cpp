@@ -1,6 +1,8 @@
 // A farm in one terminal, its users in others.
 #include <signal.h>
 
+#include <httplib.h>
+
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -252,6 +254,39 @@ TEST_CASE("a farm listens where it is told, on a free port of the loopback, too"
     CHECK(sandbox.processes().empty());
     CHECK(sandbox.files() == std::vector<std::string>{"a.exr"});
   }
+}
+
+TEST_CASE("the farm's web page shows jobs, nodes and pictures, and refuses what isn't there") {
+  Sandbox sandbox;
+  Farm farm(sandbox, {"--http", "127.0.0.1:*"});
+  const std::string said = farm.up().out();
+  const std::size_t begin = said.find("http://");
+  REQUIRE(begin != std::string::npos);
+  httplib::Client browser(said.substr(begin, said.find('\n', begin) - begin));
+  const std::string job = submit(sandbox, {first(), "--size", "48x32"});
+  ok(sandbox, {"watch", job});
+  const auto page = browser.Get("/");
+  REQUIRE(page);
+  CHECK(page->body.find("<title>Graycube</title>") != std::string::npos);
+  const auto jobs = browser.Get("/api/jobs");
+  REQUIRE(jobs);
+  CHECK(nlohmann::json::parse(jobs->body)["jobs"][0]["state"] == "done");
+  const auto nodes = browser.Get("/api/nodes");
+  REQUIRE(nodes);
+  CHECK(nlohmann::json::parse(nodes->body)["nodes"].size() == 4);
+  const auto picture = browser.Get(("/jobs/" + job + ".png").c_str());
+  REQUIRE(picture);
+  CHECK(picture->status == 200);
+  ok(sandbox, {"fetch", job, "-o", "a.exr", "--png", "a.png"});
+  CHECK((picture->body == file_bytes(sandbox / "a.png")));
+  for (const char* path : {"/jobs/77.png", "/api/jobs/77", "/jobs/99999999999999.png", "/nothing"}) {
+    const auto missing = browser.Get(path);
+    REQUIRE(missing);
+    CHECK(missing->status == 404);
+  }
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
 }
 
 TEST_CASE("with --state a farm knows its jobs and pictures again") {
