@@ -49,7 +49,7 @@ cmake --build build/bench --parallel "$(nproc)" --target graycube compare_pictur
 if [[ ${1-} == --kernels ]]; then
   exec build/bench/bin/kernels "${@:2}"
 fi
-say "Running; a full comparison takes half an hour or so"
+say "Running; a full comparison takes ten minutes or so"
 programs=$PWD/build/bench/bin
 compare=$PWD/bench/compare.py
 cd -- "$called_from" # so that --json's file is where the caller means it

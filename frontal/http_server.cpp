@@ -53,7 +53,10 @@ class FrontalClient {
 };
 
 int status_of(const Failed& failed) {
-  return failed.code == FailureCode::kUnknownJob ? 404 : 409;
+  // A number that no job can have is a bad request to the frontal; here it is a page that isn't there.
+  const bool is_unknown =
+      failed.code == FailureCode::kUnknownJob || failed.code == FailureCode::kBadRequest;
+  return is_unknown ? 404 : 409;
 }
 
 void reply_json(const std::optional<Answer>& answer, httplib::Response& response) {
