@@ -1,4 +1,5 @@
-// Single primitives for the tests: made by kind from a seed, with the faces that polyhedra keep elsewhere.
+// Single primitives for the tests: made by kind from a seed, with the faces that polyhedra keep
+// elsewhere.
 #pragma once
 
 #include <array>

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint64_t kSeeds = 150;
 
-/// Calls `check(one, dice)` for random primitives of every kind; the seed is shown when something fails.
+/// Calls `check(one, dice)` for random primitives of every kind; the seed is shown when something
+/// fails.
 template <typename Check>
 void for_random_primitives(const Check& check, const RandomOptions& options = {}) {
   for (std::size_t kind = 0; kind < kLeafKinds; ++kind) {
@@ -147,7 +148,8 @@ TEST_CASE("bounds enclose every point inside, however far") {
 }
 
 TEST_CASE("bounds are tight around bounded solids") {
-  // The polyhedra's planes may cut a box without reaching its bounds' corners, but every side is touched.
+  // The polyhedra's planes may cut a box without reaching its bounds' corners, but every side is
+  // touched.
   for_random_primitives(
       [](const OnePrimitive& one, Dice& dice) {
         const Aabb b = one.bounds();
@@ -196,7 +198,8 @@ TEST_CASE("outward normals are unit and point outwards") {
         const Vec3 v = cross(n, u);
         bool agrees = true;
         for (const Vec3& side : {Vec3{}, u, v, -u, -v}) {
-          agrees = agrees && one.holds(p + kStep * (2 * side - n)) && !one.holds(p + kStep * (2 * side + n));
+          agrees = agrees && one.holds(p + kStep * (2 * side - n)) &&
+                   !one.holds(p + kStep * (2 * side + n));
         }
         doubtful += agrees ? 0 : 1;
       }
@@ -215,8 +218,9 @@ TEST_CASE("a cell that counts as outside or inside is so with every point") {
       const OnePrimitive one = random_primitive(seed, kind);
       Dice dice(seed);
       for (int i = 0; i < 120; ++i) {
-        const Vec3 middle = dice.one_in(2) ? point_inside(one, dice)
-                            : dice.one_in(2) ? dice.grid_point(3) : dice.point(3);
+        const Vec3 middle = dice.one_in(2)   ? point_inside(one, dice)
+                            : dice.one_in(2) ? dice.grid_point(3)
+                                             : dice.point(3);
         const double size = std::pow(10, dice.between(-3, 1));
         const Vec3 half{size * dice.unit(), size * dice.unit(), size * dice.unit()};
         Aabb cell{middle - half, middle + half};
@@ -229,16 +233,19 @@ TEST_CASE("a cell that counts as outside or inside is so with every point") {
           Vec3 p;
           for (int a = 0; a < 3; ++a) {
             const double reach = std::pow(10, dice.between(0, 5));
-            p[a] = dice.one_in(4) && std::isfinite(cell.lo[a])   ? cell.lo[a]
-                   : dice.one_in(4) && std::isfinite(cell.hi[a]) ? cell.hi[a]
-                   : dice.between(std::fmax(cell.lo[a], std::fmin(cell.hi[a], reach) - 2 * reach),
-                                  std::fmin(cell.hi[a], std::fmax(cell.lo[a], -reach) + 2 * reach));
+            p[a] = dice.one_in(4) && std::isfinite(cell.lo[a]) ? cell.lo[a]
+                   : dice.one_in(4) && std::isfinite(cell.hi[a])
+                       ? cell.hi[a]
+                       : dice.between(
+                             std::fmax(cell.lo[a], std::fmin(cell.hi[a], reach) - 2 * reach),
+                             std::fmin(cell.hi[a], std::fmax(cell.lo[a], -reach) + 2 * reach));
           }
           if (one.holds(p) != (side == CellSide::kInside)) FAIL(p.x << ' ' << p.y << ' ' << p.z);
         }
       }
     }
-    INFO(kLeafNames[kind] << ": " << outside << " outside, " << inside << " inside, " << crosses << " cross");
+    INFO(kLeafNames[kind] << ": " << outside << " outside, " << inside << " inside, " << crosses
+                          << " cross");
     CHECK(outside > kSeeds * 10);
     CHECK(inside > kSeeds);
     CHECK(crosses > kSeeds * 10);

@@ -1,8 +1,9 @@
-// Scenes from a seed, made to be hard for a ray tracer: every kind of primitive, maps with shear and mirror,
-// operation trees, faces that coincide, floors, complements.
+// Scenes from a seed, made to be hard for a ray tracer: every kind of primitive, maps with shear
+// and mirror, operation trees, faces that coincide, floors, complements.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -104,7 +105,9 @@ class RandomModel {
   }
 
   Vec3 place() { return is_on_grid() ? dice_.grid_point(2) : dice_.point(2); }
-  double size() { return is_on_grid() ? 0.5 + 0.5 * static_cast<double>(dice_.below(3)) : dice_.between(0.3, 1.6); }
+  double size() {
+    return is_on_grid() ? 0.5 + 0.5 * static_cast<double>(dice_.below(3)) : dice_.between(0.3, 1.6);
+  }
 
  private:
   bool is_on_grid() { return options_.coincidences && dice_.one_in(2); }
@@ -208,7 +211,9 @@ class RandomModel {
     const Affine a = shear();
     return {place(), {size() * a.row(0), size() * a.row(1), size() * a.row(2)}};
   }
-  HalfSpaceShape half_space() { return {axis(), is_on_grid() ? dice_.on_grid(2) : dice_.between(-2, 2)}; }
+  HalfSpaceShape half_space() {
+    return {axis(), is_on_grid() ? dice_.on_grid(2) : dice_.between(-2, 2)};
+  }
   PolyhedronShape polyhedron() {
     PolyhedronShape p;
     if (!options_.unbounded || dice_.one_in(2)) {

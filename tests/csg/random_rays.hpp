@@ -1,5 +1,5 @@
-// Rays made to be hard for a model: along axes, in the planes of faces, through corners and edges, tangent,
-// from surfaces, from inside solids, from far away.
+// Rays made to be hard for a model: along axes, in the planes of faces, through corners and edges,
+// tangent, from surfaces, from inside solids, from far away.
 #pragma once
 
 #include <cmath>
@@ -73,7 +73,8 @@ class RandomRays {
       case PrimitiveKind::kCylinder:
       case PrimitiveKind::kCone: return Plane{{v(0), v(1), v(2)}, dice_.one_in(2) ? v(3) : v(4)};
       case PrimitiveKind::kHalfSpace: return Plane{{v(0), v(1), v(2)}, v(3)};
-      case PrimitiveKind::kPolyhedron: return model_.planes[p.first_plane + dice_.below(p.plane_count)];
+      case PrimitiveKind::kPolyhedron:
+        return model_.planes[p.first_plane + dice_.below(p.plane_count)];
       default: return std::nullopt;
     }
   }
@@ -99,7 +100,8 @@ class RandomRays {
   }
   Vec3 corner() { return finite_bounds().corner(static_cast<int>(dice_.below(8))); }
 
-  /// Along an axis in a face of the bounds, where a sphere's, a cylinder's, a torus's surface touches it.
+  /// Along an axis in a face of the bounds, where a sphere's, a cylinder's, a torus's surface
+  /// touches it.
   Ray tangent() {
     const Aabb b = finite_bounds();
     const int a = static_cast<int>(dice_.below(3));
@@ -116,7 +118,9 @@ class RandomRays {
       const auto all = trees_.crossings_between(ray, 0, Aabb::kInf);
       if (all.empty()) continue;
       const Vec3 p = ray.at(all[dice_.below(all.size())].t);
-      return {"from a surface", {p, dice_.unit_vector()}, dice_.one_in(2) ? 0 : 1e-9 * std::fmax(1, max_abs(p))};
+      return {"from a surface",
+              {p, dice_.unit_vector()},
+              dice_.one_in(2) ? 0 : 1e-9 * std::fmax(1, max_abs(p))};
     }
     return of_kind(0);
   }
@@ -129,8 +133,8 @@ class RandomRays {
     return {0, 0, 0};
   }
 
-  /// Up to 10^5 times the scene's size. Beyond 10^7 times it a point on a ray is rounded by as much as cells
-  /// are grown, and the walk promises nothing.
+  /// Up to 10^5 times the scene's size. Beyond 10^7 times it a point on a ray is rounded by as much
+  /// as cells are grown, and the walk promises nothing.
   Ray from_afar() {
     const double distance = std::pow(10, dice_.between(1, 6));
     return between(distance * dice_.unit_vector(), dice_.point(2));

@@ -42,9 +42,15 @@ class Solids {
   Mailbox mailbox_;
 };
 
-CsgNode minus(CsgNode a, CsgNode b) { return operation(Operation::kDifference, {std::move(a), std::move(b)}); }
-CsgNode plus(CsgNode a, CsgNode b) { return operation(Operation::kUnion, {std::move(a), std::move(b)}); }
-CsgNode both(CsgNode a, CsgNode b) { return operation(Operation::kIntersection, {std::move(a), std::move(b)}); }
+CsgNode minus(CsgNode a, CsgNode b) {
+  return operation(Operation::kDifference, {std::move(a), std::move(b)});
+}
+CsgNode plus(CsgNode a, CsgNode b) {
+  return operation(Operation::kUnion, {std::move(a), std::move(b)});
+}
+CsgNode both(CsgNode a, CsgNode b) {
+  return operation(Operation::kIntersection, {std::move(a), std::move(b)});
+}
 CsgNode complement(CsgNode a) { return operation(Operation::kComplement, {std::move(a)}); }
 
 CsgNode random_leaf(RandomModel& random) {
@@ -117,7 +123,8 @@ TEST_CASE("membership along a ray is that of its points") {
         if (crossings.empty()) continue;
         for (int k = 0; k < 6; ++k) {
           const double t = rays.dice().between(-10, 10);
-          const auto next = std::find_if(crossings.begin(), crossings.end(), [&](const auto& c) { return c.t > t; });
+          const auto next = std::find_if(crossings.begin(), crossings.end(),
+                                         [&](const auto& c) { return c.t > t; });
           const bool member = next == crossings.end() ? crossings.back().entering : !next->entering;
           // Near a surface rounding decides: all points around must agree.
           const Vec3 p = ray.at(t);
@@ -143,10 +150,13 @@ TEST_CASE("a scene moved, scaled, sheared or mirrored with its rays has the same
   std::size_t hits = 0, grazing = 0, rays_traced = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     INFO("seed " << seed);
-    const RandomOptions options{.coincidences = false, .unbounded = true, .max_objects = 5, .max_tree_depth = 3};
+    const RandomOptions options{
+        .coincidences = false, .unbounded = true, .max_objects = 5, .max_tree_depth = 3};
     RandomModel random(seed, options);
     Scene scene = random.scene();
-    const Affine map = random.dice().one_in(2) ? random.rigid() : compose(translation(random.place()), random.shear());
+    const Affine map = random.dice().one_in(2)
+                           ? random.rigid()
+                           : compose(translation(random.place()), random.shear());
     Solids here(scene);
     for (SceneObject& o : scene.objects) o.csg = transformed(o.csg, map);
     Solids there(scene);
@@ -159,7 +169,8 @@ TEST_CASE("a scene moved, scaled, sheared or mirrored with its rays has the same
       ++rays_traced;
       hits += a ? 1 : 0;
       const bool same = a.has_value() == b.has_value() &&
-                        (!a || (a->primitive == b->primitive && a->object == b->object && a->entering == b->entering &&
+                        (!a || (a->primitive == b->primitive && a->object == b->object &&
+                                a->entering == b->entering &&
                                 std::fabs(a->t * stretch - b->t) < 1e-7 * std::fmax(1, b->t)));
       grazing += same ? 0 : 1;
     }
@@ -174,7 +185,8 @@ TEST_CASE("solids that share a face are one solid to a ray across it") {
     INFO("seed " << seed);
     Dice dice(seed);
     // Heights that aren't whole numbers: bases, tops and corners must still give the same bits.
-    const double low = dice.between(-3, -1), middle = dice.between(-0.9, 0.9), high = dice.between(1, 3);
+    const double low = dice.between(-3, -1), middle = dice.between(-0.9, 0.9),
+                 high = dice.between(1, 3);
     const auto part = [&](double from, double to) {
       switch (dice.below(5)) {
         case 0: return node_of(BoxShape{{-1, from, -1}, {1, to, 1}});
@@ -216,7 +228,8 @@ TEST_CASE("cutting flush with a face leaves no skin") {
 }
 
 TEST_CASE("solids that only touch at a face have that face in common only") {
-  const CsgNode a = node_of(BoxShape{{0, 0, 0}, {1, 1, 1}}), b = node_of(BoxShape{{0, 0, 1}, {1, 1, 2}});
+  const CsgNode a = node_of(BoxShape{{0, 0, 0}, {1, 1, 1}}),
+                b = node_of(BoxShape{{0, 0, 1}, {1, 1, 2}});
   Solids meeting(both(a, b));
   CHECK(meeting.all({{0.5, 0.5, -3}, {0, 0, 1}}).empty());
   Solids rest(minus(a, b));
@@ -224,7 +237,8 @@ TEST_CASE("solids that only touch at a face have that face in common only") {
 }
 
 TEST_CASE("of coincident objects the first in the file is hit") {
-  const CsgNode small = node_of(BoxShape{{0, 0, 0}, {1, 1, 1}}), large = node_of(BoxShape{{-1, -1, 0}, {2, 2, 2}});
+  const CsgNode small = node_of(BoxShape{{0, 0, 0}, {1, 1, 1}}),
+                large = node_of(BoxShape{{-1, -1, 0}, {2, 2, 2}});
   Solids two(scene_of({large, small})), other(scene_of({small, large}));
   const Ray ray{{0.5, 0.5, -3}, {0, 0, 1}};
   CHECK(two.first(ray)->object == 0);

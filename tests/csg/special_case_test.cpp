@@ -1,5 +1,5 @@
-// Single primitives where solvers go wrong: tangents, apexes, edges, thin shapes, great distances. Expected
-// parameters are worked out by hand.
+// Single primitives where solvers go wrong: tangents, apexes, edges, thin shapes, great distances.
+// Expected parameters are worked out by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
@@ -37,7 +37,8 @@ Intervals solid_part(const Spans& spans, double tolerance) {
   return r;
 }
 
-void check_part(const OnePrimitive& one, const Ray& ray, const Intervals& expected, double tolerance = 1e-12) {
+void check_part(const OnePrimitive& one, const Ray& ray, const Intervals& expected,
+                double tolerance = 1e-12) {
   const Intervals found = solid_part(one.spans(ray), 1e-6);
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -55,7 +56,7 @@ TEST_CASE("a torus is crossed four times through its hole's plane") {
   check_part(one, {{-5, 0, 0}, {1, 0, 0}}, {{2.5, 3.5}, {6.5, 7.5}});
   check_part(one, {{0, 0, 0}, {0, 1, 0}}, {{-2.5, -1.5}, {1.5, 2.5}});
   check_part(one, {{2, 0, 5}, {0, 0, -1}}, {{4.5, 5.5}});
-  check_part(one, {{0, 0, 5}, {0, 0, -1}}, {});  // down the hole
+  check_part(one, {{0, 0, 5}, {0, 0, -1}}, {});    // down the hole
   check_part(one, {{2.5, 0, 5}, {0, 0, -1}}, {});  // touches the outer equator
   check_part(one, {{3, 0, 0}, {0, 1, 0}}, {});
 }
@@ -74,7 +75,8 @@ TEST_CASE("a ray that touches a torus from inside its hole stays inside on both 
 
 TEST_CASE("a torus far away keeps its digits") {
   const OnePrimitive one(node_of(TorusShape{{0, 0, 0}, {0, 0, 1}, 2, 0.5}));
-  check_part(one, {{-1e5, 0, 0}, {1, 0, 0}}, {{1e5 - 2.5, 1e5 - 1.5}, {1e5 + 1.5, 1e5 + 2.5}}, 1e-10);
+  check_part(one, {{-1e5, 0, 0}, {1, 0, 0}}, {{1e5 - 2.5, 1e5 - 1.5}, {1e5 + 1.5, 1e5 + 2.5}},
+             1e-10);
 }
 
 TEST_CASE("a cone is solved at its apex") {
@@ -92,7 +94,8 @@ TEST_CASE("a cone is solved at its apex") {
 }
 
 TEST_CASE("a line that touches a cone is not inside it") {
-  // Once the solver gave the whole line: at the foot of the axis' perpendicular the discriminant is exactly 0.
+  // Once the solver gave the whole line: at the foot of the axis' perpendicular the discriminant is
+  // exactly 0.
   const OnePrimitive one(node_of(ConeShape{{0, 0, 0}, 1, {0, 0, 1}, 0}));
   check_part(one, {{1, -5, 0}, {0, 1, 0}}, {});
   check_part(one, {{0.5, -5, 0.5}, {0, 1, 0}}, {});
@@ -102,7 +105,8 @@ TEST_CASE("a line that touches a cone is not inside it") {
     Dice dice(seed);
     const double h = 0.25 * static_cast<double>(dice.below(5)), from = dice.between(-9, 9);
     const double sign = dice.sign();
-    for (const auto& [enter, leave] : intervals(one.spans({{sign * (1 - h), from, h}, {0, 1, 0}}))) {
+    for (const auto& [enter, leave] :
+         intervals(one.spans({{sign * (1 - h), from, h}, {0, 1, 0}}))) {
       CHECK(std::fabs(enter + from) < 1e-7);
       CHECK(std::fabs(leave + from) < 1e-7);
     }
@@ -149,7 +153,8 @@ TEST_CASE("thin shapes keep both their faces") {
   CHECK(through_sheet[0].first == 1);
   CHECK(through_sheet[0].second > 1);
 
-  const OnePrimitive needle(node_of(EllipsoidShape{{0, 0, 0}, {Vec3{1e-5, 0, 0}, {0, 3, 0}, {0, 0, 1e-5}}}));
+  const OnePrimitive needle(
+      node_of(EllipsoidShape{{0, 0, 0}, {Vec3{1e-5, 0, 0}, {0, 3, 0}, {0, 0, 1e-5}}}));
   const auto across = intervals(needle.spans({{-10, 1, 0}, {1, 0, 0}}));
   REQUIRE(across.size() == 1);
   const double half = 1e-5 * std::sqrt(1 - 1.0 / 9);
@@ -180,17 +185,23 @@ TEST_CASE("an unbounded half-space ends where its plane is") {
 TEST_CASE("a polyhedron's bounds hold what is unbounded") {
   // Once a polyhedron of one effective plane was bounded by that plane's own, flat bounds.
   const OnePrimitive half(node_of(PolyhedronShape{{{{0, 1, 0}, 1}, {{0, 1, 0}, 2}}}));
-  CHECK(half.bounds() == Aabb{{-Aabb::kInf, -Aabb::kInf, -Aabb::kInf}, {Aabb::kInf, 1, Aabb::kInf}});
+  CHECK(half.bounds() ==
+        Aabb{{-Aabb::kInf, -Aabb::kInf, -Aabb::kInf}, {Aabb::kInf, 1, Aabb::kInf}});
   // And a corner open to a slanted direction ended where its clipped faces did.
-  const OnePrimitive corner(node_of(PolyhedronShape{
-      {{{0.548, -0.018, -0.836}, -0.329}, {{-0.756, -0.361, -0.545}, -3.182}, {{0.580, 0.305, 0.755}, -1.424}}}));
+  const OnePrimitive corner(node_of(PolyhedronShape{{{{0.548, -0.018, -0.836}, -0.329},
+                                                     {{-0.756, -0.361, -0.545}, -3.182},
+                                                     {{0.580, 0.305, 0.755}, -1.424}}}));
   for (double far = 100; far < 1e9; far *= 10) {
     const Vec3 p = far * Vec3{-1.27, 3.97, -0.72};
     CHECK(corner.holds(p));
     CHECK(corner.bounds().contains(p));
   }
-  const OnePrimitive cube(node_of(PolyhedronShape{{{{1, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{0, 1, 0}, 1},
-                                                   {{0, -1, 0}, 1}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}}}));
+  const OnePrimitive cube(node_of(PolyhedronShape{{{{1, 0, 0}, 1},
+                                                   {{-1, 0, 0}, 1},
+                                                   {{0, 1, 0}, 1},
+                                                   {{0, -1, 0}, 1},
+                                                   {{0, 0, 1}, 1},
+                                                   {{0, 0, -1}, 1}}}));
   CHECK(cube.bounds().grown(-1e-6).contains({0.99, 0.99, 0.99}));
   CHECK_FALSE(cube.bounds().contains({1.001, 0, 0}));
 }

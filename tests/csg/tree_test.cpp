@@ -1,4 +1,5 @@
-// Trees of the compiled model: pruning, membership, bounds, what compiling makes of the scene's trees.
+// Trees of the compiled model: pruning, membership, bounds, what compiling makes of the scene's
+// trees.
 #include "csg/tree.hpp"
 
 #include <catch2/catch.hpp>
@@ -74,7 +75,8 @@ TEST_CASE("a pruned tree has the membership of the whole one") {
     // What stands before the tree in the output is left alone.
     const TreeNode before{Kind::kLeaf, 4711, 1};
     std::vector<TreeNode> out{before};
-    const Pruned result = prune(std::span<const TreeNode>(tree), [&](std::uint32_t p) { return sides[p]; }, out);
+    const Pruned result = prune(
+        std::span<const TreeNode>(tree), [&](std::uint32_t p) { return sides[p]; }, out);
     REQUIRE(out.front() == before);
     const std::span<const TreeNode> pruned = std::span<const TreeNode>(out).subspan(1);
     if (result != Pruned::kVaries) {
@@ -92,7 +94,8 @@ TEST_CASE("a pruned tree has the membership of the whole one") {
     }
     for (int k = 0; k < 20; ++k) {
       std::vector<bool> truth;
-      for (const CellSide s : sides) truth.push_back(s == CellSide::kCrosses ? dice.one_in(2) : s == CellSide::kInside);
+      for (const CellSide s : sides)
+        truth.push_back(s == CellSide::kCrosses ? dice.one_in(2) : s == CellSide::kInside);
       const auto inside = [&](std::uint32_t p) -> bool { return truth[p]; };
       const bool expected = holds(solid_of(tree), inside);
       REQUIRE(evaluate(std::span<const TreeNode>(tree), inside) == expected);
@@ -117,7 +120,9 @@ TEST_CASE("pruning merges nested nodes of one kind when it starts from a merged 
       REQUIRE(is_well_formed(tree, true));
       std::vector<TreeNode> out;
       const auto side = [&](std::uint32_t) {
-        return dice.one_in(2) ? CellSide::kCrosses : dice.one_in(2) ? CellSide::kInside : CellSide::kOutside;
+        return dice.one_in(2)   ? CellSide::kCrosses
+               : dice.one_in(2) ? CellSide::kInside
+                                : CellSide::kOutside;
       };
       if (prune(tree, side, out) == Pruned::kVaries) REQUIRE(is_well_formed(out, true));
     }
@@ -133,7 +138,8 @@ TEST_CASE("bounds of a tree enclose its points") {
     Dice dice(seed);
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
       for (int i = 0; i < 60; ++i) {
-        const Vec3 p = dice.one_in(3) ? std::pow(10, dice.between(0, 6)) * dice.unit_vector() : dice.point(3);
+        const Vec3 p =
+            dice.one_in(3) ? std::pow(10, dice.between(0, 6)) * dice.unit_vector() : dice.point(3);
         if (!trees.contains_point(o, p)) continue;
         ++inside;
         REQUIRE(model.objects[o].bounds.grown(1e-10).contains(p));
@@ -177,7 +183,9 @@ TEST_CASE("De Morgan: a complement of a union is the intersection of the complem
       complements.push_back(operation(Operation::kComplement, {parts.back()}));
     }
     const auto compiled = [](CsgNode node) { return compile_scene(scene_of({std::move(node)})); };
-    const auto complement = [](CsgNode node) { return operation(Operation::kComplement, {std::move(node)}); };
+    const auto complement = [](CsgNode node) {
+      return operation(Operation::kComplement, {std::move(node)});
+    };
     CHECK(compiled(complement(operation(Operation::kUnion, parts))) ==
           compiled(operation(Operation::kIntersection, complements)));
     CHECK(compiled(complement(operation(Operation::kIntersection, parts))) ==

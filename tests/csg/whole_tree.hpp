@@ -1,7 +1,7 @@
-// The reference: an object's whole tree evaluated along a whole ray, with nothing clever about it. Written
-// from the scene file's definition, over a recursive tree of its own: all ends of all primitives' intervals
-// are sorted; at each distinct parameter membership just before and just after is looked up; where it
-// differs the surface is crossed.
+// The reference: an object's whole tree evaluated along a whole ray, with nothing clever about it.
+// Written from the scene file's definition, over a recursive tree of its own: all ends of all
+// primitives' intervals are sorted; at each distinct parameter membership just before and just
+// after is looked up; where it differs the surface is crossed.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,7 @@ bool holds(const SolidTree& tree, const IsInside& is_inside) {
   switch (tree.kind) {
     case SolidTree::Kind::kUnion: return std::any_of(first, last, child);
     case SolidTree::Kind::kIntersection: return std::all_of(first, last, child);
-    case SolidTree::Kind::kDifference:
-      return child(*first) && std::none_of(first + 1, last, child);
+    case SolidTree::Kind::kDifference: return child(*first) && std::none_of(first + 1, last, child);
     case SolidTree::Kind::kComplement: return !child(*first);
     case SolidTree::Kind::kLeaf: return is_inside(tree.primitive);
   }
@@ -49,7 +48,8 @@ inline SolidTree solid_of(std::span<const TreeNode> nodes) {
   if (root.kind == TreeNode::Kind::kInvertedLeaf) {
     return {SolidTree::Kind::kComplement, {tree}, 0};
   }
-  tree.kind = root.kind == TreeNode::Kind::kAnd ? SolidTree::Kind::kIntersection : SolidTree::Kind::kUnion;
+  tree.kind =
+      root.kind == TreeNode::Kind::kAnd ? SolidTree::Kind::kIntersection : SolidTree::Kind::kUnion;
   for (std::size_t i = 1; i < root.size; i += nodes[i].size) {
     tree.children.push_back(solid_of(nodes.subspan(i, nodes[i].size)));
   }
@@ -59,8 +59,8 @@ inline SolidTree solid_of(const Model& model, const Object& object) {
   return solid_of(std::span(model.nodes).subspan(object.first_node, object.node_count));
 }
 
-/// A tree as written in the scene. The compiled model numbers leaves in the order of the file, references
-/// expanded; `next` is the number of the first.
+/// A tree as written in the scene. The compiled model numbers leaves in the order of the file,
+/// references expanded; `next` is the number of the first.
 inline SolidTree solid_of(const Scene& scene, const CsgNode& node, std::uint32_t& next) {
   if (const auto* ref = std::get_if<ReferenceNode>(&node.value)) {
     return solid_of(scene, scene.shapes[ref->shape].node, next);
@@ -103,9 +103,8 @@ class WholeTrees {
   const SolidTree& tree(std::size_t object) const { return trees_[object]; }
 
   bool contains_point(std::size_t object, const Vec3& p) const {
-    return holds(trees_[object], [&](std::uint32_t i) {
-      return contains(model_.primitives[i], model_.planes, p);
-    });
+    return holds(trees_[object],
+                 [&](std::uint32_t i) { return contains(model_.primitives[i], model_.planes, p); });
   }
 
   /// Every crossing of one object on the whole line, in order of t.
@@ -141,7 +140,8 @@ class WholeTrees {
         if (c.t >= t0 && c.t < t1) all.push_back(c);
       }
     }
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.t < b.t; });
     return all;
   }
 
@@ -153,8 +153,8 @@ class WholeTrees {
 
   void collect(const SolidTree& tree, const Ray& ray, std::vector<Entry>& entries) const {
     if (tree.kind == SolidTree::Kind::kLeaf) {
-      entries.push_back({tree.primitive,
-                         spans_along(model_.primitives[tree.primitive], model_.planes, ray)});
+      entries.push_back(
+          {tree.primitive, spans_along(model_.primitives[tree.primitive], model_.planes, ray)});
     }
     for (const SolidTree& c : tree.children) collect(c, ray, entries);
   }

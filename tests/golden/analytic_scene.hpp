@@ -1,5 +1,5 @@
-// A second renderer for a handful of plain solids, in closed form and without anything of the engine but its
-// vectors: what the picture of such a scene must be, pixel by pixel.
+// A second renderer for a handful of plain solids, in closed form and without anything of the
+// engine but its vectors: what the picture of such a scene must be, pixel by pixel.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,8 @@ struct AnalyticBox {
   }
 };
 
-/// Upright: x² + z² ≤ radius² about (x, z) from bottom to top; with a top radius of its own it is a cone.
+/// Upright: x² + z² ≤ radius² about (x, z) from bottom to top; with a top radius of its own it is a
+/// cone.
 struct AnalyticColumn {
   double x, z, bottom, top, radius, top_radius;
 
@@ -122,10 +123,13 @@ struct AnalyticScene {
       const double distance = length(source.position - p);
       const Vec3 l = normalized(source.position - p);
       if (dot(n, l) <= 0 || nearest(p, l, kSkip).hit.t < distance) continue;
-      const double highlight = solid->specular * std::pow(std::max(0.0, dot(r, l)), solid->shininess);
-      light = light + source.color * ((solid->diffuse * dot(n, l)) * solid->color + Rgb{highlight, highlight, highlight});
+      const double highlight =
+          solid->specular * std::pow(std::max(0.0, dot(r, l)), solid->shininess);
+      light = light + source.color * ((solid->diffuse * dot(n, l)) * solid->color +
+                                      Rgb{highlight, highlight, highlight});
     }
-    if (solid->reflect > 0 && depth < max_depth) light = light + solid->reflect * seen(p, r, kSkip, depth + 1);
+    if (solid->reflect > 0 && depth < max_depth)
+      light = light + solid->reflect * seen(p, r, kSkip, depth + 1);
     return light;
   }
 

@@ -1,4 +1,5 @@
-// Pictures against a second renderer in closed form: silhouettes, normals, shades, shadows, reflections.
+// Pictures against a second renderer in closed form: silhouettes, normals, shades, shadows,
+// reflections.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
@@ -17,13 +18,14 @@ constexpr double kPi = 3.14159265358979323846;
 
 AnalyticScene still_life() {
   AnalyticScene s;
-  s.solids = {{AnalyticFloor{0}, {0.8, 0.8, 0.7}, 0.1, 0.7, 0, 1, 0.2},
-              {AnalyticSphere{{-1.2, 1, 0.3}, 1}, {0.9, 0.2, 0.1}, 0.1, 0.6, 0.5, 40, 0.3},
-              {AnalyticBox{{0.3, 0, -0.5}, {1.9, 1.3, 0.9}}, {0.2, 0.5, 0.9}, 0.15, 0.7, 0.2, 8, 0},
-              {AnalyticColumn{0.1, -1.6, 0, 1.1, 0.45, 0.45}, {0.3, 0.8, 0.3}, 0.1, 0.6, 0.4, 20, 0.1},
-              {AnalyticColumn{2.1, -1.7, 0, 1.4, 0.6, 0.2}, {0.9, 0.8, 0.1}, 0.1, 0.7, 0.3, 12, 0},
-              {AnalyticColumn{-2.4, -1.5, 0, 1.0, 0.5, 0}, {0.7, 0.3, 0.8}, 0.1, 0.7, 0.3, 12, 0.2},
-              {AnalyticSphere{{1.1, 1.55, 0.2}, 0.25}, {1, 1, 1}, 0.05, 0.2, 0.8, 100, 0.7}};
+  s.solids = {
+      {AnalyticFloor{0}, {0.8, 0.8, 0.7}, 0.1, 0.7, 0, 1, 0.2},
+      {AnalyticSphere{{-1.2, 1, 0.3}, 1}, {0.9, 0.2, 0.1}, 0.1, 0.6, 0.5, 40, 0.3},
+      {AnalyticBox{{0.3, 0, -0.5}, {1.9, 1.3, 0.9}}, {0.2, 0.5, 0.9}, 0.15, 0.7, 0.2, 8, 0},
+      {AnalyticColumn{0.1, -1.6, 0, 1.1, 0.45, 0.45}, {0.3, 0.8, 0.3}, 0.1, 0.6, 0.4, 20, 0.1},
+      {AnalyticColumn{2.1, -1.7, 0, 1.4, 0.6, 0.2}, {0.9, 0.8, 0.1}, 0.1, 0.7, 0.3, 12, 0},
+      {AnalyticColumn{-2.4, -1.5, 0, 1.0, 0.5, 0}, {0.7, 0.3, 0.8}, 0.1, 0.7, 0.3, 12, 0.2},
+      {AnalyticSphere{{1.1, 1.55, 0.2}, 0.25}, {1, 1, 1}, 0.05, 0.2, 0.8, 100, 0.7}};
   s.lights = {{{-5, 7, -6}, {0.7, 0.65, 0.6}}, {{6, 5, -3}, {0.3, 0.35, 0.4}}};
   s.background = {0.2, 0.3, 0.5};
   s.max_depth = 3;
@@ -45,7 +47,8 @@ Scene scene_from(const AnalyticScene& s, const Camera& camera) {
   scene.settings.camera = camera;
   scene.settings.background = s.background;
   scene.settings.max_depth = static_cast<std::uint32_t>(s.max_depth);
-  for (const auto& l : s.lights) scene.settings.lights.push_back({l.position, l.color, Falloff::kNone});
+  for (const auto& l : s.lights)
+    scene.settings.lights.push_back({l.position, l.color, Falloff::kNone});
   for (const AnalyticSolid& a : s.solids) {
     Material m;
     m.color = a.color;
@@ -62,15 +65,18 @@ Scene scene_from(const AnalyticScene& s, const Camera& camera) {
   return scene;
 }
 
-/// The ray of a pixel by the contract's words: fov is the full horizontal angle, pixels are square, (0, 0) is
-/// top left, the ray passes through the centre; in the left-handed case +x is to the right of eye and up.
+/// The ray of a pixel by the contract's words: fov is the full horizontal angle, pixels are square,
+/// (0, 0) is top left, the ray passes through the centre; in the left-handed case +x is to the
+/// right of eye and up.
 struct PinHole {
   Vec3 eye, forward, right, up;
   double half_width;
   bool is_parallel;
 
   explicit PinHole(const Camera& c)
-      : eye(c.eye), forward(normalized(c.look_at - c.eye)), is_parallel(c.projection == Projection::kOrthographic) {
+      : eye(c.eye),
+        forward(normalized(c.look_at - c.eye)),
+        is_parallel(c.projection == Projection::kOrthographic) {
     right = normalized(cross(c.up, forward));  // left-handed
     up = cross(forward, right);
     if (c.handedness == Handedness::kRight) right = -right;
@@ -99,7 +105,8 @@ void compare(const Scene& scene, const AnalyticScene& expected) {
       const Rgb light = expected.seen(o, d);
       hits += light == expected.background ? 0 : 1;
       const float* rgb = picture.rgb.data() + 3 * (std::size_t{y} * kWidth + x);
-      const double worst = std::max({std::fabs(rgb[0] - light.r), std::fabs(rgb[1] - light.g), std::fabs(rgb[2] - light.b)});
+      const double worst = std::max(
+          {std::fabs(rgb[0] - light.r), std::fabs(rgb[1] - light.g), std::fabs(rgb[2] - light.b)});
       if (worst <= 1e-6) continue;
       UNSCOPED_INFO("pixel " << x << ", " << y << " differs by " << worst);
       ++off;
@@ -142,7 +149,8 @@ TEST_CASE("the same still life under maps that change nothing is the same pictur
     RandomModel random(dice.below(1000));
     const Affine away = compose(random.rigid(), random.shear());
     o.csg = transformed(transformed(o.csg, away), *away.inverse());
-    // Composed maps are nearly the identity: keep them from collapsing, so that oblique kinds are used.
+    // Composed maps are nearly the identity: keep them from collapsing, so that oblique kinds are
+    // used.
     o.csg = operation(Operation::kUnion, {o.csg});
   }
   compare(scene, expected);

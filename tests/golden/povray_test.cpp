@@ -57,8 +57,8 @@ struct Golden {
   double most_percent;
 };
 
-/// POV-Ray nests transparent solids that overlap, takes either of two faces that coincide, and lets shadow
-/// rays skip what is nearer than 0.001.
+/// POV-Ray nests transparent solids that overlap, takes either of two faces that coincide, and lets
+/// shadow rays skip what is nearer than 0.001.
 std::vector<Golden> golden_scenes() {
   return {{"first", {}, 0.05},
           {"mirrors", {}, 0.05},
@@ -90,7 +90,8 @@ PngImage povray_picture(const Scene& scene) {
   REQUIRE(first_line.substr(0, prefix.size()) == prefix);
   const Folder folder;
   std::ofstream(folder.path() / "scene.pov") << pov.text;
-  const std::string command = "cd " + folder.path().string() + " && povray +Iscene.pov +Oscene.png " +
+  const std::string command = "cd " + folder.path().string() +
+                              " && povray +Iscene.pov +Oscene.png " +
                               first_line.substr(prefix.size()) + " +WT1 >povray.log 2>&1";
   if (run(command) != 0) {
     std::ostringstream log;

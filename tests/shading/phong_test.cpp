@@ -94,7 +94,7 @@ TEST_CASE("total reflection begins at the critical angle") {
   const double critical = std::asin(1 / 1.5) * 180 / kPi;  // 41.81°
   CHECK(refracted(falling(critical - 1e-6), kUp, 1.5));
   CHECK_FALSE(refracted(falling(critical + 1e-6), kUp, 1.5));
-  CHECK(refracted(falling(89.99), kUp, 1 / 1.5));  // never from the thinner side
+  CHECK(refracted(falling(89.99), kUp, 1 / 1.5));     // never from the thinner side
   CHECK_FALSE(refracted(falling(60), kUp, 1 / 0.6));  // ior below 1 swaps the sides
 }
 
@@ -113,9 +113,7 @@ TEST_CASE("Phong's terms by hand") {
     const double highlight = 0.5 / 1024;
     check_near(phong(m, 1, r, kUp), {0.3 + highlight, 0.6 + highlight, 0.15 + highlight});
   }
-  SECTION("behind it there is none") {
-    check_near(phong(m, 1, r, -r), {0.3, 0.6, 0.15});
-  }
+  SECTION("behind it there is none") { check_near(phong(m, 1, r, -r), {0.3, 0.6, 0.15}); }
   SECTION("a shininess of zero shines everywhere") {
     m.shininess = 0;
     check_near(phong(m, 1, r, -r), {0.8, 1.1, 0.65});

@@ -1,7 +1,9 @@
-// Random scenes and rays on which what finds crossings is compared, bit for bit, with the whole trees.
+// Random scenes and rays on which what finds crossings is compared, bit for bit, with the whole
+// trees.
 #pragma once
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -10,6 +12,7 @@
 #include "csg/random_model.hpp"
 #include "csg/random_rays.hpp"
 #include "csg/whole_tree.hpp"
+#include "space/bsp.hpp"
 #include "space/crossings.hpp"
 
 namespace graycube::testing {
@@ -45,8 +48,9 @@ inline std::optional<Rgb> filtered(const Model& model, const std::vector<WholeCr
   return light;
 }
 
-/// Compares the first crossing, all the following ones, and the light of a shadow ray. `first(t0, t1)` gives
-/// an optional Crossing, `pass(t0, t1, light)` whether the light passes. False at the first difference.
+/// Compares the first crossing, all the following ones, and the light of a shadow ray. `first(t0,
+/// t1)` gives an optional Crossing, `pass(t0, t1, light)` whether the light passes. False at the
+/// first difference.
 template <typename First, typename Pass>
 bool agrees(const Model& model, const RayCase& c, const std::vector<WholeCrossing>& expected,
             const First& first, const Pass& pass) {
@@ -72,19 +76,44 @@ bool agrees(const Model& model, const RayCase& c, const std::vector<WholeCrossin
   return false;
 }
 
+/// A plane of a subdivision: where `axis` has the coordinate `at`.
+struct SplitPlane {
+  int axis;
+  double at;
+};
+inline void add_planes(const Bsp& bsp, std::vector<SplitPlane>& planes) {
+  for (const BspNode& n : bsp.nodes()) {
+    if (n.axis != BspNode::kLeafAxis) planes.push_back({n.axis, n.split});
+  }
+}
+
+/// Moves a ray so that it starts on a plane of the subdivision; in half of all cases it stays in
+/// it.
+inline void snap_to(const std::vector<SplitPlane>& planes, Dice& dice, RayCase& c) {
+  if (planes.empty()) return;
+  const SplitPlane& plane = planes[dice.below(planes.size())];
+  c.what = "from a plane of the subdivision";
+  c.ray.origin[plane.axis] = plane.at;
+  Vec3 flat = c.ray.direction;
+  flat[plane.axis] = 0;
+  if (dice.one_in(2) && length(flat) > 0) c.ray.direction = normalized(flat);
+}
+
 /// Calls `check(model, ray case, expected crossings)` along random rays of a random scene, after
-/// `prepare(model)`; a false result fails the test with the seed. Returns how many rays crossed something.
+/// `prepare(model)`, which gives the planes of its subdivisions; a false result fails the test with
+/// the seed. Returns how many rays crossed something.
 template <typename Prepare, typename Check>
 std::size_t compare_scene(std::uint64_t seed, const RandomOptions& options, int rays,
                           const Prepare& prepare, const Check& check) {
   const Scene scene = RandomModel(seed, options).scene();
   const Model model = compile_scene(scene);
   const WholeTrees trees(model, scene);
-  prepare(model);
+  const std::vector<SplitPlane> planes = prepare(model);
   RandomRays maker(seed, model);
   std::size_t crossing = 0;
   for (int i = 0; i < rays; ++i) {
-    const RayCase c = maker.make(static_cast<std::size_t>(i) % kRayCases);
+    RayCase c = maker.make(static_cast<std::size_t>(i) % kRayCases);
+    if (maker.dice().one_in(4)) snap_to(planes, maker.dice(), c);
     const auto expected = trees.crossings_between(c.ray, c.t0, c.t1);
     crossing += expected.empty() ? 0 : 1;
     if (!check(model, c, expected)) {
@@ -95,7 +124,8 @@ std::size_t compare_scene(std::uint64_t seed, const RandomOptions& options, int 
   return crossing;
 }
 
-/// Families of scenes: everything mixed; many bounded objects; a few deep trees; single trees of many leaves.
+/// Families of scenes: everything mixed; many bounded objects; a few deep trees; single trees of
+/// many leaves.
 struct SceneFamily {
   const char* name;
   RandomOptions options;
@@ -104,9 +134,15 @@ struct SceneFamily {
 };
 inline const std::vector<SceneFamily> kFamilies{
     {"everything", {}, 1000},
-    {"many objects", {.coincidences = true, .unbounded = false, .max_objects = 60, .max_tree_depth = 2}, 40},
-    {"deep trees", {.coincidences = true, .unbounded = true, .max_objects = 2, .max_tree_depth = 6}, 100},
-    {"without coincidences", {.coincidences = false, .unbounded = true, .max_objects = 8, .max_tree_depth = 4}, 100}};
+    {"many objects",
+     {.coincidences = true, .unbounded = false, .max_objects = 60, .max_tree_depth = 2},
+     40},
+    {"deep trees",
+     {.coincidences = true, .unbounded = true, .max_objects = 2, .max_tree_depth = 6},
+     100},
+    {"without coincidences",
+     {.coincidences = false, .unbounded = true, .max_objects = 8, .max_tree_depth = 4},
+     100}};
 
 /// All families, each with its share of `seeds`; every scene sees each kind of ray equally often.
 template <typename Prepare, typename Check>

@@ -1,5 +1,5 @@
-// The subdivision itself: its regions share out space, their programs are the objects there, and neighbour
-// links lead where the walk must go on.
+// The subdivision itself: its regions share out space, their programs are the objects there, and
+// neighbour links lead where the walk must go on.
 #include "space/bsp.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,8 @@ using namespace graycube::testing;
 
 namespace {
 
-const std::vector<BspOptions> kOptions{{}, {.step_cost = 0.01, .max_depth = 48}, {.step_cost = 0.6, .max_depth = 8}};
+const std::vector<BspOptions> kOptions{
+    {}, {.step_cost = 0.01, .max_depth = 48}, {.step_cost = 0.6, .max_depth = 8}};
 
 const BspLeaf& leaf_of(const Bsp& bsp, const Vec3& p, std::uint32_t node = 0) {
   for (;;) {
@@ -29,7 +30,9 @@ const BspLeaf& leaf_of(const Bsp& bsp, const Vec3& p, std::uint32_t node = 0) {
 bool program_holds(const Bsp& bsp, const CellProgram& program, const Vec3& p) {
   const Model& model = bsp.model();
   const auto nodes = std::span(bsp.program_nodes()).subspan(program.first_node, program.node_count);
-  const auto inside = [&](std::uint32_t i) { return contains(model.primitives[i], model.planes, p); };
+  const auto inside = [&](std::uint32_t i) {
+    return contains(model.primitives[i], model.planes, p);
+  };
   const auto literal = [&](const TreeNode& n) { return evaluate(std::span(&n, 1), inside); };
   switch (program.shape) {
     case CellProgram::Shape::kSingle:
@@ -56,7 +59,8 @@ void for_random_bsps(std::uint64_t seeds, const Check& check) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Model model = compile_scene(RandomModel(seed).scene());
     for (const BspOptions& options : kOptions) {
-      INFO("seed " << seed << ", max_depth " << options.max_depth << ", step_cost " << options.step_cost);
+      INFO("seed " << seed << ", max_depth " << options.max_depth << ", step_cost "
+                   << options.step_cost);
       const Bsp bsp = Bsp::build(model, options);
       Dice dice(seed);
       check(bsp, dice);
@@ -69,7 +73,8 @@ void for_random_bsps(std::uint64_t seeds, const Check& check) {
 TEST_CASE("every point lies in the cell of the region that the planes lead to") {
   for_random_bsps(300, [](const Bsp& bsp, Dice& dice) {
     for (int i = 0; i < 100; ++i) {
-      const Vec3 p = dice.one_in(4) ? dice.grid_point(4) : std::pow(10, dice.between(-1, 4)) * dice.unit_vector();
+      const Vec3 p = dice.one_in(4) ? dice.grid_point(4)
+                                    : std::pow(10, dice.between(-1, 4)) * dice.unit_vector();
       REQUIRE(leaf_of(bsp, p).cell.contains(p));
     }
   });
@@ -167,7 +172,8 @@ TEST_CASE("subdividing keeps within its depth, and pays") {
   std::vector<CsgNode> small;
   for (int i = 0; i < 150; ++i) {
     CsgNode leaf = random.leaf(random.dice().below(kLeafKinds - 1));
-    small.push_back(transformed(transformed(leaf, scaling({0.1, 0.1, 0.1})), translation(random.dice().point(5))));
+    small.push_back(transformed(transformed(leaf, scaling({0.1, 0.1, 0.1})),
+                                translation(random.dice().point(5))));
   }
   const Model model = compile_scene(scene_of(small));
   const Bsp bsp = Bsp::build(model);

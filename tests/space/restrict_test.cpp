@@ -52,7 +52,8 @@ TEST_CASE("points of a region have the membership of the whole model") {
         points[r.row * columns + r.column].push_back(p);
       }
       for_each_region(grid, [&](RegionIndex r) {
-        INFO("seed " << seed << ", grid " << columns << " x " << rows << ", region " << r.column << ' ' << r.row);
+        INFO("seed " << seed << ", grid " << columns << " x " << rows << ", region " << r.column
+                     << ' ' << r.row);
         const Model part = restrict_to_region(model, grid, r);
         const WholeTrees trees(part);
         for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
@@ -104,7 +105,8 @@ TEST_CASE("a restricted model keeps settings, materials and ids, and is restrict
 
 TEST_CASE("the one region of a grid of one holds all that has a surface") {
   const CsgNode ball = node_of(SphereShape{{0, 0, 0}, 1});
-  Scene scene = scene_of({ball, operation(Operation::kComplement, {ball}), node_of(HalfSpaceShape{{0, 1, 0}, 0})});
+  Scene scene = scene_of(
+      {ball, operation(Operation::kComplement, {ball}), node_of(HalfSpaceShape{{0, 1, 0}, 0})});
   const Model model = compile_scene(scene);
   const MacroGrid grid =
       MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 1, 1);

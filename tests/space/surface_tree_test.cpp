@@ -14,7 +14,9 @@ using namespace graycube::testing;
 namespace {
 
 /// From all objects cut into cells to none.
-const std::vector<SurfaceTreeOptions> kOptions{{}, {.whole_object_literals = 0}, {.whole_object_literals = 2},
+const std::vector<SurfaceTreeOptions> kOptions{{},
+                                               {.whole_object_literals = 0},
+                                               {.whole_object_literals = 2},
                                                {.whole_object_literals = 100000}};
 
 }  // namespace
@@ -25,6 +27,10 @@ TEST_CASE("the surface tree gives bit for bit the crossings of the whole trees")
   const auto prepare = [&](const Model& model) {
     trees.clear();
     for (const SurfaceTreeOptions& o : kOptions) trees.push_back(SurfaceTree::build(model, o));
+    std::vector<SplitPlane> planes;
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o)
+      add_planes(Bsp::build_for_object(model, o), planes);
+    return planes;
   };
   compare_families(1000, prepare, [&](const Model& model, const RayCase& c, const auto& expected) {
     if (c.t0 < 0) return true;  // no ray of a picture looks back
@@ -39,9 +45,12 @@ TEST_CASE("the surface tree gives bit for bit the crossings of the whole trees")
   });
 }
 
-TEST_CASE("a solid that the ray misses is not what it hits, though a plane of it has the same parameter") {
+TEST_CASE(
+    "a solid that the ray misses is not what it hits, though a plane of it has the same "
+    "parameter") {
   // Once the ends of the missed box's empty interval counted as its crossings.
-  const CsgNode missed = node_of(BoxShape{{0, 2, -1}, {1, 3, 1}}), met = node_of(BoxShape{{1, 2, -1}, {5, 4, 1}});
+  const CsgNode missed = node_of(BoxShape{{0, 2, -1}, {1, 3, 1}}),
+                met = node_of(BoxShape{{1, 2, -1}, {5, 4, 1}});
   const Ray ray{{0, 0, 0}, normalized(Vec3{1, 1, 0})};  // crosses y = 2 at x = 2
   const CsgNode rest = operation(Operation::kComplement, {missed});
   for (const CsgNode& solid : {operation(Operation::kUnion, {missed, met}),
@@ -61,7 +70,8 @@ TEST_CASE("a tree of one item and a tree of thousands find the same") {
   std::vector<CsgNode> small;
   for (int i = 0; i < 3000; ++i) {
     CsgNode leaf = random.leaf(random.dice().below(kLeafKinds - 1));
-    small.push_back(transformed(transformed(leaf, scaling({0.05, 0.05, 0.05})), translation(random.dice().point(4))));
+    small.push_back(transformed(transformed(leaf, scaling({0.05, 0.05, 0.05})),
+                                translation(random.dice().point(4))));
   }
   const Model apart = compile_scene(scene_of(small));
   const Model united = compile_scene(scene_of({operation(Operation::kUnion, small)}));

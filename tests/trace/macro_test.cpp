@@ -1,5 +1,5 @@
-// Macro-regions against the whole: rays handed from domain to domain must give the same picture bit for bit,
-// the same counts, and all credit back.
+// Macro-regions against the whole: rays handed from domain to domain must give the same picture bit
+// for bit, the same counts, and all credit back.
 #include <catch2/catch.hpp>
 #include <deque>
 #include <map>
@@ -59,8 +59,8 @@ class Machine {
     for (std::uint32_t row = 0; row < grid.rows(); ++row) {
       for (std::uint32_t column = 0; column < grid.columns(); ++column) {
         const RegionIndex r{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)};
-        domains_.push_back(std::make_unique<Domain>(
-            grid, r, restrict_to_region(model, grid, r), subdivision));
+        domains_.push_back(
+            std::make_unique<Domain>(grid, r, restrict_to_region(model, grid, r), subdivision));
         evaluators_.emplace_back(*domains_.back());
       }
     }
@@ -136,7 +136,8 @@ MacroGrid uneven_grid(const CameraFrame& frame, Dice& dice) {
 struct Size {
   std::uint32_t columns, rows;
 };
-const std::vector<Size> kSizes{{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1}, {1, 3}, {3, 3}, {4, 2}, {5, 4}, {8, 4}};
+const std::vector<Size> kSizes{{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 1},
+                               {1, 3}, {3, 3}, {4, 2}, {5, 4}, {8, 4}};
 
 }  // namespace
 
@@ -149,8 +150,10 @@ TEST_CASE("macro-regions give bit for bit the picture of the whole") {
     Dice dice(seed);
     for (std::size_t i = 0; i < 4; ++i) {
       const Size size = kSizes[dice.below(kSizes.size())];
-      const MacroGrid grid = i == 3 ? uneven_grid(frame, dice) : MacroGrid::regular(frame, size.columns, size.rows);
-      INFO("seed " << seed << ", grid " << grid.columns() << " x " << grid.rows() << (i == 3 ? ", uneven" : ""));
+      const MacroGrid grid =
+          i == 3 ? uneven_grid(frame, dice) : MacroGrid::regular(frame, size.columns, size.rows);
+      INFO("seed " << seed << ", grid " << grid.columns() << " x " << grid.rows()
+                   << (i == 3 ? ", uneven" : ""));
       const Harvest parts = Machine(model, grid).trace(dice);
       check_equal(whole, parts, model.settings.image);
       handed_over += parts.handed_over;
@@ -170,7 +173,8 @@ TEST_CASE("both subdivisions give the same picture, of the whole and of macro-re
     const MacroGrid grid =
         MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
     Dice dice(seed);
-    check_equal(whole, Machine(model, grid, Subdivision::kLinkedCells).trace(dice), model.settings.image);
+    check_equal(whole, Machine(model, grid, Subdivision::kLinkedCells).trace(dice),
+                model.settings.image);
   }
 }
 
@@ -210,7 +214,8 @@ TEST_CASE("the serial picture is the same for any number of threads, and that of
     const Harvest harvest = trace_whole(model);
     const std::uint32_t samples = scene.settings.image.samples;
     Film expected(70, 40, samples * samples);
-    for (std::uint32_t pixel = 0; pixel < harvest.light.size(); ++pixel) expected.add(pixel, harvest.light[pixel]);
+    for (std::uint32_t pixel = 0; pixel < harvest.light.size(); ++pixel)
+      expected.add(pixel, harvest.light[pixel]);
     const Domain domain{Model(model)};
     for (const unsigned threads : {1u, 3u}) {
       Film film(70, 40, samples * samples);
@@ -222,11 +227,34 @@ TEST_CASE("the serial picture is the same for any number of threads, and that of
   }
 }
 
+TEST_CASE("what stands between a boundary and a light close behind it is not forgotten") {
+  // Each light has a ball before it that lies wholly in the light's region.
+  Dice dice(8);
+  Scene scene = scene_of({node_of(HalfSpaceShape{{0, 0, -1}, -4})});
+  scene.materials.push_back({"glass", {}});
+  scene.materials[1].material.transmit = 0.5;
+  scene.settings.image = {16, 16, 1};
+  scene.settings.camera.projection = Projection::kPerspective;
+  scene.settings.camera.fov_degrees = 60;
+  for (int i = 0; i < 12; ++i) {
+    Vec3 p = dice.point(3);
+    p[i % 2] = dice.sign() * 0.006;  // the middle boundaries are x = 0 and y = 0
+    scene.settings.lights.push_back({p, {1, 1, 1}, Falloff::kNone});
+    scene.objects.push_back(
+        {"", static_cast<MaterialIndex>(dice.below(2)), node_of(SphereShape{p, 0.004})});
+  }
+  const Model model = compile_scene(scene);
+  const MacroGrid grid =
+      MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
+  check_equal(trace_whole(model), Machine(model, grid).trace(dice), scene.settings.image);
+}
+
 TEST_CASE("a cancelled serial render says so") {
   const Domain domain(compile_scene(RandomModel(1).scene()));
   const ImageSize& image = domain.settings().image;
   Film film(image.width, image.height, image.samples * image.samples);
-  CHECK_FALSE(render_serial(domain, {.threads = 1, .progress = [](double) { return false; }}, film).finished);
+  CHECK_FALSE(render_serial(domain, {.threads = 1, .progress = [](double) { return false; }}, film)
+                  .finished);
 }
 
 TEST_CASE("credit comes back whole from the deepest trees and from many lights") {
@@ -255,12 +283,14 @@ TEST_CASE("credit comes back whole from the deepest trees and from many lights")
 }
 
 TEST_CASE("credit comes back whole from a chain as deep as credit allows") {
-  Scene scene = scene_of({node_of(HalfSpaceShape{{0, 0, -1}, -1}), node_of(HalfSpaceShape{{0, 0, 1}, -1})});
+  Scene scene =
+      scene_of({node_of(HalfSpaceShape{{0, 0, -1}, -1}), node_of(HalfSpaceShape{{0, 0, 1}, -1})});
   scene.materials[0].material.reflect = 1;
   scene.settings.camera.eye = {0, 0, 0};
   scene.settings.camera.look_at = {0, 0, 1};
   scene.settings.max_depth = kMaxCreditDepth;
-  for (std::uint32_t i = 0; i < kMaxCreditLights; ++i) scene.settings.lights.push_back({{0.1 * i, 0, 0}, {}, {}});
+  for (std::uint32_t i = 0; i < kMaxCreditLights; ++i)
+    scene.settings.lights.push_back({{0.1 * i, 0, 0}, {}, {}});
   const Model model = compile_scene(scene);
   const Harvest whole = trace_whole(model);
   CHECK(whole.rays.created[static_cast<std::size_t>(RayKind::kReflection)] == kMaxCreditDepth);

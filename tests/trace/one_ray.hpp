@@ -30,10 +30,12 @@ class Stage {
   RenderSettings& settings() { return scene_.settings; }
   Stage& add(CsgNode solid, const Material& material) {
     scene_.materials.push_back({"", material});
-    scene_.objects.push_back({"", static_cast<MaterialIndex>(scene_.materials.size() - 1), std::move(solid)});
+    scene_.objects.push_back(
+        {"", static_cast<MaterialIndex>(scene_.materials.size() - 1), std::move(solid)});
     return *this;
   }
-  Stage& light(const Vec3& position, const Rgb& color = {1, 1, 1}, Falloff falloff = Falloff::kNone) {
+  Stage& light(const Vec3& position, const Rgb& color = {1, 1, 1},
+               Falloff falloff = Falloff::kNone) {
     scene_.settings.lights.push_back({position, color, falloff});
     return *this;
   }
@@ -41,7 +43,8 @@ class Stage {
   Glimpse look(const Vec3& eye, const Vec3& direction) {
     scene_.settings.camera.eye = eye;
     scene_.settings.camera.look_at = eye + direction;
-    scene_.settings.camera.up = std::fabs(normalized(direction).y) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    scene_.settings.camera.up =
+        std::fabs(normalized(direction).y) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     return look();
   }
   Glimpse look() {
@@ -68,8 +71,8 @@ class Stage {
 
 /// Equal but for the rounding of some dozen contributions.
 inline void check_light(const Rgb& found, const Rgb& expected) {
-  INFO(found.r << ' ' << found.g << ' ' << found.b << " against " << expected.r << ' ' << expected.g << ' '
-               << expected.b);
+  INFO(found.r << ' ' << found.g << ' ' << found.b << " against " << expected.r << ' ' << expected.g
+               << ' ' << expected.b);
   CHECK(std::fabs(found.r - expected.r) < 1e-8);
   CHECK(std::fabs(found.g - expected.g) < 1e-8);
   CHECK(std::fabs(found.b - expected.b) < 1e-8);
@@ -101,7 +104,9 @@ inline Material glass(double transmit, double ior) {
   return m;
 }
 
-inline CsgNode ball(const Vec3& center, double radius) { return node_of(SphereShape{center, radius}); }
+inline CsgNode ball(const Vec3& center, double radius) {
+  return node_of(SphereShape{center, radius});
+}
 inline CsgNode block(const Vec3& lo, const Vec3& hi) { return node_of(BoxShape{lo, hi}); }
 /// The half-space z ≥ at: a wall across the ray.
 inline CsgNode wall(double at) { return node_of(HalfSpaceShape{{0, 0, -1}, -at}); }

@@ -1,5 +1,5 @@
-// The light of a hit, of shadow, reflected and refracted rays: section "Shading" of the scene format, worked
-// out by hand.
+// The light of a hit, of shadow, reflected and refracted rays: section "Shading" of the scene
+// format, worked out by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -66,7 +66,9 @@ TEST_CASE("the highlight is white and follows the mirror direction") {
   m.shininess = 4;
   Stage stage;
   // The mirrored ray goes back along −z; lights at 0° and 60° from it.
-  stage.add(wall(0), m).light({0, 0, -3}, {1, 1, 1}).light({3 * std::sqrt(0.75), 0, -1.5}, {0, 16, 0});
+  stage.add(wall(0), m)
+      .light({0, 0, -3}, {1, 1, 1})
+      .light({3 * std::sqrt(0.75), 0, -1.5}, {0, 16, 0});
   check_light(stage.look().light, {0.5, 0.5 + 0.5, 0.5});
 }
 
@@ -116,7 +118,8 @@ TEST_CASE("transparent solids dim light once at each surface") {
     CHECK(stage.look().light.r == Approx(0.25 / kRoot2));
   }
   SECTION("a hollow one four times") {
-    stage.add(operation(Operation::kDifference, {ball({3, 0, -3}, 0.5), ball({3, 0, -3}, 0.4)}), glass(0.5, 1.5));
+    stage.add(operation(Operation::kDifference, {ball({3, 0, -3}, 0.5), ball({3, 0, -3}, 0.4)}),
+              glass(0.5, 1.5));
     CHECK(stage.look().light.r == Approx(0.0625 / kRoot2));
   }
   SECTION("a light inside it once") {
@@ -163,7 +166,9 @@ TEST_CASE("generations are limited by max_depth") {
   for (const std::uint32_t depth : {0u, 1u, 2u, 7u}) {
     Stage stage;
     stage.settings().max_depth = depth;
-    const Glimpse g = stage.add(wall(1), m).add(node_of(HalfSpaceShape{{0, 0, 1}, -1}), m).look({0, 0, 0}, {0, 0, 1});
+    const Glimpse g = stage.add(wall(1), m)
+                          .add(node_of(HalfSpaceShape{{0, 0, 1}, -1}), m)
+                          .look({0, 0, 0}, {0, 0, 1});
     const double sum = 2 * (1 - std::pow(0.5, depth + 1));
     check_light(g.light, {sum, sum, sum});
     CHECK(g.count(RayKind::kReflection) == depth);
@@ -211,14 +216,18 @@ TEST_CASE("a camera inside glass refracts outwards") {
 }
 
 TEST_CASE("total reflection keeps all light, whatever reflect and transmit are") {
-  // A prism with a right angle: in through one leg, totally reflected at the hypotenuse, out through the other.
+  // A prism with a right angle: in through one leg, totally reflected at the hypotenuse, out
+  // through the other.
   Material m = glass(0.5, 1.5);
   m.reflect = GENERATE(0.0, 0.3);
   Stage stage;
   stage.settings().max_depth = 3;
-  stage.add(node_of(PolyhedronShape{{{{0, 0, -1}, 0}, {{0, 1, 0}, 0}, {{0, -1, 1}, 2}, {{1, 0, 0}, 1}, {{-1, 0, 0}, 1}}}),
-            m);
-  // Enters at z = 0, y = −1; the hypotenuse z = 2 + y is met at z = 1; leaves upwards through y = 0.
+  stage.add(
+      node_of(PolyhedronShape{
+          {{{0, 0, -1}, 0}, {{0, 1, 0}, 0}, {{0, -1, 1}, 2}, {{1, 0, 0}, 1}, {{-1, 0, 0}, 1}}}),
+      m);
+  // Enters at z = 0, y = −1; the hypotenuse z = 2 + y is met at z = 1; leaves upwards through y =
+  // 0.
   stage.add(node_of(HalfSpaceShape{{0, -1, 0}, -3}), glowing({1, 1, 1}));
   const Glimpse g = stage.look({0, -1, -5}, {0, 0, 1});
   check_light(g.light, {0.25, 0.25, 0.25});

@@ -50,7 +50,8 @@ void check_areas(const TilePlan& plan, std::uint32_t areas) {
   REQUIRE(next == plan.tile_count());
 }
 
-MacroGrid random_grid(Dice& dice, const ImageSize& image, std::uint32_t columns, std::uint32_t rows) {
+MacroGrid random_grid(Dice& dice, const ImageSize& image, std::uint32_t columns,
+                      std::uint32_t rows) {
   Camera camera;
   camera.projection = dice.one_in(2) ? Projection::kPerspective : Projection::kOrthographic;
   camera.eye = dice.point(5);
@@ -81,7 +82,9 @@ TEST_CASE("a plan of the whole picture has every pixel in exactly one tile") {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     INFO("seed " << seed);
     Dice dice(seed);
-    const auto side = [&](std::size_t most) { return static_cast<std::uint32_t>(1 + dice.below(most)); };
+    const auto side = [&](std::size_t most) {
+      return static_cast<std::uint32_t>(1 + dice.below(most));
+    };
     const ImageSize image{side(90), side(90), side(4)};
     const TileShape shape{side(40), side(40)};
     const TilePlan plan(image, shape);
@@ -94,7 +97,9 @@ TEST_CASE("a plan of macro-regions has every pixel in exactly one tile, of its o
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     INFO("seed " << seed);
     Dice dice(seed);
-    const auto side = [&](std::size_t most) { return static_cast<std::uint32_t>(1 + dice.below(most)); };
+    const auto side = [&](std::size_t most) {
+      return static_cast<std::uint32_t>(1 + dice.below(most));
+    };
     const ImageSize image{side(70), side(70), 1};
     const TileShape shape{side(20), side(20)};
     const std::uint32_t columns = side(9), rows = side(9);
