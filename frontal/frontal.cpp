@@ -89,6 +89,7 @@ void Frontal::on_hello(const PeerId& peer, const control::Hello& m) {
   node.threads = m.threads;
   node.last_heard_s = now_s_;
   node_peers_[peer] = Rank{m.rank};
+  failed_starts_ = 0;
   if (all_nodes_here()) welcome_all();
   load_when_possible();
 }
@@ -123,6 +124,10 @@ void Frontal::lose(Rank rank, const std::string& how) {
   node_peers_.erase(node.peer);
   if (running_ && (running_->is_loaded || node.pid == 0)) {
     end_job(JobState::kFailed, FailureCode::kFailed, {{name, how}});
+  }
+  if (node.pid == 0 && ++failed_starts_ >= kMaxFailedStarts) {
+    fatal_error_ = name + ": can't be started: " + how;
+    return go_down();
   }
   spawn(rank);
 }

@@ -24,6 +24,8 @@ namespace graycube {
 using PeerId = std::string;
 
 inline constexpr std::size_t kMaxQueuedJobs = 1000;
+/// Node processes in a row that may end before their hello; then the farm gives up.
+inline constexpr unsigned kMaxFailedStarts = 8;
 inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
 /// Rows of a picture are sent in messages of about this size.
 inline constexpr std::size_t kPictureChunkBytes = std::size_t{8} << 20;
@@ -70,6 +72,8 @@ class Frontal {
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.
   bool is_going_down() const { return going_down_; }
   bool all_nodes_left() const;
+  /// Why the farm gave up; empty when it did not.
+  const std::string& fatal_error() const { return fatal_error_; }
   /// A client's or the operator's wish to stop.
   void go_down();
 
@@ -153,6 +157,8 @@ class Frontal {
   std::map<std::uint32_t, std::set<PeerId>> watchers_;
   std::vector<Outgoing> outgoing_;
   std::vector<Spawn> spawns_, kills_;
+  unsigned failed_starts_ = 0;
+  std::string fatal_error_;
   bool going_down_ = false;
 };
 

@@ -89,7 +89,8 @@ class FrontalProcess {
     std::cout << "listening " << inbox_.endpoint() << std::endl;
   }
 
-  void run() {
+  /// Until the farm is down; why it gave up, or nothing.
+  std::string run() {
     double down_since_s = 0;
     for (;;) {
       const double now_s = seconds_of(CLOCK_MONOTONIC);
@@ -97,7 +98,7 @@ class FrontalProcess {
       take_events();
       if (frontal_.is_going_down()) {
         if (down_since_s == 0) down_since_s = now_s;
-        if (processes_.empty() || now_s - down_since_s > kGrace_s) return;
+        if (processes_.empty() || now_s - down_since_s > kGrace_s) return frontal_.fatal_error();
       }
       void* const sockets[] = {inbox_.raw()};
       const int descriptors[] = {wakeup_.descriptor(), signals_};
@@ -194,7 +195,8 @@ int run_main(int argc, char** argv) {
   const int signals = signal_descriptor();
   if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   try {
-    FrontalProcess(a, signals).run();
+    const std::string error = FrontalProcess(a, signals).run();
+    if (!error.empty()) return fail("farm", error, 1);
   } catch (const std::runtime_error& e) {
     return fail("frontal", e.what(), 1);
   }

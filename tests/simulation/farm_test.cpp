@@ -129,6 +129,22 @@ TEST_CASE("a node's death fails the running job with its name, and the next job 
   CHECK(failed > 10);
 }
 
+TEST_CASE("a farm whose nodes can't be started gives up, and says why") {
+  const auto store = make_memory_store();
+  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "simulated"};
+  Frontal frontal(options, *store);
+  unsigned started = 0;
+  for (int round = 0; round < 100 && !frontal.is_going_down(); ++round) {
+    for (const Frontal::Spawn& s : frontal.take_spawns()) {
+      ++started;
+      frontal.on_node_exit(s.rank, s.incarnation, "exited with status 1");
+    }
+  }
+  CHECK(frontal.is_going_down());
+  CHECK(frontal.fatal_error().find("exited with status 1") != std::string::npos);
+  CHECK(started <= kMaxFailedStarts + 2);
+}
+
 TEST_CASE("a scene with mistakes fails with all of them") {
   Farm farm({.nodes = 2, .seed = 9});
   const Outcome outcome = farm.render(R"({"graycube": 1, "objects": 3})", with(Algorithm::kMacro));
