@@ -21,14 +21,14 @@ struct Guard {
   double cells_per_ray, primitives_per_ray;
 };
 constexpr Guard kGuards[]{
-    {"csg 1000", Family::kCsg, 1000, 6.0, 3.2},
-    {"csg 10000", Family::kCsg, 10'000, 10.3, 4.2},
-    {"spheres 10000", Family::kSpheres, 10'000, 11.0, 2.5},
-    {"flake 3", Family::kFlake, 3, 3.8, 2.0},
-    {"menger 3", Family::kMenger, 3, 4.8, 5.9},
-    {"deepcsg 250", Family::kDeepCsg, 250, 3.2, 18.8},
-    {"deepcsg 2000", Family::kDeepCsg, 2000, 4.8, 16.1},
-    {"glasslens 3", Family::kGlassLens, 3, 3.1, 3.7},
+    {"csg 1000", Family::kCsg, 1000, 5.4, 3.7},
+    {"csg 10000", Family::kCsg, 10'000, 10.0, 4.8},
+    {"spheres 10000", Family::kSpheres, 10'000, 10.7, 3.1},
+    {"flake 3", Family::kFlake, 3, 3.4, 2.6},
+    {"menger 3", Family::kMenger, 3, 4.3, 5.7},
+    {"deepcsg 250", Family::kDeepCsg, 250, 2.6, 18.3},
+    {"deepcsg 2000", Family::kDeepCsg, 2000, 4.2, 15.6},
+    {"glasslens 3", Family::kGlassLens, 3, 3.1, 4.4},
 };
 constexpr std::uint64_t kSeed = 1987;
 constexpr std::uint32_t kSide = 64;
