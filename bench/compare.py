@@ -24,8 +24,7 @@ from measure import Bench, Failure, Measurement
 
 PROGRAMS = Path(__file__).resolve().parent.parent / "build/bench/bin"
 FAMILIES = "csg:1000,csg:10000,csg:100000,flake:5,menger:3,deepcsg:250,deepcsg:2000,glasslens:9"
-QUICK_PROGRAMS = Path(__file__).resolve().parent.parent / "build/bench/bin"
-FAMILIES = "csg:1000,flake:3,menger:2,deepcsg:250,glasslens:4"
+QUICK_FAMILIES = "csg:1000,flake:3,menger:2,deepcsg:250,glasslens:4"
 GROWTH = ("spheres:1000,spheres:10000,spheres:100000,spheres:1000000,"
           "csg:1000,csg:10000,csg:100000,csg:1000000,"
           "deepcsg:250,deepcsg:500,deepcsg:1000,deepcsg:2000")

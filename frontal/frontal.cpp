@@ -20,6 +20,11 @@ Frontal::Frontal(FrontalOptions options, JobStore& store)
 // ---- time
 
 void Frontal::on_time(double now_s, double unix_s) {
+  // When this process itself was held up, answers wait unread: that time is not the nodes' silence.
+  const double held_up_s = now_s - now_s_;
+  if (now_s_ > 0 && held_up_s > options_.heartbeat_s) {
+    for (NodeRecord& node : nodes_) node.last_heard_s += held_up_s;
+  }
   now_s_ = now_s;
   unix_s_ = unix_s;
   if (going_down_) return;
