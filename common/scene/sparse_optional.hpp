@@ -35,6 +35,8 @@ class SparseOptional {
     return *value_;
   }
 
+  T value_or(const T& otherwise) const { return value_ ? *value_ : otherwise; }
+
   friend bool operator==(const SparseOptional& a, const SparseOptional& b) {
     return a.value_ && b.value_ ? *a.value_ == *b.value_ : !a.value_ && !b.value_;
   }

@@ -13,6 +13,7 @@ TEST_CASE("an absent sparse value takes a pointer's room and is equal to none") 
   CHECK_FALSE(none.has_value());
   CHECK(none == std::nullopt);
   CHECK(none == SparseOptional<std::string>(std::optional<std::string>()));
+  CHECK(none.value_or("three") == "three");
   CHECK_THROWS_AS(none.value(), std::bad_optional_access);
 }
 
@@ -23,6 +24,7 @@ TEST_CASE("a sparse value is copied and compared by value") {
   b = std::string("two");
   CHECK(*a == "one");
   CHECK(b.value() == "two");
+  CHECK(b.value_or("three") == "two");
   CHECK_FALSE(a == b);
   a = std::move(b);
   CHECK(a->size() == 3);
