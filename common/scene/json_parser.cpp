@@ -102,7 +102,7 @@ class JsonEvents {
  public:
   JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {}
 
-  [[gnu::flatten]] void parse() {
+  void parse() {
     if (text_.starts_with(kByteOrderMark)) last_end_ = kByteOrderMark.size();
     const char* const end = text_.data() + text_.size();
     const bool good =

@@ -57,10 +57,16 @@ inline void clip_to_prepared_slab(csg::Interval& i, double lo, double hi, double
   }
 }
 
+/// An interval of a line, in arrays of which mostly the first few are used: unlike csg::Interval it isn't
+/// filled in before.
+struct Ends {
+  double enter, leave;
+};
+
 /// The part of the line inside the literal's primitive. False when it has more than one interval; then the
 /// caller takes the general way.
 inline bool interval_of(const Literal& literal, const Model& model, const PreparedRay& ray,
-                        csg::Interval& out) {
+                        Ends& out) {
   const auto& v = literal.v;
   csg::Interval i;
   switch (literal.kind) {
@@ -119,7 +125,7 @@ inline constexpr std::size_t kMaxFlatLiterals = 32;
 template <typename IntervalOf>
 std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& interval, double t) {
   for (std::size_t i = 0; i < literals.size(); ++i) {
-    const csg::Interval own = interval(i);
+    const Ends own = interval(i);
     // An empty interval may have ends, the wrong way round; they change nothing.
     if (own.enter < own.leave && (own.enter == t || own.leave == t)) return literals[i].primitive;
   }
@@ -132,13 +138,13 @@ std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& in
 ///
 /// Calls visit(t, entering) for those with t0 ≤ t < t1, in order, until it returns false; false then.
 template <typename Visit>
-bool conjunction_ends(std::span<const csg::Interval> removed, double from, double to, double t0,
+bool conjunction_ends(std::span<const Ends> removed, double from, double to, double t0,
                       double t1, Visit&& visit) {
   double at = from;
   while (at < to) {
     for (bool moved = true; moved;) {
       moved = false;
-      for (const csg::Interval& r : removed) {
+      for (const Ends& r : removed) {
         if (r.enter <= at && at < r.leave) {
           at = r.leave;
           moved = true;
@@ -148,7 +154,7 @@ bool conjunction_ends(std::span<const csg::Interval> removed, double from, doubl
     if (!(at < to) || at >= t1) return true;
     if (at >= t0 && at > -csg::kInf && !visit(at, true)) return false;
     double end = to;
-    for (const csg::Interval& r : removed) {
+    for (const Ends& r : removed) {
       if (r.enter > at && r.enter < end && r.enter < r.leave) end = r.enter;
     }
     if (end >= t1) return true;

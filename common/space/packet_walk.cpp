@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 using Mask = RayPacket::Mask;
 constexpr std::size_t kRays = RayPacket::kSize;
 /// So many rays or fewer are walked singly: a node costs a packet about three single visits.
-constexpr int kFewRays = 2;
+constexpr int kFewRays = 3;
 
 using FloatLanes = hn::CappedTag<float, 16>;
 
@@ -330,7 +330,7 @@ class LaneItem {
   bool crossings(const SurfaceTree& tree, const SurfaceItem& item, std::size_t lane, double t0,
                  double t1, Visit&& visit) const {
     const auto literals = tree.literals_of(item);
-    std::array<csg::Interval, crossings::kMaxFlatLiterals> removed;
+    std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
     std::size_t removed_count = 0;
     if (has_removed) {
       for (std::size_t i = 0; i < literals.size(); ++i) {
@@ -339,7 +339,7 @@ class LaneItem {
         }
       }
     }
-    const auto interval = [&](std::size_t i) { return csg::Interval{enter[i][lane], leave[i][lane]}; };
+    const auto interval = [&](std::size_t i) { return crossings::Ends{enter[i][lane], leave[i][lane]}; };
     const auto at_end = [&](double t, bool entering) {
       return visit(Crossing{t, crossings::changed_literal(literals, interval, t), item.object,
                             entering != item.is_complement});

@@ -144,8 +144,8 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
     return general_crossings(item, ray, t0, t1, scratch, visit);
   }
   const auto literals = literals_of(item);
-  std::array<csg::Interval, crossings::kMaxFlatLiterals> intervals;
-  std::array<csg::Interval, crossings::kMaxFlatLiterals> removed;
+  std::array<crossings::Ends, crossings::kMaxFlatLiterals> intervals;
+  std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
   std::size_t removed_count = 0;
   double from = -csg::kInf;
   double to = csg::kInf;
@@ -154,7 +154,7 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
     if (!crossings::interval_of(literals[i], *model_, ray, intervals[i])) {
       return general_crossings(item, ray, t0, t1, scratch, visit);
     }
-    const csg::Interval& at = intervals[i];
+    const crossings::Ends& at = intervals[i];
     if (literals[i].is_inverted) {
       if (at.enter < at.leave) removed[removed_count++] = at;
       continue;

@@ -13,9 +13,6 @@ namespace {
 /// Pixels whose primary rays make a packet.
 constexpr std::uint32_t kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
-/// Pixels that are traced together, so that what they send out fills packets.
-constexpr std::uint32_t kBlockSide = 8;
-constexpr std::size_t kOpenPixels = kBlockSide * kBlockSide;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -121,9 +118,9 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Ste
 
 void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   while (!rays.empty()) {
-    for (const RayTask& task : rays.first(std::min(rays.size(), kOpenPixels))) {
+    for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {
       auto& stack = task.kind == RayKind::kShadow ? lights_ : viewing_;
-      stack.push_back({task, static_cast<std::uint32_t>(open_.size())});
+      stack.push_back({task, static_cast<std::uint32_t>(open_.size()), 0});
       open_pixel(task.pixel);
     }
     rays = rays.subspan(open_.size());
@@ -155,11 +152,11 @@ void Evaluator::in_packets(std::span<const OpenRay> rays, Trace&& trace) {
   }
 }
 
-/// Takes rays of one kind, generation and region from the top of a stack, kOpenPixels at most.
+/// Takes rays of one kind, generation and region from the top of a stack, kWaveRays at most.
 void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   const RayTask& top = stack.back().task;
   std::size_t first = stack.size() - 1;
-  while (first > 0 && stack.size() - first < kOpenPixels) {
+  while (first > 0 && stack.size() - first < kWaveRays) {
     const RayTask& next = stack[first - 1].task;
     if (next.kind != top.kind || next.depth != top.depth || next.region != top.region) break;
     --first;
@@ -168,8 +165,11 @@ void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   stack.resize(first);
 }
 
-/// What the surfaces of a wave sent out: shadow rays at once, light by light; secondary rays on the stack.
+/// What the surfaces of a wave send out: shadow rays are traced at once, light by light; secondary rays go on
+/// the stack.
 void Evaluator::trace_sent_rays(Step& step) {
+  for (std::uint32_t light = 0; light < shadow_.size(); ++light) send_light_rays(light, step);
+  share_credit();
   for (std::vector<OpenRay>& sent : secondary_) {
     viewing_.insert(viewing_.end(), sent.begin(), sent.end());
     sent.clear();
@@ -247,71 +247,101 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
   const Material& m = model.materials[solid.material];
   const RayTask& task = ray.task;
   const Vec3& d = task.ray.direction;
+  const Vec3 p = task.ray.at(hit.t);
   Vec3 n = outward_normal(solid, model.planes, task.ray, hit.t);
   if (dot(n, d) > 0) n = -n;
-  const SurfacePoint at{m, task.ray.at(hit.t), n, reflected(d, n), hit.entering};
-  if (task.depth < model.settings.max_depth) send_secondary_rays(ray, at, step);
-  send_light_rays(ray, at, step);
-  share_credit(ray);
+  const std::size_t index = surfaces_.size();
+  for (std::size_t a = 0; a < 3; ++a) {
+    point_[a][index] = p[static_cast<int>(a)];
+    normal_[a][index] = n[static_cast<int>(a)];
+  }
+  SurfacePoint& at = surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n)});
+  if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
   const Rgb ambient = (m.ambient * (1 - m.transmit)) * (m.color * model.settings.ambient);
   contribute(ray, task.weight * ambient, step);
 }
 
-void Evaluator::send_secondary_rays(const OpenRay& ray, const SurfacePoint& at, Step& step) {
-  const Material& m = at.material;
+void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
+                                    Step& step) {
+  const Material& m = *at.material;
+  const RayTask& task = at.ray->task;
   const auto send = [&](RayKind kind, const Vec3& direction, double coefficient) {
-    const Rgb weight = coefficient * ray.task.weight;
+    const Rgb weight = coefficient * task.weight;
     if (!(max_component(weight) > 0)) return;
     if (max_component(weight) < domain_.settings().min_weight) return;
     ++step.rays.created[static_cast<std::size_t>(kind)];
-    const std::uint32_t which = kind == RayKind::kRefraction ? 0 : 1;
-    sends_.push_back(which);
-    secondary_[which].push_back(
-        {spawn(ray.task, kind, at.p, normalized(direction), weight), ray.slot});
+    ++at.secondary_rays;
+    secondary_[kind == RayKind::kRefraction ? 0 : 1].push_back(
+        {spawn(task, kind, p, normalized(direction), weight), at.ray->slot,
+         static_cast<std::uint32_t>(surfaces_.size() - 1)});
   };
   if (m.transmit > 0) {
-    const auto through =
-        refracted(ray.task.ray.direction, at.n, at.entering ? 1 / m.ior : m.ior);
+    const auto through = refracted(task.ray.direction, n, entering ? 1 / m.ior : m.ior);
     if (!through) return send(RayKind::kReflection, at.mirror, 1);
     send(RayKind::kRefraction, *through, m.transmit);
   }
   if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
 }
 
-void Evaluator::send_light_rays(const OpenRay& ray, const SurfacePoint& at, Step& step) {
-  const auto& lights = domain_.settings().lights;
-  for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const PointLight& light = lights[i];
-    const Vec3 to_light = light.position - at.p;
-    const double distance = length(to_light);
-    const Vec3 l = (1 / distance) * to_light;
-    const double n_dot_l = dot(at.n, l);
-    if (!(n_dot_l > 0)) continue;
-    ++step.rays.created[static_cast<std::size_t>(RayKind::kShadow)];
-    Rgb intensity = light.color;
-    if (light.falloff == Falloff::kInverseSquare) intensity = (1 / (distance * distance)) * intensity;
-    const Rgb weight = ray.task.weight * (intensity * phong(at.material, n_dot_l, at.mirror, l));
-    if (!(max_component(weight) > 0)) continue;
-    OpenRay& sent = shadow_[i].emplace_back();
-    sent.task = spawn(ray.task, RayKind::kShadow, at.p, l, weight);
-    sent.task.t_max = distance - sent.task.t;
-    sent.slot = ray.slot;
-    lit_by_.push_back(i);
+/// From all surfaces of the wave that face it. The first loop is written to be vectorized: it does what
+/// length, a scaled vector and dot do.
+void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
+  const Vec3 at = domain_.settings().lights[light].position;
+  const std::size_t count = surfaces_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = at.x - point_[0][i];
+    const double y = at.y - point_[1][i];
+    const double z = at.z - point_[2][i];
+    const double distance = std::sqrt(x * x + y * y + z * z);
+    const double inverse = 1 / distance;
+    to_light_[0][i] = inverse * x;
+    to_light_[1][i] = inverse * y;
+    to_light_[2][i] = inverse * z;
+    distance_[i] = distance;
+    cosine_[i] = normal_[0][i] * to_light_[0][i] + normal_[1][i] * to_light_[1][i] +
+                 normal_[2][i] * to_light_[2][i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (cosine_[i] > 0) send_light_ray(light, i, step);
   }
 }
 
-/// Among the rays that were just sent, and the surface's own contribution.
-void Evaluator::share_credit(const OpenRay& ray) {
-  const CreditSplit split(ray.task.credit_exponent, lit_by_.size(), sends_.size());
-  for (const std::uint32_t i : lit_by_) {
-    shadow_[i].back().task.credit_exponent = split.shadow_exponent();
+void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& step) {
+  const PointLight& source = domain_.settings().lights[light];
+  SurfacePoint& at = surfaces_[surface];
+  const RayTask& task = at.ray->task;
+  const double distance = distance_[surface];
+  const Vec3 l{to_light_[0][surface], to_light_[1][surface], to_light_[2][surface]};
+  ++step.rays.created[static_cast<std::size_t>(RayKind::kShadow)];
+  Rgb intensity = source.color;
+  if (source.falloff == Falloff::kInverseSquare) intensity = (1 / (distance * distance)) * intensity;
+  const Rgb weight = task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
+  if (!(max_component(weight) > 0)) return;
+  const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
+  OpenRay& sent = shadow_[light].emplace_back(
+      OpenRay{spawn(task, RayKind::kShadow, p, l, weight), at.ray->slot,
+              static_cast<std::uint32_t>(surface)});
+  sent.task.t_max = distance - sent.task.t;
+  ++at.lights;
+}
+
+/// Among what each surface sends out and its own contribution.
+void Evaluator::share_credit() {
+  const auto split = [this](const SurfacePoint& at) {
+    return CreditSplit(at.ray->task.credit_exponent, at.lights, at.secondary_rays);
+  };
+  for (const SurfacePoint& at : surfaces_) split(at).add_own_to(open_[at.ray->slot].credit);
+  for (std::vector<OpenRay>& sent : shadow_) {
+    for (OpenRay& ray : sent) {
+      ray.task.credit_exponent = split(surfaces_[ray.surface]).shadow_exponent();
+    }
   }
-  for (const std::uint32_t i : sends_) {
-    secondary_[i].back().task.credit_exponent = split.secondary_exponent();
+  for (std::vector<OpenRay>& sent : secondary_) {
+    for (OpenRay& ray : sent) {
+      ray.task.credit_exponent = split(surfaces_[ray.surface]).secondary_exponent();
+    }
   }
-  split.add_own_to(open_[ray.slot].credit);
-  lit_by_.clear();
-  sends_.clear();
+  surfaces_.clear();
 }
 
 void Evaluator::open_pixel(std::uint32_t pixel) { open_.push_back({pixel, 0, {}, {}}); }
@@ -326,7 +356,10 @@ void Evaluator::contribute(const OpenRay& ray, const Rgb& light, Step& step) {
 }
 
 void Evaluator::close_pixels(Step& step) {
-  step.returns.insert(step.returns.end(), open_.begin(), open_.end());
+  // A ray that went on as a whole brought nothing; its tile may be whole before this could arrive.
+  for (const PixelReturn& sum : open_) {
+    if (sum.merged > 0 || !sum.credit.is_zero()) step.returns.push_back(sum);
+  }
   open_.clear();
 }
 

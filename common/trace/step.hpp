@@ -65,16 +65,23 @@ class Evaluator {
   struct OpenRay {
     RayTask task;
     std::uint32_t slot = 0;
+    /// The surface that sent it, until its credit is known.
+    std::uint32_t surface = 0;
   };
 
-  /// What is known of a surface where a ray meets it.
+  /// Where a ray of the wave meets a surface.
   struct SurfacePoint {
-    const Material& material;
-    Vec3 p;
-    /// The unit normal turned against the ray, and the ray's mirror direction.
-    Vec3 n, mirror;
-    bool entering;
+    const OpenRay* ray;
+    const Material* material;
+    /// The ray's mirror direction.
+    Vec3 mirror;
+    std::uint32_t lights = 0, secondary_rays = 0;
   };
+  /// So many rays are under way together: an 8 × 8 block of pixels, and what descends from it.
+  static constexpr std::uint32_t kBlockSide = 8;
+  static constexpr std::size_t kWaveRays = kBlockSide * kBlockSide;
+  /// A coordinate of every surface of a wave.
+  using Coordinates = std::array<double, kWaveRays>;
 
   void trace_block(const PixelRect& block, Step& step);
   void trace_all(Step& step);
@@ -87,9 +94,10 @@ class Evaluator {
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
   void go_on(const OpenRay& ray, const RegionExit& exit, std::vector<OpenRay>& stack, Step& step);
   void shade(const OpenRay& ray, const Crossing& hit, Step& step);
-  void send_secondary_rays(const OpenRay& ray, const SurfacePoint& at, Step& step);
-  void send_light_rays(const OpenRay& ray, const SurfacePoint& at, Step& step);
-  void share_credit(const OpenRay& ray);
+  void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
+  void send_light_rays(std::uint32_t light, Step& step);
+  void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
+  void share_credit();
   void open_pixel(std::uint32_t pixel);
   void contribute(const OpenRay& ray, const Rgb& light, Step& step);
   void close_pixels(Step& step);
@@ -99,11 +107,14 @@ class Evaluator {
   /// Rays of one kind, generation and region, under way together.
   std::vector<OpenRay> wave_;
   std::vector<OpenRay> viewing_, lights_;
-  /// What the surfaces of one wave send out: refracted and reflected rays, and the shadow rays of each light.
+  /// The surfaces of the wave; their points and normals side by side, and of the light under way the unit
+  /// direction, the distance and the cosine.
+  std::vector<SurfacePoint> surfaces_;
+  alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
+  alignas(64) Coordinates distance_, cosine_;
+  /// What they send out: refracted and reflected rays, and the shadow rays of each light.
   std::array<std::vector<OpenRay>, 2> secondary_;
   std::vector<std::vector<OpenRay>> shadow_;
-  /// The lights, and kinds of secondary rays, that the surface being shaded sends rays for.
-  std::vector<std::uint32_t> lit_by_, sends_;
   /// By slot.
   std::vector<PixelReturn> open_;
 };

@@ -30,6 +30,8 @@ struct Harvest {
   void take(const Step& step) {
     for (const PixelReturn& r : step.returns) {
       REQUIRE(r.merged <= kMaxMergedContributions);
+      // A tile may be whole by now: for it any return is one too many.
+      REQUIRE((r.merged > 0 || !r.credit.is_zero()));
       light[r.pixel].add(r.light);
       credit[r.pixel].add(r.credit);
     }
@@ -66,7 +68,8 @@ class Machine {
     }
   }
 
-  /// Rays wait in one queue for all regions and are taken from either end, in batches as they come.
+  /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken together,
+  /// as many as come.
   Harvest trace(Dice& dice) {
     Harvest harvest(image_);
     const TilePlan plan(image_, {5, 3}, grid_);
@@ -88,10 +91,16 @@ class Machine {
     }
     while (!waiting.empty()) {
       const bool front = dice.one_in(2);
-      const RayTask task = front ? waiting.front() : waiting.back();
-      front ? waiting.pop_front() : waiting.pop_back();
-      const std::size_t at = number(task.region);
-      evaluators_[at].trace_rays(std::span(&task, 1), step);
+      const std::size_t at = number((front ? waiting.front() : waiting.back()).region);
+      const std::size_t most = dice.one_in(2) ? 1 : 1 + dice.below(300);
+      std::vector<RayTask> batch;
+      std::deque<RayTask> others;
+      for (const RayTask& task : waiting) {
+        const bool taken = batch.size() < most && number(task.region) == at;
+        (taken ? static_cast<void>(batch.push_back(task)) : others.push_back(task));
+      }
+      waiting.swap(others);
+      evaluators_[at].trace_rays(batch, step);
       finish(at);
     }
     return harvest;
