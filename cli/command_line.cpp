@@ -66,19 +66,20 @@ void add_nodes(CLI::App& app, const char* help, std::uint32_t& nodes) {
 
 /// What decides how the picture is computed.
 void add_job_options(CLI::App& app, control::JobOptions& o) {
-  o.shadows = ShadowMode::kForward;
   add(app, "--algorithm", "NAME", "auto (default), serial, roth or macro",
       [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
   add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
       [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
-  add(app, "--shadows", "NAME", "forward (default); horizon and local are not built yet",
+  add(app, "--shadows", "NAME", "horizon (default), forward or local: how macro finishes shadow rays",
       [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
   add(app, "--partition", "NAME", "regular (default); balanced is not built yet",
       [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
-  add(app, "--scatter", "K", "K x K macro-regions per node; only 1 is built yet",
+  add(app, "--scatter", "K", "K x K macro-regions per node, 1 to 8 (default: what suits the scene)",
       [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
-  add(app, "--flow", "NAME", "credit (default); blocking is not built yet",
+  add(app, "--flow", "NAME", "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
       [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
+  add(app, "--queue", "N", "Rays that a node's queues hold where flow is blocking (default 64)",
+      [&o](const auto& text) { o.queue = parse_count("--queue", text, 1, kMaxQueue); });
   add(app, "--size", "WxH", "The picture's size, instead of the scene's", [&o](const auto& text) {
     const PictureSize size = parse_size("--size", text);
     o.width = size.width;

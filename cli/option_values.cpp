@@ -115,7 +115,7 @@ Grain parse_grain(std::string_view option, std::string_view text) {
 ShadowMode parse_shadows(std::string_view option, std::string_view text) {
   static constexpr std::array choices{ShadowMode::kHorizon, ShadowMode::kForward,
                                       ShadowMode::kLocal};
-  return only(option, parse_choice<ShadowMode>(option, text, choices), ShadowMode::kForward);
+  return parse_choice<ShadowMode>(option, text, choices);
 }
 
 PartitionMode parse_partition(std::string_view option, std::string_view text) {
@@ -124,14 +124,12 @@ PartitionMode parse_partition(std::string_view option, std::string_view text) {
 }
 
 std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
-  const std::uint32_t value = parse_count(option, text, 1, 1024);
-  if (value != 1) throw usage_failure(std::string(option), "only 1 is built yet");
-  return value;
+  return parse_count(option, text, 1, kMaxScatter);
 }
 
 FlowMode parse_flow(std::string_view option, std::string_view text) {
   static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
-  return only(option, parse_choice<FlowMode>(option, text, choices), FlowMode::kCredit);
+  return parse_choice<FlowMode>(option, text, choices);
 }
 
 std::uint32_t default_nodes() {

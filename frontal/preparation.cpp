@@ -1,8 +1,11 @@
 #include "frontal/preparation.hpp"
 
+#include <algorithm>
 #include <chrono>
 
+#include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
+#include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
@@ -13,6 +16,10 @@ namespace graycube {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded, which costs
+/// more than the better balance brings: measured, see ARCHITECTURE.md.
+constexpr std::uint32_t kAutoScatter = 1;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -48,22 +55,37 @@ Algorithm chosen(Algorithm wanted, const Model& model) {
   return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
 }
 
-void cut(const PreparationWork& work, const Model& model, PreparedScene& out) {
+void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out) {
   const ImageSize& image = model.settings.image;
-  const TileShape shape = tile_shape(out.grain, kTileSide, image);
   const auto frame = CameraFrame::from(model.settings.camera, image);
-  const MacroGrid grid = MacroGrid::regular(frame, work.cube.columns(), work.cube.rows());
+  const MacroGrid grid = MacroGrid::regular(frame, cube.columns(), cube.rows());
   out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges()};
-  if (out.algorithm == Algorithm::kRoth) {
-    out.plan.emplace(image, shape);
-    out.slices.push_back(encode_model(model));
-    return;
-  }
-  out.plan.emplace(image, shape, grid);
+  out.plan.emplace(image, tile_shape(out.grain, kTileSide, image));
+  out.slices.push_back(encode_model(model));
+}
+
+void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScene& out) {
+  const ImageSize& image = model.settings.image;
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
+  const MacroGrid grid = MacroGrid::regular(frame, work.cube.columns() * k, work.cube.rows() * k);
+  out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};
+  out.plan.emplace(image, tile_shape(out.grain, kTileSide, image), grid);
   for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
-    const RegionIndex region{static_cast<std::uint16_t>(work.cube.column_of(Rank{rank})),
-                             static_cast<std::uint16_t>(work.cube.row_of(Rank{rank}))};
-    out.slices.push_back(encode_model(restrict_to_region(model, grid, region)));
+    out.slices.push_back(
+        encode_model(restrict_to_share(model, grid, share_of(work.cube, Rank{rank}))));
+  }
+  out.flow = work.options.flow;
+  out.queue = work.options.queue;
+  out.shadows = work.options.shadows;
+  if (out.shadows != ShadowMode::kHorizon) return;
+  // On one node no ray leaves, and lights that are walled in have no horizon.
+  LightHorizons horizons;
+  if (work.cube.nodes() > 1) horizons = LightHorizons::of(model);
+  if (horizons.is_empty()) {
+    out.shadows = ShadowMode::kForward;
+  } else {
+    out.horizons = encode_horizons(horizons);
   }
 }
 
@@ -87,6 +109,18 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
   in_range("--samples", image.samples, 1, kMaxSamples);
   in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+}
+
+std::string choices_text(const PreparedScene& scene) {
+  if (scene.algorithm != Algorithm::kMacro) {
+    return "grain " + std::string(to_string(scene.grain));
+  }
+  std::string text = "scatter " + std::to_string(scene.grid.scatter) + ", " +
+                     std::string(to_string(scene.shadows)) + " shadows";
+  if (scene.flow == FlowMode::kBlocking) {
+    text += ", blocking queues of " + std::to_string(scene.queue);
+  }
+  return text;
 }
 
 PreparationResult run(const PreparationWork& work) {
@@ -115,7 +149,11 @@ PreparationResult run(const PreparationWork& work) {
   scene.settings = model.settings;
   scene.primitives = model.primitives.size();
   scene.objects = model.objects.size();
-  cut(work, model, scene);
+  if (scene.algorithm == Algorithm::kRoth) {
+    cut_for_roth(model, work.cube, scene);
+  } else {
+    cut_for_macro(work, model, scene);
+  }
   scene.partition_s = seconds_since(cutting);
   return result;
 }

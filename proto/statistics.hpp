@@ -16,6 +16,10 @@ struct Statistics {
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
   std::array<std::uint32_t, 2> grid{1, 1};
+  /// What was picked, in macro.
+  std::uint32_t scatter = 1;
+  ShadowMode shadows = ShadowMode::kForward;
+  FlowMode flow = FlowMode::kCredit;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

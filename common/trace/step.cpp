@@ -68,6 +68,7 @@ RayTask spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec
 
 void Step::clear() {
   leaving.clear();
+  lacking.clear();
   returns.clear();
   rays = {};
   rounding = {};
@@ -123,8 +124,38 @@ void Evaluator::trace_light_ray(RayTask& task, Step& step) {
     }
     task.t = end;
     task.region = exit->next;
+    if (domain_.is_past_horizon(task)) {
+      ++step.rays.skipped_by_horizon;
+      contribute(task, task.weight, whole_credit(task), step);
+      return;
+    }
   }
+  if (domain_.borrows()) return finish_light_ray(task, step);
   step.leaving.push_back(task);
+}
+
+/// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own regions waits.
+void Evaluator::finish_light_ray(RayTask task, Step& step) {
+  const RayTask at_border = task;
+  for (;;) {
+    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const bool arrives = !exit || exit->t >= task.t_max;
+    const double end = arrives ? task.t_max : exit->t;
+    const auto passes =
+        domain_.pass_light_borrowed(task.region, task.ray, task.t, end, scratch_, task.weight);
+    if (!passes) {
+      step.lacking.push_back({at_border, task.region});
+      return;
+    }
+    if (!*passes) return give_back(task.pixel, whole_credit(task), step);
+    if (arrives) return contribute(task, task.weight, whole_credit(task), step);
+    task.t = end;
+    task.region = exit->next;
+    if (domain_.is_past_horizon(task)) {
+      ++step.rays.skipped_by_horizon;
+      return contribute(task, task.weight, whole_credit(task), step);
+    }
+  }
 }
 
 void Evaluator::trace_viewing_ray(RayTask& task, Step& step) {
@@ -178,7 +209,8 @@ void Evaluator::shade(const RayTask& task, double t, std::uint32_t primitive, bo
     }
   }
   std::size_t shadow = 0;
-  for (const PointLight& light : settings.lights) {
+  for (std::size_t number = 0; number < settings.lights.size(); ++number) {
+    const PointLight& light = settings.lights[number];
     const Vec3 to_light = light.position - p;
     const double distance = length(to_light);
     const Vec3 l = (1 / distance) * to_light;
@@ -191,6 +223,7 @@ void Evaluator::shade(const RayTask& task, double t, std::uint32_t primitive, bo
     if (!(max_component(weight) > 0)) continue;
     RayTask ray = spawn(task, RayKind::kShadow, p, l, weight);
     ray.t_max = distance - ray.t;
+    ray.light = static_cast<std::uint16_t>(number);
     ++shadow;
     stack_.push_back(ray);
   }

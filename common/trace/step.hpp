@@ -38,6 +38,12 @@ struct RayCounts {
 struct Step {
   /// Rays that left the domain, each with the region it goes on in and the t reached.
   std::vector<RayTask> leaving;
+  /// Shadow rays that wait for another node's model, each as it left the domain's own regions.
+  struct Lacking {
+    RayTask task;
+    RegionIndex region;
+  };
+  std::vector<Lacking> lacking;
   /// Consecutive contributions to one pixel are merged.
   std::vector<PixelReturn> returns;
   RayCounts rays;
@@ -61,6 +67,7 @@ class Evaluator {
  private:
   void trace_tree(const RayTask& root, Step& step);
   void trace_light_ray(RayTask& task, Step& step);
+  void finish_light_ray(RayTask task, Step& step);
   void trace_viewing_ray(RayTask& task, Step& step);
   void shade(const RayTask& task, double t, std::uint32_t primitive, bool entering, Step& step);
   void contribute(const RayTask& task, const Rgb& light, const Credit& credit, Step& step);

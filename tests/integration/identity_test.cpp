@@ -38,6 +38,10 @@ void check_identity(const std::string& scene, const char* size = kSize) {
   for (const char* nodes : {"1", "2", "4", "8", "16", "32"}) {
     ways.push_back({"--algorithm", "macro", "-n", nodes});
   }
+  for (const char* shadows : {"horizon", "forward", "local"}) {
+    ways.push_back({"--algorithm", "macro", "-n", "8", "--shadows", shadows, "--scatter", "3"});
+  }
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--flow", "blocking", "--queue", "65536"});
   for (const Arguments& way : ways) {
     std::string name;
     for (const std::string& word : way) name += word + " ";
