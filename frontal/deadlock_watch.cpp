@@ -1,5 +1,6 @@
 #include "frontal/deadlock_watch.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace graycube {
@@ -25,6 +26,11 @@ std::vector<Rank> DeadlockWatch::add(Rank rank, const control::WaitReport& repor
   count_ = 0;
   next_after_ = last_ping;
   return cycle;
+}
+
+std::uint32_t DeadlockWatch::stalled() const {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(earlier_, [](const auto& r) { return r && r->is_stalled; }));
 }
 
 std::optional<Rank> DeadlockWatch::waits_for(Rank rank) const {

@@ -24,6 +24,9 @@ class DeadlockWatch {
   /// ever come.
   std::vector<Rank> add(Rank rank, const control::WaitReport& report, std::uint64_t last_ping);
 
+  /// Nodes that were stalled in the newest complete round of answers.
+  std::uint32_t stalled() const;
+
  private:
   using Round = std::vector<std::optional<control::WaitReport>>;
   std::optional<Rank> waits_for(Rank rank) const;

@@ -126,7 +126,9 @@ void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
   for (const Rank r : cycle) way += "node " + std::to_string(r.value) + " waits for ";
   end_job(JobState::kFailed, FailureCode::kFailed,
           {{"--flow blocking", "deadlock: " + way + "node " + std::to_string(cycle.front().value) +
-                                   ", each for room in a full queue"}});
+                                   ", each for room in a full queue; " +
+                                   std::to_string(running_->deadlocks->stalled()) + " of " +
+                                   std::to_string(options_.cube.nodes()) + " nodes are blocked"}});
 }
 
 void Frontal::finish_when_complete() {
@@ -208,7 +210,8 @@ std::string Frontal::statistics() const {
   s.primitives = render.scene().primitives;
   s.objects = render.scene().objects;
   s.wall_s = now_s_ - running_->submitted_at_s;
-  s.cpu_s = cpu_seconds() - running_->cpu_at_start_s;
+  s.frontal_cpu_s = cpu_seconds() - running_->cpu_at_start_s;
+  s.cpu_s = s.frontal_cpu_s;
   s.load_s = render.scene().load_s;
   s.partition_s = render.scene().partition_s;
   s.build_s = running_->render_began_s - running_->build_began_s;

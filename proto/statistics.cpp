@@ -73,6 +73,7 @@ std::string statistics_json(const Statistics& s) {
                   {"flow", to_string(s.flow)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
+  j["frontal_cpu_s"] = s.frontal_cpu_s;
   j["phases"] = {{"load_s", s.load_s},
                  {"partition_s", s.partition_s},
                  {"build_s", s.build_s},

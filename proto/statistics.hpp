@@ -23,6 +23,8 @@ struct Statistics {
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;
+  /// The frontal's part of cpu_s.
+  double frontal_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
   /// By rank; what the nodes sent of themselves. Totals are summed from these.

@@ -196,7 +196,8 @@ TEST_CASE("bad usage is refused in one line") {
                               {"jobs", "--connect", "somewhere"},
                               {"up", "--listen", "tcp://0.0.0.0:5555"},
                               {"up", "--http", "0.0.0.0:8080"},
-                              {"compare", "s.json"},
+                              {"compare", "s.json", "--plot", "none/out.svg"},
+                              {"compare", "s.json", "-n", "3"},
                               {"convert", "s.json", "s.stl"},
                               {"convert", "s.json", "s.json"},
                               {"convert", "s.json"}}) {

@@ -52,6 +52,26 @@ void check_identity(const std::string& scene, const char* size = kSize) {
   CHECK(sandbox.temporary_files().empty());
 }
 
+TEST_CASE("compare renders a scene in every way and finds the same picture each time") {
+  Sandbox sandbox;
+  const Outcome o = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "4", "--size",
+                                 kSize, "--queue", "4", "--plot", "bars.svg", "-q"});
+  INFO(o.out << o.err);
+  REQUIRE(o.status == 0);
+  CHECK(o.err.empty());
+  for (const char* way : {"serial ", "roth pixel", "macro as in 1987", "macro, horizons", "auto "}) {
+    CHECK(o.out.find(way) != std::string::npos);
+  }
+  CHECK(o.out.find("DIFFERENT") == std::string::npos);
+  CHECK(file_bytes(sandbox / "bars.svg").starts_with("<svg "));
+  const Outcome json = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "2", "--size",
+                                    kSize, "--json", "-q"});
+  REQUIRE(json.status == 0);
+  CHECK(json.out.starts_with("{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }
 TEST_CASE("glass looks the same whatever computes it") { check_identity("glass.json", kSmallSize); }
 TEST_CASE("tori look the same whatever computes them") { check_identity("tori.json"); }

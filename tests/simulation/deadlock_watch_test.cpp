@@ -37,6 +37,7 @@ TEST_CASE("two nodes that wait for each other twice over are a cycle") {
   Pair p;
   CHECK(p.answer(1, 1).empty());
   CHECK(p.answer(2, 2) == std::vector{Rank{0}, Rank{1}});
+  CHECK(p.watch.stalled() == 2);
 }
 
 TEST_CASE("answers to a ping sent before the others had all come prove nothing") {
