@@ -55,8 +55,14 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
   macro("macro, credits", forward, ShadowMode::kForward, 1);
   macro("macro, horizons", "--shadows horizon --scatter 1", ShadowMode::kHorizon, 1);
   macro("macro, local shadows", "--shadows local --scatter 1", ShadowMode::kLocal, 1);
-  macro("macro, balance", "--shadows forward --scatter 2", ShadowMode::kForward, 2);
-  macro("macro, all", "--shadows horizon --scatter 2", ShadowMode::kHorizon, 2);
+  const auto balanced = [&](std::string name, ShadowMode shadows) {
+    const std::string arguments = "--shadows " + std::string(to_string(shadows));
+    macro(std::move(name), arguments + " --scatter 1 --partition balanced", shadows, 1);
+    ways.back().options.partition = PartitionMode::kBalanced;
+  };
+  macro("macro, scatter 2", "--shadows forward --scatter 2", ShadowMode::kForward, 2);
+  balanced("macro, balance", ShadowMode::kForward);
+  balanced("macro, all", ShadowMode::kHorizon);
   add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
   return ways;
 }

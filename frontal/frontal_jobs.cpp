@@ -205,6 +205,7 @@ std::string Frontal::statistics() const {
   s.grid = {options_.cube.columns(), options_.cube.rows()};
   s.scatter = render.scene().grid.scatter;
   s.shadows = render.scene().shadows;
+  s.partition = render.scene().partition;
   s.flow = render.scene().flow;
   s.image = render.scene().settings.image;
   s.primitives = render.scene().primitives;

@@ -30,6 +30,7 @@ struct PreparedScene {
   control::GridLayout grid;
   Grain grain = Grain::kTile;
   ShadowMode shadows = ShadowMode::kForward;
+  PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;

@@ -10,6 +10,14 @@
 
 namespace graycube {
 
+namespace {
+
+/// No primary rays are started while so many rays wait to be sent. What has arrived is always traced, so the
+/// neighbours' inboxes and with them the outboxes empty themselves.
+constexpr std::uint64_t kLongOutboxes = 8192;
+
+}  // namespace
+
 std::optional<Work> Node::take_work() {
   Work work{job_, epoch_, domain_, {}};
   if (state_ == State::kBuilding && unbuilt_slice_) {
@@ -39,7 +47,7 @@ std::optional<Work> Node::take_work() {
       if (is_blocking() || 2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
     }
     work.what = std::move(batch);
-  } else if (const auto pixels = next_pixels()) {
+  } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
     work.what = TileWork{*pixels};
   } else {
     flush_on_idle();
@@ -218,7 +226,10 @@ void Node::adopt_borrowed(WorkResult& result) {
 
 WaitReason Node::wait_reason() const {
   if (!stalled_.empty()) return WaitReason::kBlocked;
-  if (!lent_.empty() || !rays_.is_empty() || !tiles_.empty() || open_tile_) return WaitReason::kReady;
+  if (!lent_.empty() || !rays_.is_empty()) return WaitReason::kReady;
+  if (!tiles_.empty() || open_tile_) {
+    return outbox_rays_ < kLongOutboxes ? WaitReason::kReady : WaitReason::kWindow;
+  }
   return unassigned_tiles_ > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

@@ -70,6 +70,7 @@ std::string statistics_json(const Statistics& s) {
   j["objects"] = s.objects;
   j["choices"] = {{"scatter", s.scatter},
                   {"shadows", to_string(s.shadows)},
+                  {"partition", to_string(s.partition)},
                   {"flow", to_string(s.flow)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;

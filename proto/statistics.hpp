@@ -19,6 +19,7 @@ struct Statistics {
   /// What was picked, in macro.
   std::uint32_t scatter = 1;
   ShadowMode shadows = ShadowMode::kForward;
+  PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "film/fixed_point.hpp"
@@ -23,11 +25,13 @@ struct Picture {
 class Film {
  public:
   /// `rays_per_pixel` is S × S, at least 1; every pixel's sum is divided by it at the end. Sides
-  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 48 bytes each.
+  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, and 24 more for those
+  /// whose sums leave 64 bits. Throws std::bad_alloc.
   Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel);
 
   std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
-  /// Adds light to pixel number y · width + x; the number must be in range.
+  /// Adds light to pixel number y · width + x; the number must be in range. Different threads may
+  /// add to different pixels at once.
   void add(std::uint32_t pixel, const FixedRgb& light);
   /// Forgets what a pixel has received (its tile will be traced again).
   void clear(std::uint32_t pixel);
@@ -35,13 +39,26 @@ class Film {
   Picture develop() const;
 
  private:
-  __extension__ typedef __int128 Sum;
-  struct Pixel {
-    Sum r = 0, g = 0, b = 0;
+  /// A pixel's three sums, or their upper halves.
+  struct Low {
+    std::uint64_t r = 0, g = 0, b = 0;
+  };
+  struct High {
+    std::int64_t r = 0, g = 0, b = 0;
+  };
+  struct Release {
+    void operator()(void* memory) const { std::free(memory); }
   };
 
+  void carry(std::uint32_t pixel, const High& change);
+  bool has_high() const;
+
   std::uint32_t width_, height_, rays_per_pixel_;
-  std::vector<Pixel> pixels_;
+  /// Sums in two's complement, 128 bits each: high · 2^64 + low. Hardly any sum needs its upper half,
+  /// so those lie apart, in zero pages that the system provides when they are first written.
+  std::unique_ptr<Low[], Release> low_;
+  /// One more than there are pixels: the last one's r is not 0 when any of the others was written.
+  std::unique_ptr<High[], Release> high_;
 };
 
 }  // namespace graycube

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "space/camera.hpp"
 #include "space/light_horizons.hpp"
 #include "space/macro_grid.hpp"
+#include "space/ray_packet.hpp"
 #include "space/surface_tree.hpp"
 #include "space/walk.hpp"
 #include "trace/ray_task.hpp"
@@ -76,6 +78,13 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
+  /// What this domain holds, seen as the regions of a share.
+  Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
+    Domain domain = *this;
+    domain.grid_ = grid;
+    domain.share_ = share;
+    return domain;
+  }
   bool borrows() const { return !borrowed_.empty(); }
   /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
   bool is_past_horizon(const RayTask& task) const;
@@ -97,6 +106,12 @@ class Domain {
   /// As pass_light, in a region of this or another node; nothing when it is neither held nor borrowed.
   std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
                                           CrossingScratch& scratch, Rgb& light) const;
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
+                                  std::span<Crossing, RayPacket::kSize> found) const;
+  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
+                              std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   bool holds(RegionIndex region) const { return !grid_ || share_.owns(region); }

@@ -76,18 +76,12 @@ TEST_CASE("names are read as written, and a misspelt one is guessed") {
         }).starts_with("graycube: usage: --grain: expected pixel, line or tile"));
 }
 
-TEST_CASE("what is not built yet says so, instead of rendering something else") {
-  CHECK(parse_partition("--partition", "regular") == PartitionMode::kRegular);
-  const auto not_built = [](const std::string& line) {
-    return line.find("built yet") != std::string::npos;
-  };
-  CHECK(not_built(refusal([] { parse_partition("--partition", "balanced"); })));
-}
-
 TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_shadows("--shadows", "horizon") == ShadowMode::kHorizon);
   CHECK(parse_shadows("--shadows", "forward") == ShadowMode::kForward);
   CHECK(parse_shadows("--shadows", "local") == ShadowMode::kLocal);
+  CHECK(parse_partition("--partition", "regular") == PartitionMode::kRegular);
+  CHECK(parse_partition("--partition", "balanced") == PartitionMode::kBalanced);
   CHECK(parse_flow("--flow", "credit") == FlowMode::kCredit);
   CHECK(parse_flow("--flow", "blocking") == FlowMode::kBlocking);
   CHECK(parse_scatter("--scatter", "1") == 1);

@@ -178,7 +178,7 @@ TEST_CASE("bad usage is refused in one line") {
                               {"render", "s.json", "--algorithm", "magic"},
                               {"render", "s.json", "--grain", "grain"},
                               {"render", "s.json", "--shadows", "soft"},
-                              {"render", "s.json", "--partition", "balanced"},
+                              {"render", "s.json", "--partition", "fair"},
                               {"render", "s.json", "--scatter", "9"},
                               {"render", "s.json", "--flow", "free"},
                               {"render", "s.json", "--queue", "0"},

@@ -30,6 +30,8 @@ struct Harvest {
   void take(const Step& step) {
     for (const PixelReturn& r : step.returns) {
       REQUIRE(r.merged <= kMaxMergedContributions);
+      // For a ray that only goes on nothing comes back: its tile may be whole before that arrives.
+      REQUIRE((r.merged > 0 || !r.credit.is_zero()));
       light[r.pixel].add(r.light);
       credit[r.pixel].add(r.credit);
     }
