@@ -64,21 +64,10 @@ void add_nodes(CLI::App& app, const char* help, std::uint32_t& nodes) {
       [&nodes](const std::string& text) { nodes = parse_nodes("-n", text); });
 }
 
-/// What decides how the picture is computed.
-void add_job_options(CLI::App& app, control::JobOptions& o) {
-  o.shadows = ShadowMode::kForward;
-  add(app, "--algorithm", "NAME", "auto (default), serial, roth or macro",
-      [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
-  add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
-      [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
-  add(app, "--shadows", "NAME", "forward (default); horizon and local are not built yet",
-      [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
-  add(app, "--partition", "NAME", "regular (default); balanced is not built yet",
-      [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
-  add(app, "--scatter", "K", "K x K macro-regions per node; only 1 is built yet",
-      [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
-  add(app, "--flow", "NAME", "credit (default); blocking is not built yet",
-      [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
+/// What every way to compute the picture takes.
+void add_common_options(CLI::App& app, control::JobOptions& o) {
+  add(app, "--queue", "N", "Rays that a node's queues hold where flow is blocking (default 64)",
+      [&o](const auto& text) { o.queue = parse_count("--queue", text, 1, kMaxQueue); });
   add(app, "--size", "WxH", "The picture's size, instead of the scene's", [&o](const auto& text) {
     const PictureSize size = parse_size("--size", text);
     o.width = size.width;
@@ -88,6 +77,23 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, kMaxSamples); });
   add(app, "--max-depth", "D", "Generations of rays, instead of the scene's",
       [&o](const auto& text) { o.max_depth = parse_count("--max-depth", text, 0, kMaxDepth); });
+}
+
+/// What decides how the picture is computed.
+void add_job_options(CLI::App& app, control::JobOptions& o) {
+  add(app, "--algorithm", "NAME", "auto (default), serial, roth or macro",
+      [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
+  add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
+      [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
+  add(app, "--shadows", "NAME", "horizon (default), forward or local: how macro finishes shadow rays",
+      [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
+  add(app, "--partition", "NAME", "regular (default), or balanced: boundaries by a coarse pre-render",
+      [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
+  add(app, "--scatter", "K", "K x K macro-regions per node, 1 to 8 (default: what suits the scene)",
+      [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
+  add(app, "--flow", "NAME", "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
+      [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
+  add_common_options(app, o);
   add(app, "--timeout", "S", "Give up after so many seconds",
       [&o](const auto& text) { o.timeout_s = parse_seconds("--timeout", text); });
 }
@@ -210,9 +216,16 @@ class Parser {
     add_scene(*sub, check.scene);
 
     auto& compare =
-        declare<CompareCommand>("compare", "Compare the algorithms; not built yet", sub);
+        declare<CompareCommand>("compare", "Render a scene in every way, and compare", sub);
+    compare.nodes = default_nodes();
     add_scene(*sub, compare.scene);
-    add_nodes(*sub, "Node processes", compare.nodes);
+    add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
+              compare.nodes);
+    add_common_options(*sub, compare.options);
+    sub->add_flag("--json", compare.as_json, "All statistics as one line of JSON, instead of a table");
+    sub->add_flag("--quiet,-q", compare.is_quiet, "Print nothing but the table and errors");
+    add(*sub, "--plot", "OUT.svg", "Also a picture of what each node did with its time",
+        [&compare](const std::string& text) { compare.plot = text; });
 
     auto& convert =
         declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);

@@ -64,7 +64,11 @@ struct CheckCommand {
 };
 struct CompareCommand {
   std::string scene;
+  /// What all ways have in common: size, samples, depth, the historical queue.
+  control::JobOptions options;
   std::uint32_t nodes = 1;
+  std::filesystem::path plot;
+  bool as_json = false, is_quiet = false;
 };
 struct ConvertCommand {
   std::string in, out;

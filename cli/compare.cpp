@@ -1,8 +1,182 @@
-// graycube compare: one scene with every algorithm, in one table.
+// graycube compare: one scene rendered in every way, in one table.
+#include <chrono>
+#include <cstdio>
+
+#include "cli/bars_svg.hpp"
 #include "cli/commands.hpp"
+#include "cli/cpu_time.hpp"
+#include "cli/frontal_process.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/job_client.hpp"
+#include "cli/render_here.hpp"
+#include "cli/table.hpp"
+#include "proto/comparison.hpp"
+#include "proto/statistics.hpp"
 
 namespace graycube {
+namespace {
 
-ExitStatus run(const CompareCommand&) { throw usage_failure("compare", "not built yet"); }
+/// A way to render: what `graycube render` calls it, and what it asks for.
+struct Way {
+  std::string name, arguments;
+  control::JobOptions options;
+};
+
+std::vector<Way> ways_of(const control::JobOptions& common) {
+  std::vector<Way> ways;
+  const auto add = [&](std::string name, std::string arguments, auto&& set) {
+    Way way{std::move(name), std::move(arguments), common};
+    set(way.options);
+    ways.push_back(std::move(way));
+  };
+  for (const Grain grain : {Grain::kPixel, Grain::kLine, Grain::kTile}) {
+    const std::string name(to_string(grain));
+    add("roth " + name, "--algorithm roth --grain " + name, [&](auto& o) {
+      o.algorithm = Algorithm::kRoth;
+      o.grain = grain;
+    });
+  }
+  const auto macro = [&](std::string name, const std::string& arguments, ShadowMode shadows,
+                         std::uint32_t scatter, FlowMode flow = FlowMode::kCredit,
+                         std::uint32_t queue = kDefaultQueue) {
+    add(std::move(name), "--algorithm macro " + arguments, [&](auto& o) {
+      o.algorithm = Algorithm::kMacro;
+      o.shadows = shadows;
+      o.scatter = scatter;
+      o.flow = flow;
+      o.queue = queue;
+    });
+  };
+  const std::string forward = "--shadows forward --scatter 1";
+  macro("macro as in 1987", forward + " --flow blocking --queue " + std::to_string(common.queue),
+        ShadowMode::kForward, 1, FlowMode::kBlocking, common.queue);
+  macro("  with endless queues", forward + " --flow blocking --queue " + std::to_string(kMaxQueue),
+        ShadowMode::kForward, 1, FlowMode::kBlocking, kMaxQueue);
+  macro("macro, credits", forward, ShadowMode::kForward, 1);
+  macro("macro, horizons", "--shadows horizon --scatter 1", ShadowMode::kHorizon, 1);
+  macro("macro, local shadows", "--shadows local --scatter 1", ShadowMode::kLocal, 1);
+  const auto balanced = [&](std::string name, ShadowMode shadows) {
+    const std::string arguments = "--shadows " + std::string(to_string(shadows));
+    macro(std::move(name), arguments + " --scatter 1 --partition balanced", shadows, 1);
+    ways.back().options.partition = PartitionMode::kBalanced;
+  };
+  macro("macro, scatter 2", "--shadows forward --scatter 2", ShadowMode::kForward, 2);
+  balanced("macro, balance", ShadowMode::kForward);
+  balanced("macro, all", ShadowMode::kHorizon);
+  add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
+  return ways;
+}
+
+ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
+                     const Picture& reference, ProgressDisplay& display) {
+  ComparedRow row{way.name, way.arguments, RowOutcome::kSame, {}, {}};
+  const std::uint32_t job = submit_scene(farm, scene, way.options);
+  try {
+    row.statistics = follow_job(farm, job, display);
+  } catch (const Failure& failure) {
+    throw_if_interrupted();
+    if (failure.problems().empty() || failure.status() == ExitStatus::kBadInput) throw;
+    const Problem& problem = failure.problems().front();
+    row.why = problem.why;
+    const bool deadlocked = problem.why.starts_with("deadlock: ");
+    row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    return row;
+  }
+  if (fetch_picture(farm, job) != reference) row.outcome = RowOutcome::kDifferent;
+  return row;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string table_of(const std::vector<ComparedRow>& rows) {
+  const Figures serial = figures_of(rows.front().statistics);
+  std::vector<std::vector<std::string>> cells{
+      {"WAY", "WALL s", "CPU s", "CPU/SERIAL", "EFFICIENCY", "BLOCKED %", "RAYS FORWARDED",
+       "MESSAGES", "MB", "MEMORY %", "ROUNDS", "QUEUE PEAK", "PICTURE"}};
+  for (const ComparedRow& row : rows) {
+    auto& line = cells.emplace_back(std::vector<std::string>{row.name});
+    if (row.statistics.empty()) {
+      line.resize(cells.front().size() - 1, "-");
+    } else {
+      const Figures f = figures_of(row.statistics);
+      const auto memory = static_cast<double>(f.largest_memory_bytes);
+      const auto whole = static_cast<double>(serial.largest_memory_bytes);
+      line.insert(line.end(),
+                  {number("%.2f", f.wall_s), number("%.2f", f.cpu_s),
+                   number("%.2f", serial.cpu_s > 0 ? f.cpu_s / serial.cpu_s : 0),
+                   number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
+                   std::to_string(f.forwarded), std::to_string(f.messages),
+                   number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
+                   number("%.1f", whole > 0 ? 100 * memory / whole : 0), std::to_string(f.rounds),
+                   std::to_string(f.queue_peak)});
+    }
+    line.push_back(to_string(row.outcome));
+  }
+  std::string text = table_text(cells);
+  for (const ComparedRow& row : rows) {
+    if (!row.why.empty()) text += row.name + ": " + row.why + "\n";
+  }
+  return text;
+}
+
+std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneInput& scene,
+                                     ProgressDisplay& display) {
+  std::vector<ComparedRow> rows;
+  const auto started = std::chrono::steady_clock::now();
+  const double cpu_before_s = own_cpu_seconds();
+  const Rendered serial = render_here(scene, command.options, 1, display);
+  const double wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  rows.push_back({"serial", "--algorithm serial", RowOutcome::kReference, {},
+                  with_command_times(serial.stats, wall_s, own_cpu_seconds() - cpu_before_s)});
+  const InterruptsHeld held;
+  FrontalProcess frontal({"--private", "--nodes", std::to_string(command.nodes), "--threads", "1"});
+  FarmClient farm(frontal.wait_until_listening(), [&] {
+    throw_if_interrupted();
+    frontal.check_running();
+  });
+  for (const Way& way : ways_of(command.options)) {
+    rows.push_back(compared(farm, scene, way, serial.picture, display));
+  }
+  frontal.stop();
+  return rows;
+}
+
+}  // namespace
+
+ExitStatus run(const CompareCommand& command) {
+  catch_interrupts("compare", 0);
+  if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
+  SceneInput scene = read_scene_input(command.scene, command.options);
+  check_is_built(command.scene, scene.scene);
+  for (const Problem& warning : scene.warnings) print(warning);
+  RenderSettings settings = scene.scene.settings;
+  apply_overrides(command.options, settings);
+  check_farm_limits(scene, settings);
+  ProgressDisplay display(stderr, command.is_quiet);
+  const std::vector<ComparedRow> rows = compare_all(command, scene, display);
+  display.clear();
+  const std::string text = command.as_json
+                               ? comparison_json(scene.name, command.nodes, rows) + "\n"
+                               : table_of(rows);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!command.plot.empty()) {
+    write_text_file(command.plot, bars_svg(scene.name + " on " + std::to_string(command.nodes) +
+                                               " nodes: what evaluators did with their time",
+                                           rows));
+  }
+  for (const ComparedRow& row : rows) {
+    if (row.outcome == RowOutcome::kDifferent || row.outcome == RowOutcome::kFailed) {
+      throw Failure(ExitStatus::kFailed,
+                    Problem{"compare", row.arguments,
+                            row.why.empty() ? "its picture is not serial's" : row.why});
+    }
+  }
+  return ExitStatus::kDone;
+}
 
 }  // namespace graycube

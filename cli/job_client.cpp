@@ -91,6 +91,7 @@ Picture fetch_picture(FarmClient& farm, std::uint32_t job) {
 std::string summary_text(const control::JobInfo& info) {
   std::string text(to_string(info.algorithm));
   text += " on " + std::to_string(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
+  if (!info.choices.empty()) text += ", " + info.choices;
   text +=
       ", " + std::to_string(info.rounds) + (info.rounds == 1 ? " token round" : " token rounds");
   return text;

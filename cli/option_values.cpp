@@ -51,15 +51,6 @@ Value parse_choice(std::string_view option, std::string_view text, std::span<con
                       "expected " + list + ", found " + quoted(text) + did_you_mean(text, names));
 }
 
-/// A value of the command line's contract that this version can't do.
-template <typename Value>
-Value only(std::string_view option, Value value, Value built) {
-  if (value == built) return value;
-  throw usage_failure(std::string(option), std::string(to_string(value)) +
-                                               " is not built yet; only " +
-                                               std::string(to_string(built)) + " is");
-}
-
 }  // namespace
 
 std::uint32_t parse_count(std::string_view option, std::string_view text, std::uint32_t least,
@@ -115,23 +106,21 @@ Grain parse_grain(std::string_view option, std::string_view text) {
 ShadowMode parse_shadows(std::string_view option, std::string_view text) {
   static constexpr std::array choices{ShadowMode::kHorizon, ShadowMode::kForward,
                                       ShadowMode::kLocal};
-  return only(option, parse_choice<ShadowMode>(option, text, choices), ShadowMode::kForward);
+  return parse_choice<ShadowMode>(option, text, choices);
 }
 
 PartitionMode parse_partition(std::string_view option, std::string_view text) {
   static constexpr std::array choices{PartitionMode::kRegular, PartitionMode::kBalanced};
-  return only(option, parse_choice<PartitionMode>(option, text, choices), PartitionMode::kRegular);
+  return parse_choice<PartitionMode>(option, text, choices);
 }
 
 std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
-  const std::uint32_t value = parse_count(option, text, 1, 1024);
-  if (value != 1) throw usage_failure(std::string(option), "only 1 is built yet");
-  return value;
+  return parse_count(option, text, 1, kMaxScatter);
 }
 
 FlowMode parse_flow(std::string_view option, std::string_view text) {
   static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
-  return only(option, parse_choice<FlowMode>(option, text, choices), FlowMode::kCredit);
+  return parse_choice<FlowMode>(option, text, choices);
 }
 
 std::uint32_t default_nodes() {

@@ -28,7 +28,6 @@ double parse_seconds(std::string_view option, std::string_view text);
 
 Algorithm parse_algorithm(std::string_view option, std::string_view text);
 Grain parse_grain(std::string_view option, std::string_view text);
-/// Only what is built: forward, regular, 1, credit.
 ShadowMode parse_shadows(std::string_view option, std::string_view text);
 PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);

@@ -93,6 +93,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.render_s = seconds_since(rendering);
   s.per_node.push_back(node_stats(result, threads, s.render_s));
   s.per_node.front().primitives = s.primitives;
+  s.per_node.front().memory_bytes = domain.memory_bytes();
   display.clear();
   return {film.develop(), statistics_json(s),
           "serial, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads")};

@@ -149,6 +149,10 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
       end_job(JobState::kFailed, FailureCode::kFailed,
               {{"node " + std::to_string(rank.value), m->message}});
     }
+  } else if (const auto* borrow = std::get_if<control::Borrow>(&message)) {
+    lend(rank, *borrow);
+  } else if (const auto* waits = std::get_if<control::WaitReport>(&message)) {
+    watch_for_deadlock(rank, *waits);
   } else if (const auto* ready = std::get_if<control::Ready>(&message)) {
     if (ready->job != render.id() || ready->epoch != render.epoch()) return;
     render.set_ready(rank, *ready);

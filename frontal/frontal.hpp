@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "frontal/deadlock_watch.hpp"
 #include "frontal/job_store.hpp"
 #include "frontal/preparation.hpp"
 #include "frontal/render_job.hpp"
@@ -103,6 +104,7 @@ class Frontal {
     double last_progress_s = 0;
     bool is_preparing = false;
     std::optional<RenderJob> render;
+    std::optional<DeadlockWatch> deadlocks;
     bool is_loaded = false, is_started = false, is_finishing = false;
   };
 
@@ -137,6 +139,8 @@ class Frontal {
   void start_rendering();
   void hand_out(Rank rank);
   void on_contributions(const Bytes& batch);
+  void lend(Rank rank, const control::Borrow& m);
+  void watch_for_deadlock(Rank rank, const control::WaitReport& m);
   void finish_when_complete();
   void complete();
   void end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors);

@@ -41,9 +41,14 @@ void Frontal::give_result(PreparationResult result) {
   if (!result.scene) {
     return end_job(JobState::kFailed, FailureCode::kBadInput, std::move(result.errors));
   }
-  const std::uint32_t threads =
+  std::uint32_t threads =
       running_->options.threads != 0 ? running_->options.threads : options_.threads;
-  running_->render.emplace(result.job, std::move(*result.scene), options_.cube.nodes(), threads);
+  if (result.scene->flow == FlowMode::kBlocking) {
+    threads = 1;
+    running_->deadlocks.emplace(options_.cube);
+  }
+  running_->info.choices = choices_text(*result.scene);
+  running_->render.emplace(result.job, std::move(*result.scene), options_.cube, threads);
   running_->info.algorithm = running_->render->scene().algorithm;
   running_->info.tiles = static_cast<std::uint32_t>(running_->render->tiles());
   load_when_possible();
@@ -102,6 +107,28 @@ void Frontal::on_contributions(const Bytes& batch) {
   for (const Rank rank : opened) hand_out(rank);
   running_->info.tiles_whole = static_cast<std::uint32_t>(running_->render->tiles_whole());
   finish_when_complete();
+}
+
+void Frontal::lend(Rank rank, const control::Borrow& m) {
+  const RenderJob& render = *running_->render;
+  if (m.job != render.id() || m.epoch != render.epoch() || running_->is_finishing) return;
+  const Bytes* slice = render.slice_to_lend(m.rank);
+  const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
+  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
+}
+
+void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
+  const RenderJob& render = *running_->render;
+  if (!running_->deadlocks || m.job != render.id() || m.epoch != render.epoch()) return;
+  const std::vector<Rank> cycle = running_->deadlocks->add(rank, m, pings_);
+  if (cycle.empty()) return;
+  std::string way;
+  for (const Rank r : cycle) way += "node " + std::to_string(r.value) + " waits for ";
+  end_job(JobState::kFailed, FailureCode::kFailed,
+          {{"--flow blocking", "deadlock: " + way + "node " + std::to_string(cycle.front().value) +
+                                   ", each for room in a full queue; " +
+                                   std::to_string(running_->deadlocks->stalled()) + " of " +
+                                   std::to_string(options_.cube.nodes()) + " nodes are blocked"}});
 }
 
 void Frontal::finish_when_complete() {
@@ -176,11 +203,16 @@ std::string Frontal::statistics() const {
   s.threads = render.threads();
   s.dimension = options_.cube.dimension();
   s.grid = {options_.cube.columns(), options_.cube.rows()};
+  s.scatter = render.scene().grid.scatter;
+  s.shadows = render.scene().shadows;
+  s.partition = render.scene().partition;
+  s.flow = render.scene().flow;
   s.image = render.scene().settings.image;
   s.primitives = render.scene().primitives;
   s.objects = render.scene().objects;
   s.wall_s = now_s_ - running_->submitted_at_s;
-  s.cpu_s = cpu_seconds() - running_->cpu_at_start_s;
+  s.frontal_cpu_s = cpu_seconds() - running_->cpu_at_start_s;
+  s.cpu_s = s.frontal_cpu_s;
   s.load_s = render.scene().load_s;
   s.partition_s = render.scene().partition_s;
   s.build_s = running_->render_began_s - running_->build_began_s;

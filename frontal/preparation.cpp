@@ -1,18 +1,35 @@
 #include "frontal/preparation.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
 
+#include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
+#include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "space/macro_grid.hpp"
+#include "space/rectilinear.hpp"
 #include "space/restrict.hpp"
+#include "trace/coarse_load.hpp"
 
 namespace graycube {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded, which costs
+/// more than the better balance brings: measured, see ARCHITECTURE.md.
+constexpr std::uint32_t kAutoScatter = 1;
+
+/// Cells of the coarse pre-render along each side of a macro-region, up to so many nodes (beyond: 2).
+constexpr std::uint32_t kFineCells = 4;
+constexpr std::uint32_t kFewNodes = 64;
+/// What a ray that comes in costs a node, in rays that it creates and primitives that it tests: it is decoded,
+/// stored and traced anew.
+constexpr double kCrossingCost = 1.5;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -48,23 +65,66 @@ Algorithm chosen(Algorithm wanted, const Model& model) {
   return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
 }
 
-void cut(const PreparationWork& work, const Model& model, PreparedScene& out) {
+void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out) {
   const ImageSize& image = model.settings.image;
-  const TileShape shape = tile_shape(out.grain, kTileSide, image);
   const auto frame = CameraFrame::from(model.settings.camera, image);
-  const MacroGrid grid = MacroGrid::regular(frame, work.cube.columns(), work.cube.rows());
+  const MacroGrid grid = MacroGrid::regular(frame, cube.columns(), cube.rows());
   out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges()};
-  if (out.algorithm == Algorithm::kRoth) {
-    out.plan.emplace(image, shape);
-    out.slices.push_back(encode_model(model));
-    return;
+  out.plan.emplace(image, tile_shape(out.grain, kTileSide, image));
+  out.slices.push_back(encode_model(model));
+}
+
+/// Light horizons where they are wanted and there are any: on one node no ray leaves, and lights that are walled
+/// in have none.
+std::shared_ptr<const LightHorizons> chosen_horizons(const PreparationWork& work, const Model& model) {
+  if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return nullptr;
+  auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
+  return horizons->is_empty() ? nullptr : horizons;
+}
+
+/// Boundaries placed by the cost of a coarse pre-render. Nothing when the picture is too small to tell.
+std::optional<MacroGrid> balanced_grid(const PreparationWork& work, const Model& model,
+                                       const std::shared_ptr<const LightHorizons>& horizons,
+                                       std::uint32_t columns, std::uint32_t rows) {
+  const ImageSize& image = model.settings.image;
+  const std::uint32_t fine = work.cube.nodes() <= kFewNodes ? kFineCells : 2;
+  if (image.width < columns * fine * 2 || image.height < rows * fine * 2) return std::nullopt;
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
+  const LoadMap load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
+  const RectilinearCuts cuts = balanced_cuts(load, columns, rows);
+  std::vector<std::int64_t> column_edges, row_edges;
+  for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
+  for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
+  return MacroGrid(frame, std::move(column_edges), std::move(row_edges));
+}
+
+void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScene& out) {
+  const ImageSize& image = model.settings.image;
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
+  const std::uint32_t columns = work.cube.columns() * k, rows = work.cube.rows() * k;
+  const auto horizons = chosen_horizons(work, model);
+  out.shadows = work.options.shadows;
+  if (horizons) {
+    out.horizons = encode_horizons(*horizons);
+  } else if (out.shadows == ShadowMode::kHorizon) {
+    out.shadows = ShadowMode::kForward;
   }
-  out.plan.emplace(image, shape, grid);
+  std::optional<MacroGrid> grid;
+  if (work.options.partition == PartitionMode::kBalanced && work.cube.nodes() > 1) {
+    grid = balanced_grid(work, model, horizons, columns, rows);
+  }
+  out.partition = grid ? PartitionMode::kBalanced : PartitionMode::kRegular;
+  if (!grid) grid = MacroGrid::regular(frame, columns, rows);
+  out.grid = {columns, rows, k, grid->column_edges(), grid->row_edges()};
+  out.plan.emplace(image, tile_shape(out.grain, kTileSide, image), *grid);
   for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
-    const RegionIndex region{static_cast<std::uint16_t>(work.cube.column_of(Rank{rank})),
-                             static_cast<std::uint16_t>(work.cube.row_of(Rank{rank}))};
-    out.slices.push_back(encode_model(restrict_to_region(model, grid, region)));
+    out.slices.push_back(
+        encode_model(restrict_to_share(model, *grid, share_of(work.cube, Rank{rank}))));
   }
+  out.flow = work.options.flow;
+  out.queue = work.options.queue;
 }
 
 }  // namespace
@@ -87,6 +147,19 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
   in_range("--samples", image.samples, 1, kMaxSamples);
   in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+}
+
+std::string choices_text(const PreparedScene& scene) {
+  if (scene.algorithm != Algorithm::kMacro) {
+    return "grain " + std::string(to_string(scene.grain));
+  }
+  std::string text = "scatter " + std::to_string(scene.grid.scatter) + ", " +
+                     std::string(to_string(scene.shadows)) + " shadows, " +
+                     std::string(to_string(scene.partition)) + " partition";
+  if (scene.flow == FlowMode::kBlocking) {
+    text += ", blocking queues of " + std::to_string(scene.queue);
+  }
+  return text;
 }
 
 PreparationResult run(const PreparationWork& work) {
@@ -115,7 +188,11 @@ PreparationResult run(const PreparationWork& work) {
   scene.settings = model.settings;
   scene.primitives = model.primitives.size();
   scene.objects = model.objects.size();
-  cut(work, model, scene);
+  if (scene.algorithm == Algorithm::kRoth) {
+    cut_for_roth(model, work.cube, scene);
+  } else {
+    cut_for_macro(work, model, scene);
+  }
   scene.partition_s = seconds_since(cutting);
   return result;
 }

@@ -29,11 +29,17 @@ struct PreparedScene {
   Algorithm algorithm = Algorithm::kMacro;
   control::GridLayout grid;
   Grain grain = Grain::kTile;
+  ShadowMode shadows = ShadowMode::kForward;
+  PartitionMode partition = PartitionMode::kRegular;
+  FlowMode flow = FlowMode::kCredit;
+  std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
   std::optional<TilePlan> plan;
   std::uint64_t primitives = 0, objects = 0;
   /// By rank; one for all in `roth`.
   std::vector<Bytes> slices;
+  /// Encoded light horizons, for every node; empty without them.
+  Bytes horizons;
   double load_s = 0, partition_s = 0;
 };
 
@@ -43,6 +49,9 @@ struct PreparationResult {
   /// The scene file's mistakes, or options that don't fit it.
   std::vector<control::ErrorItem> errors;
 };
+
+/// What was picked for the scene, for people: "scatter 4, horizon shadows".
+std::string choices_text(const PreparedScene& scene);
 
 /// Never throws.
 PreparationResult run(const PreparationWork& work);

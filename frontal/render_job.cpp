@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "proto/share_of.hpp"
+
 namespace graycube {
 namespace {
 
@@ -20,27 +22,41 @@ constexpr std::uint32_t kBatchBytes = std::uint32_t{64} << 10;
 
 }  // namespace
 
-RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, std::uint32_t nodes,
+RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
                      std::uint32_t threads)
     : job_(job),
       scene_(std::move(scene)),
-      nodes_(nodes),
+      cube_(cube),
+      nodes_(cube.nodes()),
       threads_(threads),
       film_(scene_.settings.image.width, scene_.settings.image.height,
             scene_.settings.image.samples * scene_.settings.image.samples),
       ledger_(rays_per_tile(*scene_.plan)),
       holder_(scene_.plan->tile_count()),
-      next_own_(nodes, 0),
-      open_(nodes, 0),
-      ready_(nodes, false),
-      reported_(nodes, false),
-      batches_received_(nodes, 0),
-      assignments_sent_(nodes, 0),
-      reports_(nodes) {}
+      next_own_(nodes_, 0),
+      open_(nodes_, 0),
+      ready_(nodes_, false),
+      reported_(nodes_, false),
+      batches_received_(nodes_, 0),
+      assignments_sent_(nodes_, 0),
+      reports_(nodes_) {
+  if (is_roth()) return;
+  for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
+    own_tiles_.push_back(scene_.plan->tiles_of(share_of(cube_, Rank{rank})));
+  }
+}
 
 Bytes RenderJob::take_slice(Rank rank) {
   if (is_roth()) return scene_.slices.front();
-  return std::move(scene_.slices[rank.value]);
+  const bool keeps = scene_.shadows == ShadowMode::kLocal;
+  Bytes slice = keeps ? scene_.slices[rank.value] : std::move(scene_.slices[rank.value]);
+  slice.insert(slice.end(), scene_.horizons.begin(), scene_.horizons.end());
+  return slice;
+}
+
+const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
+  const bool keeps = !is_roth() && scene_.shadows == ShadowMode::kLocal;
+  return keeps && rank < nodes_ ? &scene_.slices[rank] : nullptr;
 }
 
 control::Load RenderJob::load_for(Rank) const {
@@ -52,11 +68,21 @@ control::Load RenderJob::load_for(Rank) const {
   m.grid = scene_.grid;
   m.grain = scene_.grain;
   m.tile_size = kTileSide;
-  m.shadows = ShadowMode::kForward;
-  m.flow = FlowMode::kCredit;
+  m.shadows = scene_.shadows;
+  m.flow = scene_.flow;
+  m.queue = scene_.queue;
+  m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
+  m.borrow_bytes = scene_.shadows == ShadowMode::kLocal ? kBorrowBytes : 0;
   m.link_credit_bytes = kLinkCreditBytes;
   m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : kWindowTiles;
   m.batch_bytes = kBatchBytes;
+  if (scene_.flow == FlowMode::kBlocking) {
+    // One evaluator a node, one ray a message, and the queue's places shared out among the links.
+    m.threads = 1;
+    m.batch_bytes = kRayBytes;
+    m.link_credit_bytes =
+        kRayBytes * std::max(1u, scene_.queue / std::max(1u, cube_.dimension()));
+  }
   return m;
 }
 
@@ -76,9 +102,9 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
     }
   } else {
     std::uint32_t& next = next_own_[rank.value];
-    const std::uint32_t own = scene_.plan->tile_count_of(rank.value);
-    while (open < kWindowTiles && next < own) {
-      tiles.push_back(scene_.plan->first_tile(rank.value) + next++);
+    const auto& own = own_tiles_[rank.value];
+    while (open < kWindowTiles && next < own.size()) {
+      tiles.push_back(own[next++]);
       ++open;
     }
   }

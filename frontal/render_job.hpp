@@ -17,16 +17,20 @@ namespace graycube {
 /// until the frontal holds all their light. All rays in the machine descend from them (design section 10).
 inline constexpr std::uint32_t kWindowTiles = 64;
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
+/// Shadows local: what a node may use for other nodes' models.
+inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 
 class RenderJob {
  public:
-  RenderJob(std::uint32_t job, PreparedScene scene, std::uint32_t nodes, std::uint32_t threads);
+  RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads);
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
   const PreparedScene& scene() const { return scene_; }
   /// The slice for a node; given away once the node has it.
   Bytes take_slice(Rank rank);
+  /// Shadows local: a node's slice for another node; null where there is none.
+  const Bytes* slice_to_lend(std::uint32_t rank) const;
   control::Load load_for(Rank rank) const;
 
   void set_ready(Rank rank, const control::Ready& ready);
@@ -65,11 +69,13 @@ class RenderJob {
   std::uint32_t job_;
   std::uint32_t epoch_ = 0;
   PreparedScene scene_;
+  Hypercube cube_;
   std::uint32_t nodes_, threads_;
   Film film_;
   TileLedger ledger_;
   std::vector<Rank> holder_;                     // of each tile handed out
-  std::vector<std::uint32_t> next_own_, open_;   // by rank
+  std::vector<std::vector<std::uint32_t>> own_tiles_;  // by rank, macro
+  std::vector<std::uint32_t> next_own_, open_;         // by rank
   std::uint32_t next_tile_ = 0;                  // roth: one queue for all
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;

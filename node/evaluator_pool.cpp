@@ -59,12 +59,14 @@ void EvaluatorPool::work(unsigned index) {
     }
     after_change();
     const bool is_build = std::holds_alternative<BuildWork>(piece->what);
+    const bool is_primary = std::holds_alternative<TileWork>(piece->what);
     lock.unlock();
     const double started = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     WorkResult result = run(std::move(*piece));
     const double busy = seconds_of(CLOCK_THREAD_CPUTIME_ID) - started;
     lock.lock();
     if (!is_build) busy_s_ += busy;
+    if (is_primary) last_primary_ = WaitClock::Time::clock::now();
     node_.give_result(std::move(result));
     after_change();
   }
@@ -76,6 +78,11 @@ void EvaluatorPool::measure(control::NodeStats& stats) {
   const double cpu_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
   stats.busy_s = std::exchange(busy_s_, 0);
+  if (last_primary_) {
+    const auto since = WaitClock::Time::clock::now() - *last_primary_;
+    stats.endgame_s = std::chrono::duration<double>(since).count();
+    last_primary_.reset();
+  }
   stats.idle_s = clock_.seconds(WaitReason::kIdle);
   stats.blocked_s = clock_.seconds(WaitReason::kBlocked);
   stats.window_s = clock_.seconds(WaitReason::kWindow);

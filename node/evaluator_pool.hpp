@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -44,6 +45,7 @@ class EvaluatorPool {
   unsigned waiting_ = 0;
   bool stopping_ = false;
   WaitClock clock_;
+  std::optional<WaitClock::Time> last_primary_;
   double busy_s_ = 0;
   double cpu_reported_s_ = 0;
 };

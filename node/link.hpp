@@ -23,6 +23,8 @@ struct Link {
   /// Taken from the inbox by evaluators, but not yet granted back.
   std::uint64_t ungranted = 0;
   std::uint64_t expected_sequence = 0;
+  /// All that was granted to the peer, and by it, in bytes.
+  std::uint64_t granted = 0, received = 0;
 
   void reset(std::uint64_t credit) {
     outbox.clear();
@@ -30,6 +32,8 @@ struct Link {
     ungranted = 0;
     next_sequence = 0;
     expected_sequence = 0;
+    granted = 0;
+    received = 0;
   }
 };
 

@@ -53,10 +53,8 @@ void Node::on_control(const Message& message) {
   if (const auto* prepare = std::get_if<control::Prepare>(&m)) return on_prepare(*prepare);
   if (const auto* start = std::get_if<control::Start>(&m)) return on_start(*start);
   if (const auto* finish = std::get_if<control::Finish>(&m)) return on_finish(*finish);
-  if (const auto* ping = std::get_if<control::Ping>(&m)) {
-    send_control(control::Pong{ping->sequence});
-    return pass_token(true);
-  }
+  if (const auto* lend = std::get_if<control::Lend>(&m)) return on_lend(*lend, message.payload);
+  if (const auto* ping = std::get_if<control::Ping>(&m)) return on_ping(*ping);
   if (std::holds_alternative<control::Shutdown>(m)) {
     send_control(control::Goodbye{});
     shut_down_ = true;
@@ -96,6 +94,11 @@ void Node::on_load(const control::Load& m, const Bytes& slice) {
   is_ready_sent_ = false;
   domain_.reset();
   plan_.reset();
+  own_tiles_ = 0;
+  borrowed_.assign(cube_->nodes(), {});
+  lent_.clear();
+  borrowed_bytes_ = 0;
+  moves_ = 0;
   unbuilt_slice_ = slice;
   incarnations_.clear();
   stats_ = {};
@@ -122,7 +125,10 @@ void Node::on_finish(const control::Finish& m) {
   stats_.gray = cube_->label_of(id_.rank).value;
   stats_.pid = id_.pid;
   stats_.malformed_drops = drops_;
-  if (domain_) stats_.primitives = domain_->model().primitives.size();
+  if (domain_) {
+    stats_.primitives = domain_->model().primitives.size();
+    stats_.memory_bytes = domain_->memory_bytes();
+  }
   if (measure) measure(stats_);
   send_control(control::NodeReport{job_, epoch_, stats_});
   // Late grants of credit are stale from here on.
@@ -130,23 +136,50 @@ void Node::on_finish(const control::Finish& m) {
   unbuilt_slice_.reset();
   domain_.reset();
   plan_.reset();
+  own_tiles_ = 0;
+  borrowed_.clear();
+  lent_.clear();
   forget_rays();
 }
 
 /// Everything of the epoch that ends here: rays, outboxes, unsent contributions, token, sequences, credit.
 void Node::forget_rays() {
   tiles_.clear();
+  open_tile_.reset();
   rays_.clear();
+  rays_.set_fifo(is_blocking());
+  stalled_.clear();
+  for (Borrowed& b : borrowed_) b.waiting.clear();
+  rays_in_wait_ = 0;
+  outbox_rays_ = 0;
   merge_.clear();
   ring_.reset();
   working_ = 0;
   contribution_sequence_ = 0;
   assignment_sequence_ = 0;
   for (Link& link : links_) link.reset(load_.link_credit_bytes);
-  unassigned_tiles_ = 0;
-  if (plan_ && domain_ && domain_->grid() != nullptr) {
-    unassigned_tiles_ = plan_->tile_count_of(id_.rank.value);
+  unassigned_tiles_ = own_tiles_;
+}
+
+void Node::on_ping(const control::Ping& m) {
+  send_control(control::Pong{m.sequence});
+  pass_token(true);
+  if (state_ != State::kRendering || !is_blocking()) return;
+  control::WaitReport report;
+  report.job = job_;
+  report.epoch = epoch_;
+  report.ping = m.sequence;
+  report.is_stalled = !stalled_.empty();
+  report.moves = moves_;
+  if (report.is_stalled) {
+    const RegionIndex next = stalled_.front().region;
+    report.waits_for = bit_of(cube_->owner_of(next.column, next.row));
   }
+  for (const Link& link : links_) {
+    report.granted.push_back(link.granted);
+    report.received.push_back(link.received);
+  }
+  send_control(report);
 }
 
 void Node::on_frontal_batch(const Bytes& batch) {
@@ -199,6 +232,8 @@ void Node::on_neighbour(const Bytes& batch) {
     const auto result = decode_link_credit(batch, limits_, bytes);
     if (std::holds_alternative<BatchError>(result)) return drop("grant", "malformed");
     link.send_credit += bytes;
+    link.received += bytes;
+    if (is_blocking()) return send_stalled();
     return send_rays(link, false);
   }
   if (header.type == BatchType::kToken) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct NodeIdentity {
 /// Why an evaluator gets no work (design section 6).
 enum class WaitReason : std::uint8_t {
   kReady,    ///< it would get some now
-  kBlocked,  ///< there are received rays that may not go on
+  kBlocked,  ///< there are rays that may not go on: the next queue is full
   kWindow,   ///< there are only unstarted primary rays, and the window is closed
   kIdle,     ///< there is neither
 };
@@ -90,6 +91,8 @@ class Node {
   void on_prepare(const control::Prepare& m);
   void on_start(const control::Start& m);
   void on_finish(const control::Finish& m);
+  void on_lend(const control::Lend& m, const Bytes& slice);
+  void on_ping(const control::Ping& m);
   void on_frontal_batch(const Bytes& batch);
   void on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header);
   void on_signal(Link& link, const BatchHeader& header);
@@ -101,7 +104,14 @@ class Node {
   void send_ready_when_complete();
   BatchStamp stamp(std::uint64_t sequence) const;
 
+  bool is_blocking() const { return load_.flow == FlowMode::kBlocking; }
+  std::optional<PixelRect> next_pixels();
   void absorb(Step& step);
+  void forward(const RayTask& ray);
+  void send_stalled();
+  void wait_for_model(Rank owner, const RayTask& ray);
+  void adopt_borrowed(WorkResult& result);
+  void send_batch(Link& link, std::span<const RayTask> rays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
   void grant_credit(Link& link);
@@ -130,9 +140,26 @@ class Node {
   std::optional<TilePlan> plan_;
   BatchLimits limits_;
   std::deque<std::uint32_t> tiles_;
+  std::uint64_t own_tiles_ = 0;
   /// Own tiles that the frontal has not handed out yet; `macro` only.
   std::uint64_t unassigned_tiles_ = 0;
   RayStore rays_;
+  /// Flow blocking: the tile that is being traced pixel by pixel, and the rays of the evaluator that wait for
+  /// room in the next node's queue, oldest first.
+  std::optional<PixelRect> open_tile_;
+  std::uint32_t open_pixel_ = 0;
+  std::deque<RayTask> stalled_;
+  std::uint64_t moves_ = 0;
+  /// Shadows local: what has become of each other node's model.
+  struct Borrowed {
+    enum class State : std::uint8_t { kUnasked, kAsked, kHeld, kRefused };
+    State state = State::kUnasked;
+    std::vector<RayTask> waiting;
+  };
+  std::vector<Borrowed> borrowed_;  // by rank
+  std::deque<BorrowWork> lent_;
+  std::uint64_t borrowed_bytes_ = 0, rays_in_wait_ = 0;
+  std::uint64_t outbox_rays_ = 0;
   MergeBuffer merge_;
   TerminationRing ring_;
   unsigned working_ = 0;

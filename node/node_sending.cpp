@@ -36,23 +36,42 @@ void Node::send_rays(Link& link, bool partial) {
     const std::size_t count = std::min({waiting, allowed, full});
     const bool eager = link.send_credit == load_.link_credit_bytes && waiting >= kLeastEagerRays;
     if (count == 0 || (count < full && !partial && !eager)) break;
-    const std::span<const RayTask> rays{link.outbox.data() + sent, count};
-    Bytes batch = encode_rays(stamp(link.next_sequence++), rays);
-    ring_.message_sent();
-    ++stats_.ray_batches;
-    stats_.ray_bytes += batch.size();
-    stats_.rays_out += count;
-    link.send_credit -= count * kRayBytes;
-    outgoing_.push_back({link.peer, Message::of_batch(std::move(batch))});
+    send_batch(link, {link.outbox.data() + sent, count});
     sent += count;
   }
+  outbox_rays_ -= sent;
   link.outbox.erase(link.outbox.begin(), link.outbox.begin() + static_cast<std::ptrdiff_t>(sent));
+}
+
+void Node::send_batch(Link& link, std::span<const RayTask> rays) {
+  Bytes batch = encode_rays(stamp(link.next_sequence++), rays);
+  ring_.message_sent();
+  ++stats_.ray_batches;
+  stats_.ray_bytes += batch.size();
+  stats_.rays_out += rays.size();
+  link.send_credit -= rays.size() * kRayBytes;
+  outgoing_.push_back({link.peer, Message::of_batch(std::move(batch))});
+}
+
+/// Flow blocking: sends what the evaluator holds, one ray a message and in order; a full queue holds up all
+/// that is behind.
+void Node::send_stalled() {
+  const bool was_stalled = !stalled_.empty();
+  while (!stalled_.empty()) {
+    const RayTask& ray = stalled_.front();
+    Link& link = links_[bit_of(cube_->owner_of(ray.region.column, ray.region.row))];
+    if (link.send_credit < kRayBytes) return;
+    send_batch(link, {&ray, 1});
+    stalled_.pop_front();
+  }
+  if (was_stalled && working_ == 0 && wait_reason() != WaitReason::kReady) flush_on_idle();
 }
 
 void Node::grant_credit(Link& link) {
   if (link.ungranted == 0) return;
   outgoing_.push_back({link.peer, Message::of_batch(encode_link_credit(stamp(link.next_sequence++),
                                                                        link.ungranted))});
+  link.granted += link.ungranted;
   link.ungranted = 0;
 }
 
@@ -78,8 +97,9 @@ void Node::flush_on_idle() {
 }
 
 bool Node::is_passive() const {
-  return state_ == State::kRendering && rays_.is_empty() && tiles_.empty() &&
-         unassigned_tiles_ == 0 && working_ == 0 && merge_.is_empty() &&
+  return state_ == State::kRendering && rays_.is_empty() && tiles_.empty() && !open_tile_ &&
+         unassigned_tiles_ == 0 && working_ == 0 && merge_.is_empty() && stalled_.empty() &&
+         rays_in_wait_ == 0 && lent_.empty() &&
          std::all_of(links_.begin(), links_.end(), [](const Link& l) { return l.outbox.empty(); });
 }
 

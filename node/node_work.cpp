@@ -1,37 +1,54 @@
 // What a node's brain gives its evaluators to do, and what becomes of the results.
 #include <algorithm>
+#include <utility>
 
 #include "geometry/check.hpp"
 #include "node/node.hpp"
+#include "proto/control.hpp"
+#include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
 
 namespace graycube {
 
+namespace {
+
+/// No primary rays are started while so many rays wait to be sent. What has arrived is always traced, so the
+/// neighbours' inboxes and with them the outboxes empty themselves.
+constexpr std::uint64_t kLongOutboxes = 8192;
+
+}  // namespace
+
 std::optional<Work> Node::take_work() {
   Work work{job_, epoch_, domain_, {}};
   if (state_ == State::kBuilding && unbuilt_slice_) {
-    BuildWork build{std::move(*unbuilt_slice_), std::nullopt, {}};
+    BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, std::nullopt, {}};
     unbuilt_slice_.reset();
     if (load_.algorithm == Algorithm::kMacro) {
       build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};
-      build.region = {static_cast<std::uint16_t>(cube_->column_of(id_.rank)),
-                      static_cast<std::uint16_t>(cube_->row_of(id_.rank))};
+      build.share = share_of(*cube_, id_.rank);
     }
     work.what = std::move(build);
     return work;
   }
   if (state_ != State::kRendering) return std::nullopt;
-  if (!rays_.is_empty()) {
+  if (!stalled_.empty()) {
+    flush_on_idle();
+    return std::nullopt;
+  }
+  if (!lent_.empty()) {
+    work.what = std::move(lent_.front());
+    lent_.pop_front();
+  } else if (!rays_.is_empty()) {
     RayWork batch;
-    batch.rays = rays_.take(kMaxRaysPerWork,
-                            [&](std::uint32_t bit) { links_[bit].ungranted += kRayBytes; });
+    batch.rays = rays_.take(is_blocking() ? 1 : kMaxRaysPerWork, [&](std::uint32_t bit) {
+      if (bit < links_.size()) links_[bit].ungranted += kRayBytes;
+    });
     for (Link& link : links_) {
-      if (2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
+      if (is_blocking() || 2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
     }
     work.what = std::move(batch);
-  } else if (!tiles_.empty()) {
-    work.what = TileWork{plan_->rect(tiles_.front())};
-    tiles_.pop_front();
+  } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
+    work.what = TileWork{*pixels};
   } else {
     flush_on_idle();
     return std::nullopt;
@@ -40,12 +57,36 @@ std::optional<Work> Node::take_work() {
   return work;
 }
 
+/// Primary rays for an evaluator: a tile of them, or a pixel's where flow is blocking.
+std::optional<PixelRect> Node::next_pixels() {
+  if (!open_tile_) {
+    if (tiles_.empty()) return std::nullopt;
+    open_tile_ = plan_->rect(tiles_.front());
+    tiles_.pop_front();
+    open_pixel_ = 0;
+  }
+  const PixelRect tile = *open_tile_;
+  if (!is_blocking()) {
+    open_tile_.reset();
+    return tile;
+  }
+  const std::uint32_t width = tile.x1 - tile.x0;
+  const std::uint32_t x = tile.x0 + open_pixel_ % width, y = tile.y0 + open_pixel_ / width;
+  if (++open_pixel_ == width * (tile.y1 - tile.y0)) open_tile_.reset();
+  return PixelRect{x, y, x + 1, y + 1};
+}
+
 void Node::give_result(WorkResult result) {
   if (result.job != job_ || result.epoch != epoch_ || state_ == State::kNoJob) return;
   if (state_ == State::kBuilding) return adopt_domain(result);
   GRAYCUBE_CHECK(working_ > 0, "a result without work");
   --working_;
-  absorb(result.step);
+  ++moves_;
+  if (result.borrowed_from) {
+    adopt_borrowed(result);
+  } else {
+    absorb(result.step);
+  }
   pass_token();
 }
 
@@ -66,6 +107,9 @@ void Node::adopt_domain(WorkResult& result) {
   limits_.pixel_count = std::uint64_t{settings.image.width} * settings.image.height;
   limits_.tile_count = plan_->tile_count();
   limits_.max_depth = settings.max_depth;
+  limits_.lights = std::max(1u, static_cast<std::uint32_t>(settings.lights.size()));
+  own_tiles_ = 0;
+  if (domain_->grid() != nullptr) own_tiles_ = plan_->tiles_of(share_of(*cube_, id_.rank)).size();
   limits_.columns = domain_->grid() != nullptr ? domain_->grid()->columns() : 1;
   limits_.rows = domain_->grid() != nullptr ? domain_->grid()->rows() : 1;
   limits_.nodes = cube_->nodes();
@@ -94,20 +138,98 @@ void Node::absorb(Step& step) {
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
   for (const RayTask& ray : step.leaving) {
-    const std::uint32_t bit = bit_of(cube_->owner_of(ray.region.column, ray.region.row));
-    GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
-    links_[bit].outbox.push_back(ray);
-    ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
+    if (ray.kind == RayKind::kShadow && load_.shadows == ShadowMode::kLocal) {
+      wait_for_model(cube_->owner_of(ray.region.column, ray.region.row), ray);
+    } else {
+      forward(ray);
+    }
   }
-  if (!step.leaving.empty()) {
-    for (Link& link : links_) send_rays(link, false);
+  for (const Step::Lacking& l : step.lacking) {
+    wait_for_model(cube_->owner_of(l.region.column, l.region.row), l.task);
   }
   merge_.add(step.returns);
   if (merge_.is_full()) flush_contributions();
+  if (is_blocking()) {
+    send_stalled();
+  } else if (!step.leaving.empty() || !step.lacking.empty()) {
+    for (Link& link : links_) send_rays(link, false);
+  }
+}
+
+void Node::forward(const RayTask& ray) {
+  const std::uint32_t bit = bit_of(cube_->owner_of(ray.region.column, ray.region.row));
+  GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
+  ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
+  if (is_blocking()) {
+    stalled_.push_back(ray);
+    stats_.outbox_peak = std::max<std::uint64_t>(stats_.outbox_peak, stalled_.size());
+    return;
+  }
+  links_[bit].outbox.push_back(ray);
+  stats_.outbox_peak = std::max(stats_.outbox_peak, ++outbox_rays_);
+}
+
+/// Shadows local: a shadow ray goes on when the model that it lacks is here, or, where there is no memory for
+/// that, with the neighbour whose region it has entered.
+void Node::wait_for_model(Rank owner, const RayTask& ray) {
+  Borrowed& b = borrowed_[owner.value];
+  if (b.state == Borrowed::State::kUnasked) {
+    const std::uint64_t room = load_.borrow_bytes - std::min(load_.borrow_bytes, borrowed_bytes_);
+    b.state = room > 0 ? Borrowed::State::kAsked : Borrowed::State::kRefused;
+    // A model takes about this many times its slice once it is subdivided.
+    constexpr std::uint64_t kMemoryPerSliceByte = 4;
+    if (room > 0) {
+      send_control(control::Borrow{job_, epoch_, owner.value, room / kMemoryPerSliceByte});
+    }
+  }
+  switch (b.state) {
+    case Borrowed::State::kHeld: return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
+    case Borrowed::State::kRefused: return forward(ray);
+    default: break;
+  }
+  b.waiting.push_back(ray);
+  ++rays_in_wait_;
+}
+
+void Node::on_lend(const control::Lend& m, const Bytes& slice) {
+  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
+  if (m.rank >= borrowed_.size() || borrowed_[m.rank].state != Borrowed::State::kAsked) {
+    return drop("lend", "not asked for");
+  }
+  if (!slice.empty()) return lent_.push_back({Rank{m.rank}, slice});
+  Borrowed& b = borrowed_[m.rank];
+  b.state = Borrowed::State::kRefused;
+  rays_in_wait_ -= b.waiting.size();
+  for (const RayTask& ray : std::exchange(b.waiting, {})) forward(ray);
+  // No evaluator may come by to send what is left.
+  for (Link& link : links_) send_rays(link, true);
+  pass_token();
+}
+
+void Node::adopt_borrowed(WorkResult& result) {
+  if (!result.borrowed) {
+    send_control(control::NodeError{job_, result.error});
+    return;
+  }
+  const Rank from = *result.borrowed_from;
+  Borrowed& b = borrowed_[from.value];
+  b.state = Borrowed::State::kHeld;
+  borrowed_bytes_ += result.borrowed->memory_bytes();
+  ++stats_.models_borrowed;
+  domain_ = domain_->with_borrowed(cube_->column_of(from), cube_->row_of(from),
+                                   std::move(result.borrowed));
+  rays_in_wait_ -= b.waiting.size();
+  for (const RayTask& ray : std::exchange(b.waiting, {})) {
+    rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
+  }
 }
 
 WaitReason Node::wait_reason() const {
-  if (!rays_.is_empty() || !tiles_.empty()) return WaitReason::kReady;
+  if (!stalled_.empty()) return WaitReason::kBlocked;
+  if (!lent_.empty() || !rays_.is_empty()) return WaitReason::kReady;
+  if (!tiles_.empty() || open_tile_) {
+    return outbox_rays_ < kLongOutboxes ? WaitReason::kReady : WaitReason::kWindow;
+  }
   return unassigned_tiles_ > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

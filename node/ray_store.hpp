@@ -1,7 +1,8 @@
-// Received rays waiting for an evaluator: deepest first, so that trees stay narrow.
+// Rays waiting for an evaluator: deepest first, so that trees stay narrow; or as they came, as in 1987.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "trace/ray_task.hpp"
@@ -10,9 +11,11 @@ namespace graycube {
 
 class RayStore {
  public:
+  /// Whether rays are taken as they came. The store must be empty.
+  void set_fifo(bool fifo) { is_fifo_ = fifo; }
   /// `link`: the bit across which the ray came; its credit goes back there when the ray is taken.
   void add(const RayTask& ray, std::uint32_t link) {
-    const std::size_t c = depth_class(ray);
+    const std::size_t c = is_fifo_ ? 0 : depth_class(ray);
     if (c >= classes_.size()) classes_.resize(c + 1);
     classes_[c].push_back({ray, link});
     ++size_;
@@ -26,9 +29,10 @@ class RayStore {
     while (size_ > 0 && rays.size() < most) {
       while (classes_[deepest_].empty()) --deepest_;
       auto& held = classes_[deepest_];
-      rays.push_back(held.back().ray);
-      taken_from(held.back().link);
-      held.pop_back();
+      const Held& next = is_fifo_ ? held.front() : held.back();
+      rays.push_back(next.ray);
+      taken_from(next.link);
+      is_fifo_ ? held.pop_front() : held.pop_back();
       --size_;
     }
     return rays;
@@ -52,9 +56,10 @@ class RayStore {
     return std::size_t{2} * ray.depth + (ray.kind == RayKind::kShadow ? 1 : 0);
   }
 
-  std::vector<std::vector<Held>> classes_;
+  std::vector<std::deque<Held>> classes_;
   std::size_t size_ = 0;
   std::size_t deepest_ = 0;
+  bool is_fifo_ = false;
 };
 
 }  // namespace graycube

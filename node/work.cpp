@@ -1,28 +1,50 @@
 #include "node/work.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <span>
 
+#include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 
 namespace graycube {
 namespace {
 
-void build(BuildWork work, WorkResult& result) {
-  const auto started = std::chrono::steady_clock::now();
-  auto decoded = decode_model(work.slice);
+std::optional<Model> decoded_model(std::span<const std::byte> bytes, WorkResult& result) {
+  auto decoded = decode_model(bytes);
   if (const auto* error = std::get_if<ModelError>(&decoded)) {
     result.error = "the macro-region received is broken: " + error->where + ": " + error->why;
-    return;
+    return std::nullopt;
+  }
+  return std::get<Model>(std::move(decoded));
+}
+
+void build(BuildWork work, WorkResult& result) {
+  const auto started = std::chrono::steady_clock::now();
+  const std::span<const std::byte> bytes = work.slice;
+  const std::size_t model_bytes = bytes.size() - std::min(bytes.size(), work.horizon_bytes);
+  auto model = decoded_model(bytes.first(model_bytes), result);
+  if (!model) return;
+  std::shared_ptr<const LightHorizons> horizons;
+  if (work.horizon_bytes > 0) {
+    auto decoded = decode_horizons(bytes.subspan(model_bytes), model->settings.lights.size());
+    if (!decoded) {
+      result.error = "the light horizons received are broken";
+      return;
+    }
+    horizons = std::make_shared<const LightHorizons>(*std::move(decoded));
   }
   work.slice = {};
-  Model model = std::get<Model>(std::move(decoded));
+  std::shared_ptr<Domain> domain;
   if (work.edges) {
-    const auto frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    const auto frame = CameraFrame::from(model->settings.camera, model->settings.image);
     MacroGrid grid(frame, std::move(work.edges->columns), std::move(work.edges->rows));
-    result.domain = std::make_shared<const Domain>(std::move(grid), work.region, std::move(model));
+    domain = std::make_shared<Domain>(std::move(grid), work.share, *std::move(model));
   } else {
-    result.domain = std::make_shared<const Domain>(std::move(model));
+    domain = std::make_shared<Domain>(*std::move(model));
   }
+  domain->set_horizons(std::move(horizons));
+  result.domain = std::move(domain);
   result.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
@@ -34,6 +56,11 @@ WorkResult run(Work work) {
   result.epoch = work.epoch;
   if (auto* b = std::get_if<BuildWork>(&work.what)) {
     build(std::move(*b), result);
+    return result;
+  }
+  if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
+    result.borrowed_from = b->from;
+    if (auto model = decoded_model(b->slice, result)) result.borrowed = Territory::of(*std::move(model));
     return result;
   }
   Evaluator evaluator(*work.domain);

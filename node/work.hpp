@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "topology/rank.hpp"
 #include "trace/step.hpp"
 #include "transport/message.hpp"
 
@@ -19,12 +20,19 @@ struct GridEdges {
   std::vector<std::int64_t> columns, rows;
 };
 
-/// Subdivide the macro-region that came with `load`.
+/// Subdivide the macro-regions that came with `load`.
 struct BuildWork {
   Bytes slice;
+  /// The last so many bytes of the slice are light horizons.
+  std::size_t horizon_bytes = 0;
   /// Nothing in `roth`: all of space.
   std::optional<GridEdges> edges;
-  RegionIndex region;
+  RegionShare share;
+};
+/// Subdivide another node's macro-regions, to finish shadow rays in them.
+struct BorrowWork {
+  Rank from;
+  Bytes slice;
 };
 /// Trace the primary rays of a tile.
 struct TileWork {
@@ -38,7 +46,7 @@ struct RayWork {
 struct Work {
   std::uint32_t job = 0, epoch = 0;
   std::shared_ptr<const Domain> domain;
-  std::variant<BuildWork, TileWork, RayWork> what;
+  std::variant<BuildWork, BorrowWork, TileWork, RayWork> what;
 };
 
 struct WorkResult {
@@ -47,6 +55,9 @@ struct WorkResult {
   std::shared_ptr<const Domain> domain;
   std::string error;
   double build_s = 0;
+  /// BorrowWork: whose, and what; nothing after an error.
+  std::optional<Rank> borrowed_from;
+  std::shared_ptr<const Territory> borrowed;
   Step step;
 };
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "shading/settings.hpp"
 #include "space/macro_grid.hpp"
 #include "trace/contribution.hpp"
 #include "trace/ray_task.hpp"
@@ -97,6 +98,8 @@ struct BatchLimits {
   std::uint64_t pixel_count = 0;
   std::uint32_t tile_count = 0;
   std::uint32_t max_depth = 0;
+  /// A ray of a scene without lights still has the number 0.
+  std::uint32_t lights = kMaxCreditLights;
   std::uint32_t max_exponent = 255;
   /// The grid of macro-regions, scattered ones included: a receiver sets its job's.
   std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;

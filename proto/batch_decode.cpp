@@ -47,7 +47,8 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.pixel = load_little<std::uint32_t>(at + 88);
   const auto kind = load_little<std::uint8_t>(at + 92);
   task.credit_exponent = load_little<std::uint8_t>(at + 93);
-  task.depth = load_little<std::uint16_t>(at + 94);
+  task.depth = load_little<std::uint8_t>(at + 94);
+  task.light = load_little<std::uint8_t>(at + 95);
   task.region = {load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98)};
   if (kind >= kRayKinds) return false;
   task.kind = static_cast<RayKind>(kind);
@@ -57,6 +58,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
          std::isfinite(task.t) && task.t >= 0 && task.t_max >= 0 && is_weight(weight.x) &&
          is_weight(weight.y) && is_weight(weight.z) && task.pixel < limits.pixel_count &&
          task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
+         task.light < limits.lights &&
          task.region.column < limits.columns && task.region.row < limits.rows;
 }
 

@@ -51,7 +51,8 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_little(at + 88, task.pixel);
   store_little(at + 92, static_cast<std::uint8_t>(task.kind));
   store_little(at + 93, task.credit_exponent);
-  store_little(at + 94, task.depth);
+  store_little(at + 94, static_cast<std::uint8_t>(task.depth));
+  store_little(at + 95, static_cast<std::uint8_t>(task.light));
   store_little(at + 96, task.region.column);
   store_little(at + 98, task.region.row);
 }

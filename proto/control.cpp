@@ -26,6 +26,7 @@ std::span<const std::string_view> control_types() { return TypesOf<ControlMessag
 
 bool has_binary_frame(const ControlMessage& message) {
   return std::holds_alternative<control::Load>(message) ||
+         std::holds_alternative<control::Lend>(message) ||
          std::holds_alternative<control::Submit>(message) ||
          std::holds_alternative<control::Picture>(message);
 }

@@ -66,6 +66,10 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("non_finite", m.non_finite);
   visit("clamped", m.clamped);
   visit("malformed_drops", m.malformed_drops);
+  visit("outbox_peak", m.outbox_peak);
+  visit("memory_bytes", m.memory_bytes);
+  visit("models_borrowed", m.models_borrowed);
+  visit("endgame_s", m.endgame_s, kSeconds);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
@@ -74,9 +78,9 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("grain", m.grain, kDefaulted);
   visit("shadows", m.shadows, kDefaulted);
   visit("partition", m.partition, kDefaulted);
-  visit("scatter", m.scatter, {.min = 1, .max = kMaxGridSide, .has_default = true});
+  visit("scatter", m.scatter, {.max = kMaxScatter, .has_default = true});
   visit("flow", m.flow, kDefaulted);
-  visit("queue", m.queue, {.min = 1, .has_default = true});
+  visit("queue", m.queue, {.min = 1, .max = kMaxQueue, .has_default = true});
   visit("threads", m.threads, {.max = kMaxThreads, .has_default = true});
   visit("timeout_s", m.timeout_s, {.min = 0, .has_default = true});
   visit("width", m.width, {.min = 1, .max = kMaxImageSide});
@@ -92,7 +96,7 @@ void each_field(auto& visit, Is<GridLayout> auto& m) {
   constexpr FieldLimits kEdges{.min = -kFarEdge, .max = kFarEdge, .length = kMaxGridSide - 1};
   visit("columns", m.columns, kSide);
   visit("rows", m.rows, kSide);
-  visit("scatter", m.scatter, kSide);
+  visit("scatter", m.scatter, {.min = 1, .max = kMaxScatter});
   visit("column_edges", m.column_edges, kEdges);
   visit("row_edges", m.row_edges, kEdges);
 }
@@ -171,6 +175,24 @@ void each_field(auto& visit, Is<NodeError> auto& m) {
   visit("message", m.message, kText);
 }
 
+void each_field(auto& visit, Is<WaitReport> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("ping", m.ping);
+  visit("is_stalled", m.is_stalled);
+  visit("waits_for", m.waits_for, {.max = kMaxDimension - 1});
+  visit("moves", m.moves);
+  visit("granted", m.granted, {.length = kMaxDimension});
+  visit("received", m.received, {.length = kMaxDimension});
+}
+
+void each_field(auto& visit, Is<Borrow> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("rank", m.rank, kRankRange);
+  visit("room_bytes", m.room_bytes);
+}
+
 void each_field(auto&, Is<Goodbye> auto&) {}
 
 // ---- frontal → node
@@ -192,10 +214,18 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("tile_size", m.tile_size, {.min = 1, .max = kMaxImageSide});
   visit("shadows", m.shadows);
   visit("flow", m.flow);
-  visit("queue", m.queue, at_least_one());
+  visit("queue", m.queue, {.min = 1, .max = kMaxQueue});
   visit("link_credit_bytes", m.link_credit_bytes);
   visit("window_tiles", m.window_tiles, at_least_one());
   visit("batch_bytes", m.batch_bytes, at_least_one());
+  visit("horizon_bytes", m.horizon_bytes);
+  visit("borrow_bytes", m.borrow_bytes);
+}
+
+void each_field(auto& visit, Is<Lend> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("rank", m.rank, kRankRange);
 }
 
 void each_field(auto& visit, Is<Prepare> auto& m) {
@@ -253,6 +283,7 @@ void each_field(auto& visit, Is<JobInfo> auto& m) {
   visit("message", m.message, kText);
   visit("tiles", m.tiles);
   visit("tiles_whole", m.tiles_whole);
+  visit("choices", m.choices, kText);
 }
 
 void each_field(auto& visit, Is<Jobs> auto& m) {

@@ -27,6 +27,11 @@ inline constexpr std::size_t kMaxErrorsListed = 100;
 /// Largest binary frame behind `submit` (the scene's text) and behind `picture`.
 inline constexpr std::size_t kMaxSubmitBytes = std::size_t{1} << 28;
 inline constexpr std::size_t kMaxPictureBytes = std::size_t{1} << 26;
+/// Most macro-regions per node along either side of the grid.
+inline constexpr std::uint32_t kMaxScatter = 8;
+/// Rays that a node's input queues hold together where flow is blocking.
+inline constexpr std::uint32_t kDefaultQueue = 64;
+inline constexpr std::uint32_t kMaxQueue = 1u << 16;
 
 enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
 enum class Grain : std::uint8_t { kPixel, kLine, kTile };
@@ -86,6 +91,14 @@ struct NodeStats {
   std::uint64_t ray_batches = 0, ray_bytes = 0, contribution_batches = 0, contribution_bytes = 0;
   /// Components of contributions mended while rounding; batches and messages refused.
   std::uint64_t non_finite = 0, clamped = 0, malformed_drops = 0;
+  /// Most rays that lay in the outboxes at a time.
+  std::uint64_t outbox_peak = 0;
+  /// Model and subdivision, borrowed ones included.
+  std::uint64_t memory_bytes = 0;
+  /// Other nodes' models, fetched to finish shadow rays here.
+  std::uint64_t models_borrowed = 0;
+  /// From the end of the node's last primary ray to its report.
+  double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
 };
 
@@ -95,10 +108,11 @@ struct JobOptions {
   Grain grain = Grain::kTile;
   ShadowMode shadows = ShadowMode::kHorizon;
   PartitionMode partition = PartitionMode::kRegular;
-  std::uint32_t scatter = 1;
+  /// K: K × K macro-regions per node; 0: what suits the scene.
+  std::uint32_t scatter = 0;
   FlowMode flow = FlowMode::kCredit;
-  /// Rays that a node's input queue holds where flow is blocking.
-  std::uint32_t queue = 1024;
+  /// Rays that a node's input queues hold together where flow is blocking.
+  std::uint32_t queue = kDefaultQueue;
   /// Evaluator threads per node; 0: what the node was started with.
   std::uint32_t threads = 0;
   /// Seconds; 0: no limit.
@@ -199,6 +213,31 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
+/// Flow blocking only, behind each pong: what the node waits for. The frontal finds cycles in these.
+struct WaitReport {
+  static constexpr std::string_view kType = "wait_report";
+  std::uint32_t job = 0, epoch = 0;
+  /// The ping's sequence.
+  std::uint64_t ping = 0;
+  /// The evaluator holds a ray for which the queue across bit `waits_for` has no room.
+  bool is_stalled = false;
+  std::uint32_t waits_for = 0;
+  /// Pieces of work done so far.
+  std::uint64_t moves = 0;
+  /// Rays' room granted to, and received from, the neighbour across each bit.
+  std::vector<std::uint64_t> granted{}, received{};
+  friend bool operator==(const WaitReport&, const WaitReport&) = default;
+};
+
+/// Asks for another node's model slice, to finish shadow rays.
+struct Borrow {
+  static constexpr std::string_view kType = "borrow";
+  std::uint32_t job = 0, epoch = 0, rank = 0;
+  /// Largest slice that the node has room for.
+  std::uint64_t room_bytes = 0;
+  friend bool operator==(const Borrow&, const Borrow&) = default;
+};
+
 /// The node can't go on with a job. job 0: with anything.
 struct NodeError {
   static constexpr std::string_view kType = "node_error";
@@ -227,7 +266,7 @@ struct Welcome {
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
-/// Followed by a binary frame: the node's model slice.
+/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light horizons.
 struct Load {
   static constexpr std::string_view kType = "load";
   std::uint32_t job = 0, epoch = 0;
@@ -240,13 +279,23 @@ struct Load {
   std::uint32_t tile_size = 1;
   ShadowMode shadows = ShadowMode::kHorizon;
   FlowMode flow = FlowMode::kCredit;
-  /// Rays that the input queue holds where flow is blocking.
-  std::uint32_t queue = 1024;
+  /// Rays that the input queues hold together where flow is blocking.
+  std::uint32_t queue = kDefaultQueue;
   std::uint64_t link_credit_bytes = 0;
   /// Own tiles that may be open at a time.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
+  std::uint64_t horizon_bytes = 0;
+  /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
+  std::uint64_t borrow_bytes = 0;
   friend bool operator==(const Load&, const Load&) = default;
+};
+
+/// Answers `borrow`; followed by a binary frame with the slice, unless it is larger than the room.
+struct Lend {
+  static constexpr std::string_view kType = "lend";
+  std::uint32_t job = 0, epoch = 0, rank = 0;
+  friend bool operator==(const Lend&, const Lend&) = default;
 };
 
 /// Drop everything of epochs before this one, and acknowledge.
@@ -361,6 +410,8 @@ struct JobInfo {
   std::optional<double> started_s{}, finished_s{};
   std::string message{};
   std::uint32_t tiles = 0, tiles_whole = 0;
+  /// What was picked for the scene, for people; empty until then.
+  std::string choices{};
   friend bool operator==(const JobInfo&, const JobInfo&) = default;
 };
 
@@ -423,8 +474,8 @@ struct Bye {
 using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
                  control::Terminated, control::NodeReport, control::Pong,
-                 control::NodeError, control::Goodbye, control::Welcome, control::Load,
-                 control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::NodeError, control::WaitReport, control::Borrow, control::Goodbye, control::Welcome, control::Load,
+                 control::Lend, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
                  control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,
                  control::JobInfo, control::Jobs, control::Progress, control::NodeList,

@@ -34,6 +34,9 @@ Json node_json(const NodeStats& n) {
           {"rays_out", n.rays_out},
           {"queue_peak", n.queue_peak},
           {"primitives", n.primitives},
+          {"outbox_peak", n.outbox_peak},
+          {"memory_bytes", n.memory_bytes},
+          {"models_borrowed", n.models_borrowed},
           {"peak_rss_bytes", n.peak_rss_bytes}};
 }
 
@@ -65,8 +68,13 @@ std::string statistics_json(const Statistics& s) {
   j["image"] = {{"width", s.image.width}, {"height", s.image.height}, {"samples", s.image.samples}};
   j["primitives"] = s.primitives;
   j["objects"] = s.objects;
+  j["choices"] = {{"scatter", s.scatter},
+                  {"shadows", to_string(s.shadows)},
+                  {"partition", to_string(s.partition)},
+                  {"flow", to_string(s.flow)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
+  j["frontal_cpu_s"] = s.frontal_cpu_s;
   j["phases"] = {{"load_s", s.load_s},
                  {"partition_s", s.partition_s},
                  {"build_s", s.build_s},
@@ -83,6 +91,9 @@ std::string statistics_json(const Statistics& s) {
                    {"contribution_batches", sum(&NodeStats::contribution_batches)},
                    {"contribution_bytes", sum(&NodeStats::contribution_bytes)}};
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
+  double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
+  for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);
+  j["endgame_s"] = endgame_s;
   j["balance"] = balance_json(s);
   j["contributions"] = {{"non_finite", sum(&NodeStats::non_finite)},
                         {"clamped", sum(&NodeStats::clamped)}};

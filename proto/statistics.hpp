@@ -16,9 +16,16 @@ struct Statistics {
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
   std::array<std::uint32_t, 2> grid{1, 1};
+  /// What was picked, in macro.
+  std::uint32_t scatter = 1;
+  ShadowMode shadows = ShadowMode::kForward;
+  PartitionMode partition = PartitionMode::kRegular;
+  FlowMode flow = FlowMode::kCredit;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;
+  /// The frontal's part of cpu_s.
+  double frontal_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
   /// By rank; what the nodes sent of themselves. Totals are summed from these.

@@ -144,8 +144,12 @@ RegionIndex MacroGrid::region_of_point(const Vec3& p) const {
 }
 
 bool MacroGrid::contains(RegionIndex region, const Vec3& p) const {
-  return no_side_misses(
-      region, [q = p - eye_](const Side& side) { return (side.plane.at(q) >= 0) != side.far; });
+  const Vec3 q = p - eye_;
+  const auto holds = [&](const Cell& cell) {
+    return std::ranges::all_of(
+        cell.list(), [&](const Side& side) { return (side.plane.at(q) >= 0) == side.far; });
+  };
+  return holds(columns_.cells[region.column]) && holds(rows_.cells[region.row]);
 }
 
 /// The parameter at which the ray leaves through the side: −∞ when it runs parallel on the wrong
@@ -212,36 +216,26 @@ std::vector<RegionIndex> MacroGrid::neighbours_of(RegionIndex region) const {
   return found;
 }
 
-template <class Misses>
-bool MacroGrid::no_side_misses(RegionIndex region, Misses&& misses) const {
-  for (const Side& side : columns_.cells[region.column].list()) {
-    if (misses(side)) return false;
-  }
-  for (const Side& side : rows_.cells[region.row].list()) {
-    if (misses(side)) return false;
-  }
-  return true;
-}
-
-bool MacroGrid::may_touch(RegionIndex region, const Aabb& box, double grow) const {
+bool MacroGrid::cell_may_touch(const Cell& cell, const Aabb& box, double grow) const {
   if (box.is_empty()) return false;
-  return no_side_misses(region, [&](const Side& side) {
+  for (const Side& side : cell.list()) {
     // f < 0 is the half-space −f > 0: both are tested as the largest of ±f against −grow.
     const double sign = side.far ? 1 : -1;
     const auto [largest, magnitude] = support(box, eye_, sign * side.plane.normal);
     const double offset = sign * side.plane.offset;
-    return largest - offset < -grow - kRounding * (magnitude + std::fabs(offset));
-  });
+    if (largest - offset < -grow - kRounding * (magnitude + std::fabs(offset))) return false;
+  }
+  return true;
 }
 
-bool MacroGrid::may_touch(RegionIndex region, const Vec3& center, double radius,
-                          double grow) const {
+bool MacroGrid::cell_may_touch(const Cell& cell, const Vec3& center, double radius, double grow) const {
   const double magnitude = max_abs(center) + max_abs(eye_) + radius;
-  return no_side_misses(region, [&](const Side& side) {
+  for (const Side& side : cell.list()) {
     const double f = side.plane.at(center - eye_);
     const double slack = grow + kRounding * (magnitude + std::fabs(side.plane.offset));
-    return (side.far ? f : -f) + radius < -slack;
-  });
+    if ((side.far ? f : -f) + radius < -slack) return false;
+  }
+  return true;
 }
 
 }  // namespace graycube

@@ -29,6 +29,18 @@ struct RegionIndex {
   friend bool operator==(const RegionIndex&, const RegionIndex&) = default;
 };
 
+/// The macro-regions that one node holds: those of every columns-th column and every rows-th row of the grid,
+/// counted from the node's own place on the torus of nodes (design section 7, `--scatter`).
+struct RegionShare {
+  std::uint32_t columns = 1, rows = 1;
+  std::uint32_t column = 0, row = 0;
+
+  bool owns_column(std::uint32_t c) const { return c % columns == column; }
+  bool owns_row(std::uint32_t r) const { return r % rows == row; }
+  bool owns(RegionIndex region) const { return owns_column(region.column) && owns_row(region.row); }
+  friend bool operator==(const RegionShare&, const RegionShare&) = default;
+};
+
 /// Where a ray leaves a macro-region.
 struct RegionExit {
   double t;
@@ -72,10 +84,28 @@ class MacroGrid {
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const;
   /// The regions other than `region` itself that a ray may enter next, each once.
   std::vector<RegionIndex> neighbours_of(RegionIndex region) const;
-  /// False only when the grown region certainly misses the box (each half-space tested by itself).
-  bool may_touch(RegionIndex region, const Aabb& box, double grow) const;
+  /// False only when the grown column certainly misses the box (each half-space tested by itself). A region
+  /// is a column ∩ a row, and misses what either misses.
+  bool column_may_touch(std::uint32_t column, const Aabb& box, double grow) const {
+    return cell_may_touch(columns_.cells[column], box, grow);
+  }
+  bool row_may_touch(std::uint32_t row, const Aabb& box, double grow) const {
+    return cell_may_touch(rows_.cells[row], box, grow);
+  }
   /// As above for a sphere.
-  bool may_touch(RegionIndex region, const Vec3& center, double radius, double grow) const;
+  bool column_may_touch(std::uint32_t column, const Vec3& center, double radius, double grow) const {
+    return cell_may_touch(columns_.cells[column], center, radius, grow);
+  }
+  bool row_may_touch(std::uint32_t row, const Vec3& center, double radius, double grow) const {
+    return cell_may_touch(rows_.cells[row], center, radius, grow);
+  }
+  bool may_touch(RegionIndex region, const Aabb& box, double grow) const {
+    return column_may_touch(region.column, box, grow) && row_may_touch(region.row, box, grow);
+  }
+  bool may_touch(RegionIndex region, const Vec3& center, double radius, double grow) const {
+    return column_may_touch(region.column, center, radius, grow) &&
+           row_may_touch(region.row, center, radius, grow);
+  }
 
  private:
   /// Boundary f(q) = normal · q − offset, with q relative to the eye and |normal| = 1. Relative to
@@ -121,8 +151,8 @@ class MacroGrid {
                       std::vector<std::int64_t> edges);
   static void link_cells(Fan& fan, bool wraps);
   static double passage(const Side& side, const Ray& relative);
-  template <class Misses>
-  bool no_side_misses(RegionIndex region, Misses&& misses) const;
+  bool cell_may_touch(const Cell& cell, const Aabb& box, double grow) const;
+  bool cell_may_touch(const Cell& cell, const Vec3& center, double radius, double grow) const;
 
   ImageSize image_;
   Vec3 eye_;

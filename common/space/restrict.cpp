@@ -1,6 +1,8 @@
 #include "space/restrict.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "csg/bounding_sphere.hpp"
 #include "csg/tree.hpp"
@@ -45,22 +47,53 @@ class ModelExtract {
   Model to_;
 };
 
+/// Whether a bounded thing may reach into any region of a share: a column of the share and a row of it.
+class ShareTest {
+ public:
+  ShareTest(const MacroGrid& grid, const RegionShare& share, double grow) : grid_(grid), grow_(grow) {
+    for (std::uint32_t c = share.column; c < grid.columns(); c += share.columns) columns_.push_back(c);
+    for (std::uint32_t r = share.row; r < grid.rows(); r += share.rows) rows_.push_back(r);
+  }
+
+  bool may_touch(const Aabb& box) const {
+    return std::ranges::any_of(
+               columns_, [&](std::uint32_t c) { return grid_.column_may_touch(c, box, grow_); }) &&
+           std::ranges::any_of(rows_,
+                               [&](std::uint32_t r) { return grid_.row_may_touch(r, box, grow_); });
+  }
+  /// The box and the sphere must reach into the same column, and into the same row.
+  bool may_touch(const Aabb& box, const BoundingSphere& s) const {
+    return std::ranges::any_of(columns_,
+                               [&](std::uint32_t c) {
+                                 return grid_.column_may_touch(c, box, grow_) &&
+                                        grid_.column_may_touch(c, s.center, s.radius, grow_);
+                               }) &&
+           std::ranges::any_of(rows_, [&](std::uint32_t r) {
+             return grid_.row_may_touch(r, box, grow_) &&
+                    grid_.row_may_touch(r, s.center, s.radius, grow_);
+           });
+  }
+
+ private:
+  const MacroGrid& grid_;
+  double grow_;
+  std::vector<std::uint32_t> columns_, rows_;
+};
+
 }  // namespace
 
-Model restrict_to_region(const Model& model, const MacroGrid& grid, RegionIndex region) {
+Model restrict_to_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
   ModelExtract extract(model);
+  const ShareTest test(grid, share, model.delta);
   const auto side = [&](std::uint32_t index) {
     const Primitive& p = model.primitives[index];
-    if (!grid.may_touch(region, p.bounds, model.delta)) return CellSide::kOutside;
     const auto sphere = bounding_sphere(p);
-    if (sphere && !grid.may_touch(region, sphere->center, sphere->radius, model.delta)) {
-      return CellSide::kOutside;
-    }
-    return CellSide::kCrosses;
+    const bool touches = sphere ? test.may_touch(p.bounds, *sphere) : test.may_touch(p.bounds);
+    return touches ? CellSide::kCrosses : CellSide::kOutside;
   };
   std::vector<TreeNode> kept;
   for (const Object& object : model.objects) {
-    if (!grid.may_touch(region, object.bounds, model.delta)) continue;
+    if (!test.may_touch(object.bounds)) continue;
     kept.clear();
     const std::span<const TreeNode> tree{model.nodes.data() + object.first_node, object.node_count};
     if (prune(tree, side, kept) == Pruned::kVaries) extract.add(object.id, object.bounds, kept);

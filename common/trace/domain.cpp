@@ -1,10 +1,19 @@
 #include "trace/domain.hpp"
 
+#include "geometry/check.hpp"
+
 namespace graycube {
 namespace {
 
-std::unique_ptr<Territory> make_territory(Model model, Subdivision subdivision) {
-  auto territory = std::make_unique<Territory>();
+template <typename T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
+}  // namespace
+
+std::shared_ptr<const Territory> Territory::of(Model model, Subdivision subdivision) {
+  auto territory = std::make_shared<Territory>();
   territory->model = std::move(model);
   if (subdivision == Subdivision::kSurfaceTree) {
     territory->tree = SurfaceTree::build(territory->model);
@@ -14,17 +23,21 @@ std::unique_ptr<Territory> make_territory(Model model, Subdivision subdivision) 
   return territory;
 }
 
-}  // namespace
+std::size_t Territory::memory_bytes() const {
+  return bytes_of(model.primitives) + bytes_of(model.planes) + bytes_of(model.nodes) +
+         bytes_of(model.objects) + bytes_of(model.materials) +
+         (tree ? tree->memory_bytes() : bsp->memory_bytes());
+}
 
 Domain::Domain(Model model, Subdivision subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
-      territory_(make_territory(std::move(model), subdivision)) {}
+      territory_(Territory::of(std::move(model), subdivision)) {}
 
-Domain::Domain(MacroGrid grid, RegionIndex region, Model model, Subdivision subdivision)
+Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
       grid_(std::move(grid)),
-      region_(region),
-      territory_(make_territory(std::move(model), subdivision)) {}
+      share_(share),
+      territory_(Territory::of(std::move(model), subdivision)) {}
 
 RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                         std::span<Crossing, RayPacket::kSize> found) const {
@@ -56,7 +69,38 @@ std::size_t Domain::cell_count() const {
 }
 
 std::size_t Domain::memory_bytes() const {
-  return territory_->tree ? territory_->tree->memory_bytes() : territory_->bsp->memory_bytes();
+  std::size_t bytes = territory_->memory_bytes();
+  for (const auto& b : borrowed_) bytes += b ? b->memory_bytes() : 0;
+  return bytes;
+}
+
+std::shared_ptr<const Domain> Domain::with_borrowed(
+    std::uint32_t column, std::uint32_t row, std::shared_ptr<const Territory> territory) const {
+  GRAYCUBE_CHECK(column < share_.columns && row < share_.rows, "place %u, %u", column, row);
+  GRAYCUBE_CHECK(territory->tree.has_value(), "only surface trees are borrowed");
+  auto wider = std::make_shared<Domain>(*this);
+  wider->borrowed_.resize(std::size_t{share_.columns} * share_.rows);
+  wider->borrowed_[row * share_.columns + column] = std::move(territory);
+  return wider;
+}
+
+std::optional<bool> Domain::pass_light_borrowed(RegionIndex region, const Ray& ray, double t0,
+                                                double t1, CrossingScratch& scratch,
+                                                Rgb& light) const {
+  if (holds(region)) return pass_light(ray, t0, t1, scratch, light);
+  if (borrowed_.empty()) return std::nullopt;
+  const std::size_t place =
+      region.row % share_.rows * std::size_t{share_.columns} + region.column % share_.columns;
+  if (!borrowed_[place]) return std::nullopt;
+  scratch.borrowed.resize(borrowed_.size());
+  return borrowed_[place]->tree->pass_light(ray, t0, t1, scratch.borrowed[place], light);
+}
+
+bool Domain::is_past_horizon(const RayTask& task) const {
+  if (!horizons_) return false;
+  // Crossings that count end a little before the light: the ray is at most this far from it.
+  const double left = task.t_max - task.t + 4e-9 * std::fmax(1.0, max_abs(task.ray.origin));
+  return left < horizons_->distance(task.light, -task.ray.direction);
 }
 
 }  // namespace graycube

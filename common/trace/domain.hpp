@@ -4,15 +4,18 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "csg/model.hpp"
 #include "space/bsp.hpp"
 #include "space/camera.hpp"
+#include "space/light_horizons.hpp"
 #include "space/macro_grid.hpp"
 #include "space/ray_packet.hpp"
 #include "space/surface_tree.hpp"
 #include "space/walk.hpp"
+#include "trace/ray_task.hpp"
 
 namespace graycube {
 
@@ -22,21 +25,30 @@ enum class Subdivision : std::uint8_t {
   kLinkedCells,  ///< the report's: a BSP whose leaf regions are linked to their neighbours
 };
 
-/// One macro-region and what is in it.
+/// A model and its subdivision.
 struct Territory {
   Model model;
   std::optional<SurfaceTree> tree;
   std::optional<Bsp> bsp;
+
+  /// On the heap: the subdivision points at the model beside it.
+  static std::shared_ptr<const Territory> of(Model model,
+                                             Subdivision subdivision = Subdivision::kSurfaceTree);
+  /// Bytes of the model and of its subdivision.
+  std::size_t memory_bytes() const;
 };
 
 /// What one evaluator needs to look for crossings.
 struct CrossingScratch {
   TreeScratch tree;
   Mailbox mailbox;
+  /// For borrowed territories: what a scratch remembers belongs to one tree.
+  std::vector<TreeScratch> borrowed;
 
   WalkCounts counts() const {
     WalkCounts sum = tree.counts;
     sum.add(mailbox.counts);
+    for (const TreeScratch& b : borrowed) sum.add(b.counts);
     return sum;
   }
 };
@@ -46,8 +58,9 @@ class Domain {
  public:
   /// All of space, without boundaries.
   explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree);
-  /// One macro-region; the model is restricted to it.
-  Domain(MacroGrid grid, RegionIndex region, Model model,
+  /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
+  /// reaches into several is held once.
+  Domain(MacroGrid grid, RegionShare share, Model model,
          Subdivision subdivision = Subdivision::kSurfaceTree);
 
   const RenderSettings& settings() const { return territory_->model.settings; }
@@ -55,8 +68,26 @@ class Domain {
   const Model& model() const { return territory_->model; }
   /// Leaf regions, or cells of objects.
   std::size_t cell_count() const;
-  /// Bytes of the subdivision.
+  /// Bytes of models and subdivisions, borrowed ones included.
   std::size_t memory_bytes() const;
+
+  /// Shadow rays end at a light's horizon.
+  void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
+    horizons_ = std::move(horizons);
+  }
+  /// The same domain, holding also what another node holds: shadow rays may be finished there.
+  std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
+                                              std::shared_ptr<const Territory> territory) const;
+  /// What this domain holds, seen as the regions of a share.
+  Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
+    Domain domain = *this;
+    domain.grid_ = grid;
+    domain.share_ = share;
+    return domain;
+  }
+  bool borrows() const { return !borrowed_.empty(); }
+  /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
+  bool is_past_horizon(const RayTask& task) const;
 
   /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
@@ -72,6 +103,9 @@ class Domain {
     scratch.mailbox.begin_ray();
     return graycube::pass_light(*territory_->bsp, ray, t0, t1, scratch.mailbox, light);
   }
+  /// As pass_light, in a region of this or another node; nothing when it is neither held nor borrowed.
+  std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
+                                          CrossingScratch& scratch, Rgb& light) const;
   /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
@@ -80,7 +114,7 @@ class Domain {
                               std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
-  bool holds(RegionIndex region) const { return !grid_ || region == region_; }
+  bool holds(RegionIndex region) const { return !grid_ || share_.owns(region); }
   /// Where a ray leaves the region that it is in; nothing when space has no boundaries.
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const {
     if (!grid_) return std::nullopt;
@@ -93,9 +127,11 @@ class Domain {
  private:
   CameraFrame frame_;
   std::optional<MacroGrid> grid_;
-  RegionIndex region_;
-  /// On the heap: the BSP points at the model beside it.
-  std::unique_ptr<Territory> territory_;
+  RegionShare share_;
+  std::shared_ptr<const Territory> territory_;
+  /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
+  std::vector<std::shared_ptr<const Territory>> borrowed_;
+  std::shared_ptr<const LightHorizons> horizons_;
 };
 
 }  // namespace graycube

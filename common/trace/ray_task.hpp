@@ -29,6 +29,8 @@ struct RayTask {
   std::uint8_t credit_exponent = 0;
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
+  /// Shadow rays: the light that they go to, as numbered in the settings.
+  std::uint16_t light = 0;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
 

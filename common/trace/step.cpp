@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -70,6 +71,7 @@ Evaluator::Evaluator(const Domain& domain)
 
 void Step::clear() {
   leaving.clear();
+  lacking.clear();
   returns.clear();
   rays = {};
   rounding = {};
@@ -119,9 +121,13 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Ste
 void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   while (!rays.empty()) {
     for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {
-      auto& stack = task.kind == RayKind::kShadow ? lights_ : viewing_;
-      stack.push_back({task, static_cast<std::uint32_t>(open_.size()), 0});
+      const OpenRay ray{task, static_cast<std::uint32_t>(open_.size()), 0};
       open_pixel(task.pixel);
+      if (!domain_.holds(task.region)) {
+        finish_light_ray(ray, step);
+      } else {
+        (task.kind == RayKind::kShadow ? lights_ : viewing_).push_back(ray);
+      }
     }
     rays = rays.subspan(open_.size());
     trace_all(step);
@@ -181,16 +187,59 @@ void Evaluator::trace_sent_rays(Step& step) {
 }
 
 /// A ray that reached its region's boundary.
-void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, std::vector<OpenRay>& stack,
-                      Step& step) {
+void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
   OpenRay next = ray;
   next.task.t = exit.t;
   next.task.region = exit.next;
   if (domain_.holds(exit.next)) {
-    stack.push_back(next);
+    viewing_.push_back(next);
   } else {
     step.leaving.push_back(next.task);
   }
+}
+
+/// A shadow ray that reached its region's boundary, with the light that is left of it.
+void Evaluator::go_on_to_light(OpenRay ray, const RegionExit& exit, Step& step) {
+  ray.task.t = exit.t;
+  ray.task.region = exit.next;
+  if (domain_.is_past_horizon(ray.task)) {
+    ++step.rays.skipped_by_horizon;
+    light_arrives(ray, step);
+  } else if (domain_.holds(exit.next)) {
+    lights_.push_back(ray);
+  } else if (domain_.borrows()) {
+    finish_light_ray(ray, step);
+  } else {
+    step.leaving.push_back(ray.task);
+  }
+}
+
+/// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own regions waits.
+void Evaluator::finish_light_ray(const OpenRay& at_border, Step& step) {
+  OpenRay ray = at_border;
+  RayTask& task = ray.task;
+  for (;;) {
+    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const bool arrives = !exit || exit->t >= task.t_max;
+    const auto passes = domain_.pass_light_borrowed(
+        task.region, task.ray, task.t, arrives ? task.t_max : exit->t, scratch_, task.weight);
+    if (!passes) {
+      step.lacking.push_back({at_border.task, task.region});
+      return;
+    }
+    if (!*passes) return open_[ray.slot].credit.add_power(task.credit_exponent);
+    if (arrives) return light_arrives(ray, step);
+    task.t = exit->t;
+    task.region = exit->next;
+    if (!domain_.is_past_horizon(task)) continue;
+    ++step.rays.skipped_by_horizon;
+    return light_arrives(ray, step);
+  }
+}
+
+void Evaluator::light_arrives(const OpenRay& ray, Step& step) {
+  contribute(ray, ray.task.weight, step);
+  open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
 /// `rays` are in one region, a packet at most.
@@ -210,7 +259,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
     if ((passing >> i & 1) != 0 && exits[i]) {
       OpenRay dimmed = rays[i];
       dimmed.task.weight = light[i];
-      go_on(dimmed, *exits[i], lights_, step);
+      go_on_to_light(dimmed, *exits[i], step);
       continue;
     }
     if ((passing >> i & 1) != 0) contribute(rays[i], light[i], step);
@@ -233,7 +282,7 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
     if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
     } else if (exits[i]) {
-      go_on(rays[i], *exits[i], viewing_, step);
+      go_on(rays[i], *exits[i], step);
     } else {
       contribute(rays[i], rays[i].task.weight * domain_.settings().background, step);
       open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);
@@ -322,6 +371,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
       OpenRay{spawn(task, RayKind::kShadow, p, l, weight), at.ray->slot,
               static_cast<std::uint32_t>(surface)});
   sent.task.t_max = distance - sent.task.t;
+  sent.task.light = static_cast<std::uint16_t>(light);
   ++at.lights;
 }
 

@@ -38,6 +38,12 @@ struct RayCounts {
 struct Step {
   /// Rays that left the domain, each with the region it goes on in and the t reached.
   std::vector<RayTask> leaving;
+  /// Shadow rays that wait for another node's model, each as it left the domain's own regions.
+  struct Lacking {
+    RayTask task;
+    RegionIndex region;
+  };
+  std::vector<Lacking> lacking;
   /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it would hold
   /// too many contributions.
   std::vector<PixelReturn> returns;
@@ -92,7 +98,10 @@ class Evaluator {
   void trace_sent_rays(Step& step);
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
-  void go_on(const OpenRay& ray, const RegionExit& exit, std::vector<OpenRay>& stack, Step& step);
+  void go_on(const OpenRay& ray, const RegionExit& exit, Step& step);
+  void go_on_to_light(OpenRay ray, const RegionExit& exit, Step& step);
+  void finish_light_ray(const OpenRay& ray, Step& step);
+  void light_arrives(const OpenRay& ray, Step& step);
   void shade(const OpenRay& ray, const Crossing& hit, Step& step);
   void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
   void send_light_rays(std::uint32_t light, Step& step);

@@ -42,6 +42,17 @@ std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
   return end - areas_[area].first_tile;
 }
 
+std::vector<std::uint32_t> TilePlan::tiles_of(const RegionShare& share) const {
+  std::vector<std::uint32_t> tiles;
+  for (std::uint32_t row = share.row; row * columns_ < areas_.size(); row += share.rows) {
+    for (std::uint32_t column = share.column; column < columns_; column += share.columns) {
+      const std::uint32_t area = row * columns_ + column;
+      for (std::uint32_t i = 0; i < tile_count_of(area); ++i) tiles.push_back(first_tile(area) + i);
+    }
+  }
+  return tiles;
+}
+
 std::uint32_t TilePlan::area_of_tile(std::uint32_t tile) const {
   GRAYCUBE_CHECK(tile < tile_count_, "tile %u of %u", tile, tile_count_);
   const auto after = std::upper_bound(areas_.begin(), areas_.end(), tile,

@@ -35,6 +35,8 @@ class TilePlan {
   std::uint32_t area_of_tile(std::uint32_t tile) const;
   std::uint32_t first_tile(std::uint32_t area) const { return areas_[area].first_tile; }
   std::uint32_t tile_count_of(std::uint32_t area) const;
+  /// The tiles of all areas of a share, area by area.
+  std::vector<std::uint32_t> tiles_of(const RegionShare& share) const;
 
  private:
   struct Area {

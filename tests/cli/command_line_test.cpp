@@ -47,7 +47,6 @@ TEST_CASE("what render is not told stays the scene's, or the default") {
   CHECK(c.threads == 1);
   CHECK_FALSE(c.is_quiet);
   control::JobOptions expected;
-  expected.shadows = ShadowMode::kForward;
   CHECK(c.options == expected);
 }
 

@@ -40,12 +40,39 @@ void check_identity(const std::string& scene, const char* size = kSize) {
   for (const char* nodes : {"1", "2", "4", "8", "16", "32"}) {
     ways.push_back({"--algorithm", "macro", "-n", nodes});
   }
+  for (const char* shadows : {"horizon", "forward", "local"}) {
+    ways.push_back({"--algorithm", "macro", "-n", "8", "--shadows", shadows, "--scatter", "3"});
+  }
+  for (const char* nodes : {"2", "16"}) {
+    ways.push_back({"--algorithm", "macro", "-n", nodes, "--partition", "balanced"});
+  }
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--flow", "blocking", "--queue", "65536"});
   for (const Arguments& way : ways) {
     std::string name;
     for (const std::string& word : way) name += word + " ";
     INFO(scene << " with " << name);
     CHECK((picture(sandbox, scene, size, way) == reference));
   }
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("compare renders a scene in every way and finds the same picture each time") {
+  Sandbox sandbox;
+  const Outcome o = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "4", "--size",
+                                 kSize, "--queue", "4", "--plot", "bars.svg", "-q"});
+  INFO(o.out << o.err);
+  REQUIRE(o.status == 0);
+  CHECK(o.err.empty());
+  for (const char* way : {"serial ", "roth pixel", "macro as in 1987", "macro, horizons", "auto "}) {
+    CHECK(o.out.find(way) != std::string::npos);
+  }
+  CHECK(o.out.find("DIFFERENT") == std::string::npos);
+  CHECK(file_bytes(sandbox / "bars.svg").starts_with("<svg "));
+  const Outcome json = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "2", "--size",
+                                    kSize, "--json", "-q"});
+  REQUIRE(json.status == 0);
+  CHECK(json.out.starts_with("{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
 }

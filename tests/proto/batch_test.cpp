@@ -33,6 +33,7 @@ RayTask some_ray(Random& random) {
   task.kind = static_cast<RayKind>(random.below(kRayKinds));
   task.credit_exponent = static_cast<std::uint8_t>(random.below(256));
   task.depth = static_cast<std::uint16_t>(random.below(10));
+  task.light = static_cast<std::uint16_t>(random.below(64));
   task.region = {static_cast<std::uint16_t>(random.below(4)),
                  static_cast<std::uint16_t>(random.below(2))};
   return task;
@@ -117,7 +118,8 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.pixel = 0x01020304;
   task.kind = RayKind::kReflection;
   task.credit_exponent = 130;
-  task.depth = 0x0506;
+  task.depth = 0x05;
+  task.light = 0x06;
   task.region = {0x0708, 0x090A};
   const Bytes bytes = encode_rays(kStamp, std::span(&task, 1));
   const std::byte* at = bytes.data() + 44;
@@ -127,7 +129,7 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   CHECK(load_little<std::uint32_t>(at + 88) == 0x01020304);
   CHECK(load_little<std::uint8_t>(at + 92) == 2);
   CHECK(load_little<std::uint8_t>(at + 93) == 130);
-  CHECK(load_little<std::uint16_t>(at + 94) == 0x0506);
+  CHECK(load_little<std::uint16_t>(at + 94) == 0x0605);
   CHECK(load_little<std::uint16_t>(at + 96) == 0x0708);
   CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
 }
@@ -144,9 +146,11 @@ TEST_CASE("rays keep every bit on the wire") {
     CHECK(std::get<BatchHeader>(result).count == rays.size());
     REQUIRE(again.size() == rays.size());
     // No padding before the last field: memcmp compares all bits.
-    static_assert(offsetof(RayTask, region) + sizeof(RegionIndex) == kRayBytes);
+    constexpr std::size_t kSize = offsetof(RayTask, region) + sizeof(RegionIndex);
+    // Depth and light take a byte less each on the wire.
+    static_assert(kSize == kRayBytes + 2);
     for (std::size_t i = 0; i < rays.size(); ++i)
-      CHECK(std::memcmp(&again[i], &rays[i], kRayBytes) == 0);
+      CHECK(std::memcmp(&again[i], &rays[i], kSize) == 0);
   }
 }
 
@@ -263,6 +267,7 @@ TEST_CASE("rays with values that no ray can have are refused") {
       {"pixel is outside the picture", [](RayTask& r) { r.pixel = 4096; }},
       {"kind is unknown", [](RayTask& r) { r.kind = static_cast<RayKind>(4); }},
       {"depth is beyond the job's", [](RayTask& r) { r.depth = 10; }},
+      {"there is no such light", [](RayTask& r) { r.light = 64; }},
       {"column is outside the grid", [](RayTask& r) { r.region.column = 4; }},
       {"row is outside the grid", [](RayTask& r) { r.region.row = 2; }},
   };

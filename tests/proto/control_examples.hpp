@@ -26,6 +26,10 @@ inline control::NodeStats example_stats() {
   s.reflection = 20349;
   s.refraction = 10879;
   s.malformed_drops = 1;
+  s.outbox_peak = 12345;
+  s.memory_bytes = 1ull << 33;
+  s.models_borrowed = 3;
+  s.endgame_s = 0.125;
   return s;
 }
 
@@ -63,6 +67,7 @@ inline control::JobInfo example_job() {
   j.message = "node 3 is lost, its macro-region goes to rank 3's replacement";
   j.tiles = 64;
   j.tiles_whole = 24;
+  j.choices = "scatter 4, horizon shadows";
   return j;
 }
 
@@ -80,10 +85,13 @@ inline std::vector<ControlMessage> example_messages() {
       NodeReport{9, 1, example_stats()},
       Pong{18446744073709551615ull},
       NodeError{0, "out of memory"},
+      WaitReport{9, 1, 5, true, 2, 1000, {1, 2, 3}, {4, 5, 1ull << 60}},
+      Borrow{9, 1, 3, 1ull << 30},
       Goodbye{},
       Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
       Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
-           FlowMode::kCredit, 64, 1 << 20, 8, 65536},
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28},
+      Lend{9, 1, 3},
       Prepare{9, 2},
       Start{9, 2, {77, 4294967295u}},
       Finish{9},

@@ -54,7 +54,7 @@ TEST_CASE("points of a region have the membership of the whole model") {
       for_each_region(grid, [&](RegionIndex r) {
         INFO("seed " << seed << ", grid " << columns << " x " << rows << ", region " << r.column
                      << ' ' << r.row);
-        const Model part = restrict_to_region(model, grid, r);
+        const Model part = restrict_to_share(model, grid, only(r, grid));
         const WholeTrees trees(part);
         for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
           const auto at = position_of(part, o);
@@ -82,7 +82,7 @@ TEST_CASE("a restricted model keeps settings, materials and ids, and is restrict
     const MacroGrid grid =
         MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
     for_each_region(grid, [&](RegionIndex r) {
-      const Model part = restrict_to_region(model, grid, r);
+      const Model part = restrict_to_share(model, grid, only(r, grid));
       REQUIRE(part.settings == model.settings);
       REQUIRE(part.materials == model.materials);
       REQUIRE(part.delta == model.delta);
@@ -98,9 +98,43 @@ TEST_CASE("a restricted model keeps settings, materials and ids, and is restrict
         }
       }
       REQUIRE(primitive == part.primitives.size());
-      REQUIRE(restrict_to_region(part, grid, r) == part);
+      REQUIRE(restrict_to_share(part, grid, only(r, grid)) == part);
     });
   }
+}
+
+TEST_CASE("a scattered share holds what each of its regions needs, and each of it once") {
+  std::size_t together = 0, apart = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const WholeTrees whole(model);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    const MacroGrid grid = MacroGrid::regular(frame, 6, 4);
+    Dice dice(seed);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 300; ++i) points.push_back(dice.point(4));
+    for (const RegionShare& share : {RegionShare{2, 2, 1, 0}, RegionShare{3, 2, 2, 1}}) {
+      const Model part = restrict_to_share(model, grid, share);
+      together += part.primitives.size();
+      for_each_region(grid, [&](RegionIndex r) {
+        if (!share.owns(r)) return;
+        apart += restrict_to_share(model, grid, only(r, grid)).primitives.size();
+        REQUIRE(restrict_to_share(part, grid, only(r, grid)) ==
+                restrict_to_share(model, grid, only(r, grid)));
+      });
+      const WholeTrees trees(part);
+      for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const auto at = position_of(part, o);
+        if (!at) continue;
+        for (const Vec3& p : points) {
+          if (!share.owns(grid.region_of_point(p))) continue;
+          REQUIRE(trees.contains_point(*at, p) == whole.contains_point(o, p));
+        }
+      }
+    }
+  }
+  CHECK(together < apart);
 }
 
 TEST_CASE("the one region of a grid of one holds all that has a surface") {
@@ -110,7 +144,7 @@ TEST_CASE("the one region of a grid of one holds all that has a surface") {
   const Model model = compile_scene(scene);
   const MacroGrid grid =
       MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 1, 1);
-  CHECK(restrict_to_region(model, grid, {}) == model);
+  CHECK(restrict_to_share(model, grid, {}) == model);
 }
 
 TEST_CASE("space is shared out: a region of many holds few of many small solids") {
@@ -126,7 +160,7 @@ TEST_CASE("space is shared out: a region of many holds few of many small solids"
       MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 4, 4);
   std::size_t held = 0, most = 0;
   for_each_region(grid, [&](RegionIndex r) {
-    const std::size_t n = restrict_to_region(model, grid, r).primitives.size();
+    const std::size_t n = restrict_to_share(model, grid, only(r, grid)).primitives.size();
     held += n;
     most = std::max(most, n);
   });

@@ -52,17 +52,24 @@ Harvest trace_whole(const Model& model, Subdivision subdivision = Subdivision::k
   return harvest;
 }
 
-/// All regions of a grid, each with its own restricted model and evaluator.
+/// Nodes that share out the regions of a grid, each with its own restricted model and evaluator.
 class Machine {
  public:
+  /// A node for each region.
   Machine(const Model& model, const MacroGrid& grid,
           Subdivision subdivision = Subdivision::kSurfaceTree)
-      : image_(model.settings.image), grid_(grid) {
-    for (std::uint32_t row = 0; row < grid.rows(); ++row) {
-      for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-        const RegionIndex r{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)};
-        domains_.push_back(
-            std::make_unique<Domain>(grid, r, restrict_to_region(model, grid, r), subdivision));
+      : Machine(model, grid, grid.columns(), grid.rows(), subdivision) {}
+  /// Columns × rows of nodes, regions scattered over them.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows,
+          Subdivision subdivision = Subdivision::kSurfaceTree,
+          std::shared_ptr<const LightHorizons> horizons = nullptr)
+      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        const RegionShare share{columns, rows, column, row};
+        domains_.push_back(std::make_unique<Domain>(
+            grid, share, restrict_to_share(model, grid, share), subdivision));
+        domains_.back()->set_horizons(horizons);
         evaluators_.emplace_back(*domains_.back());
       }
     }
@@ -84,10 +91,13 @@ class Machine {
       harvest.handed_over += step.leaving.size();
       step.clear();
     };
-    for (std::uint32_t tile = 0; tile < plan.tile_count(); ++tile) {
-      const std::size_t at = plan.area_of_tile(tile);
-      evaluators_[at].trace_pixels(plan.rect(tile), step);
-      finish(at);
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      for (std::uint32_t column = 0; column < columns_; ++column) {
+        for (const std::uint32_t tile : plan.tiles_of({columns_, rows_, column, row})) {
+          evaluators_[row * columns_ + column].trace_pixels(plan.rect(tile), step);
+          finish(row * columns_ + column);
+        }
+      }
     }
     while (!waiting.empty()) {
       const bool front = dice.one_in(2);
@@ -107,10 +117,11 @@ class Machine {
   }
 
  private:
-  std::size_t number(RegionIndex r) const { return r.row * grid_.columns() + r.column; }
+  std::size_t number(RegionIndex r) const { return r.row % rows_ * columns_ + r.column % columns_; }
 
   ImageSize image_;
   const MacroGrid& grid_;
+  std::uint32_t columns_, rows_;
   std::vector<std::unique_ptr<Domain>> domains_;
   std::deque<Evaluator> evaluators_;
 };
@@ -171,6 +182,94 @@ TEST_CASE("macro-regions give bit for bit the picture of the whole") {
   }
   CHECK(handed_over > 20000);
   CHECK(secondary > 20000);
+}
+
+TEST_CASE("scattered macro-regions give the picture of the whole, with light horizons and without") {
+  std::uint64_t skipped = 0, without = 0, with = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const Harvest whole = trace_whole(model);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    const auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
+    Dice dice(seed);
+    const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto k = static_cast<std::uint32_t>(1 + dice.below(4));
+    const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
+    const Harvest forward = Machine(model, grid, columns, rows).trace(dice);
+    check_equal(whole, forward, model.settings.image);
+    const Harvest horizon =
+        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, horizons).trace(dice);
+    check_equal(whole, horizon, model.settings.image);
+    without += forward.handed_over;
+    with += horizon.handed_over;
+    skipped += horizon.rays.skipped_by_horizon;
+  }
+  CHECK(skipped > 1000);
+  CHECK(with < without);
+}
+
+TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {
+  std::uint64_t lacking = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    const MacroGrid grid = MacroGrid::regular(frame, 8, 4);
+    const RegionShare share{4, 2, 1, 0};
+    std::shared_ptr<const Domain> domain =
+        std::make_shared<Domain>(grid, share, restrict_to_share(model, grid, share));
+    // What the node makes of its own primary rays, when it borrows one model after another.
+    const TilePlan plan(model.settings.image, {5, 3}, grid);
+    std::vector<RayTask> waiting;
+    Step step;
+    for (const std::uint32_t tile : plan.tiles_of(share)) {
+      Evaluator(*domain).trace_pixels(plan.rect(tile), step);
+    }
+    for (const RayTask& task : step.leaving) {
+      if (task.kind == RayKind::kShadow) waiting.push_back(task);
+    }
+    const std::size_t shadows = waiting.size();
+    Harvest harvest(model.settings.image);
+    for (std::uint32_t place = 0; place < 8; ++place) {
+      if (place == 1) continue;
+      const RegionShare other{4, 2, place % 4, place / 4};
+      domain = domain->with_borrowed(other.column, other.row,
+                                     Territory::of(restrict_to_share(model, grid, other)));
+      step.clear();
+      Evaluator(*domain).trace_rays(waiting, step);
+      REQUIRE(step.leaving.empty());
+      waiting.clear();
+      for (const Step::Lacking& l : step.lacking) {
+        REQUIRE_FALSE(domain->holds(l.task.region));
+        waiting.push_back(l.task);
+      }
+      lacking += waiting.size();
+      harvest.take(step);
+    }
+    REQUIRE(waiting.empty());
+    // The same rays, in a domain without boundaries.
+    const Domain whole(model);
+    Harvest expected(model.settings.image);
+    step.clear();
+    for (const std::uint32_t tile : plan.tiles_of(share)) {
+      Evaluator(Domain(grid, share, restrict_to_share(model, grid, share)))
+          .trace_pixels(plan.rect(tile), step);
+    }
+    std::vector<RayTask> again;
+    for (const RayTask& task : step.leaving) {
+      if (task.kind == RayKind::kShadow) again.push_back(task);
+    }
+    REQUIRE(again.size() == shadows);
+    step.clear();
+    Evaluator(whole).trace_rays(again, step);
+    expected.take(step);
+    for (std::size_t pixel = 0; pixel < expected.light.size(); ++pixel) {
+      REQUIRE(harvest.light[pixel] == expected.light[pixel]);
+    }
+  }
+  CHECK(lacking > 1000);
 }
 
 TEST_CASE("both subdivisions give the same picture, of the whole and of macro-regions") {

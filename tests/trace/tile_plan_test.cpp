@@ -117,6 +117,32 @@ TEST_CASE("a plan of macro-regions has every pixel in exactly one tile, of its o
   }
 }
 
+TEST_CASE("the shares of a scattered grid have every tile once, each in its owner's regions") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    const auto side = [&](std::size_t most) {
+      return static_cast<std::uint32_t>(1 + dice.below(most));
+    };
+    const ImageSize image{side(70), side(70), 1};
+    const std::uint32_t columns = side(4), rows = side(4), k = side(4);
+    const MacroGrid grid = random_grid(dice, image, columns * k, rows * k);
+    const TilePlan plan(image, {side(20), side(20)}, grid);
+    std::vector<int> times(plan.tile_count(), 0);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        const RegionShare share{columns, rows, column, row};
+        for (const std::uint32_t tile : plan.tiles_of(share)) {
+          ++times[tile];
+          const PixelRect r = plan.rect(tile);
+          REQUIRE(share.owns(grid.region_of_pixel(r.x0, r.y0)));
+        }
+      }
+    }
+    REQUIRE(times == std::vector<int>(plan.tile_count(), 1));
+  }
+}
+
 TEST_CASE("lines and single pixels are tiles too") {
   const ImageSize image{30, 20, 2};
   CHECK(TilePlan(image, {30, 1}).tile_count() == 20);

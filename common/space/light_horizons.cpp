@@ -1,0 +1,223 @@
+#include "space/light_horizons.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace graycube {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+/// Directions are taken this much wider than a texel, in units of a face's half side.
+constexpr double kWiden = 1e-6;
+/// Solids are taken this many δ larger; distances are given this much shorter, relatively.
+constexpr double kGrowDeltas = 16;
+constexpr double kShorten = 1e-9;
+/// Larger trees are looked at by the object's bounds alone.
+constexpr std::uint32_t kMaxTreeNodes = 64;
+
+struct Range {
+  double lo, hi;
+};
+
+/// Directions through a part of a face of the cube: sign on `axis`, u and v on the two axes after it.
+struct Cone {
+  int axis;
+  double sign;
+  Range u, v;
+
+  int axis_u() const { return (axis + 1) % 3; }
+  int axis_v() const { return (axis + 2) % 3; }
+  /// The range of a component of the directions, which have length 1 on their main axis.
+  Range component(int a) const {
+    if (a == axis) return {sign, sign};
+    return a == axis_u() ? u : v;
+  }
+  double shortest() const {
+    const auto least = [](const Range& r) {
+      return r.lo > 0 ? r.lo : r.hi < 0 ? -r.hi : 0.0;
+    };
+    return std::sqrt(1 + least(u) * least(u) + least(v) * least(v));
+  }
+};
+
+/// From where on, along directions of a cone, a solid may be met; and its surface. Infinity: never.
+struct Begin {
+  double solid, surface;
+};
+
+/// s ≥ 0 with s · (some d in [lo, hi]) ≥ at: clips [from, to].
+void clip_reach(const Range& d, double at, double& from, double& to) {
+  if (at <= 0) {
+    if (d.hi < 0) to = std::min(to, at / d.hi);
+    return;
+  }
+  if (d.hi <= 0) {
+    to = -kInf;
+    return;
+  }
+  from = std::max(from, at / d.hi);
+}
+
+/// Where the cone may enter the box (relative to the light); infinity when it misses it.
+double box_begin(const Aabb& box, const Cone& cone) {
+  double from = 0, to = kInf;
+  for (int a = 0; a < 3; ++a) {
+    const Range d = cone.component(a);
+    clip_reach(d, box.lo[a], from, to);
+    clip_reach({-d.hi, -d.lo}, -box.hi[a], from, to);
+  }
+  return from <= to ? from : kInf;
+}
+
+/// The nearest that a cone from inside the box may leave it; 0 from outside.
+double box_end(const Aabb& box, const Cone& cone) {
+  double end = kInf;
+  for (int a = 0; a < 3; ++a) {
+    if (box.lo[a] >= 0 || box.hi[a] <= 0) return 0;
+    const Range d = cone.component(a);
+    if (d.hi > 0) end = std::min(end, box.hi[a] / d.hi);
+    if (d.lo < 0) end = std::min(end, box.lo[a] / d.lo);
+  }
+  return end;
+}
+
+Range along(const Vec3& normal, const Cone& cone) {
+  Range sum{0, 0};
+  for (int a = 0; a < 3; ++a) {
+    const Range d = cone.component(a);
+    sum.lo += normal[a] * (normal[a] > 0 ? d.lo : d.hi);
+    sum.hi += normal[a] * (normal[a] > 0 ? d.hi : d.lo);
+  }
+  return sum;
+}
+
+/// normal · q ≤ offset, relative to the light: where it begins.
+double half_space_begin(const Vec3& normal, double offset, const Cone& cone) {
+  if (offset >= 0) return 0;
+  const double steepest = along(normal, cone).lo;
+  return steepest < 0 ? offset / steepest : kInf;
+}
+
+class LightView {
+ public:
+  LightView(const Model& model, const Vec3& light)
+      : model_(model), light_(light), grow_(kGrowDeltas * model.delta) {}
+
+  LightHorizons::Map map() {
+    map_.assign(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
+    for (const Object& object : model_.objects) {
+      object_ = &object;
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const double sign : {1.0, -1.0}) cover(axis, sign, 0, 0, LightHorizons::kSide);
+      }
+    }
+    const float most = *std::max_element(map_.begin(), map_.end());
+    if (!(most > 0)) map_.clear();
+    return std::move(map_);
+  }
+
+ private:
+  /// Enters the object into the texels [u, u + size) × [v, v + size) of a face.
+  void cover(int axis, double sign, std::uint32_t u, std::uint32_t v, std::uint32_t size) {
+    const auto range = [&](std::uint32_t first) {
+      const double step = 2.0 / LightHorizons::kSide;
+      return Range{first * step - 1 - kWiden, (first + size) * step - 1 + kWiden};
+    };
+    const Cone cone{axis, sign, range(u), range(v)};
+    const double begin = object_begin(cone);
+    if (begin == kInf) return;
+    if (size > 1) {
+      const std::uint32_t half = size / 2;
+      for (const std::uint32_t i : {0u, half}) {
+        for (const std::uint32_t j : {0u, half}) cover(axis, sign, u + i, v + j, half);
+      }
+      return;
+    }
+    const auto face = static_cast<std::size_t>(2 * axis + (sign < 0 ? 1 : 0));
+    float& texel = map_[(face * LightHorizons::kSide + v) * LightHorizons::kSide + u];
+    const double distance = begin * cone.shortest() * (1 - kShorten);
+    const float shorter = std::nextafter(static_cast<float>(distance), 0.0f);
+    texel = std::min(texel, shorter);
+  }
+
+  double object_begin(const Cone& cone) const {
+    const double bounds = box_begin(relative(object_->bounds.grown(grow_)), cone);
+    if (bounds == kInf || object_->node_count > kMaxTreeNodes) return bounds;
+    return std::max(bounds, tree_begin({model_.nodes.data() + object_->first_node,
+                                        object_->node_count}, cone).surface);
+  }
+
+  /// A surface of A ∧ B lies in both and on the surface of one; of A ∨ B, on the surface of one.
+  Begin tree_begin(std::span<const TreeNode> tree, const Cone& cone) const {
+    const TreeNode& root = tree.front();
+    using Kind = TreeNode::Kind;
+    if (root.kind == Kind::kLeaf || root.kind == Kind::kInvertedLeaf) {
+      return leaf_begin(model_.primitives[root.primitive], root.kind == Kind::kInvertedLeaf, cone);
+    }
+    Begin all{root.kind == Kind::kAnd ? 0 : kInf, kInf};
+    for (std::size_t i = 1; i < root.size; i += tree[i].size) {
+      const Begin child = tree_begin(tree.subspan(i, tree[i].size), cone);
+      all.solid = root.kind == Kind::kAnd ? std::max(all.solid, child.solid)
+                                          : std::min(all.solid, child.solid);
+      all.surface = std::min(all.surface, child.surface);
+    }
+    return {all.solid, std::max(all.solid, all.surface)};
+  }
+
+  Begin leaf_begin(const Primitive& p, bool inverted, const Cone& cone) const {
+    if (p.kind == PrimitiveKind::kHalfSpace) {
+      const Vec3 n{p.v[0], p.v[1], p.v[2]};
+      const double offset = p.v[3] - dot(n, light_);
+      const double inside = half_space_begin(n, offset + grow_, cone);
+      const double outside = half_space_begin(-n, -offset + grow_, cone);
+      return {inverted ? outside : inside, std::max(inside, outside)};
+    }
+    const double inside = box_begin(relative(p.bounds.grown(grow_)), cone);
+    double outside = 0;
+    if (p.kind == PrimitiveKind::kBox) outside = box_end(relative(p.bounds.grown(-grow_)), cone);
+    return {inverted ? outside : inside, std::max(inside, outside)};
+  }
+
+  Aabb relative(const Aabb& box) const { return {box.lo - light_, box.hi - light_}; }
+
+  const Model& model_;
+  Vec3 light_;
+  double grow_;
+  const Object* object_ = nullptr;
+  LightHorizons::Map map_;
+};
+
+}  // namespace
+
+LightHorizons LightHorizons::of(const Model& model) {
+  LightHorizons horizons;
+  const auto& lights = model.settings.lights;
+  if (lights.size() * model.objects.size() > kMaxWork) return horizons;
+  for (const PointLight& light : lights) {
+    horizons.maps_.push_back(LightView(model, light.position).map());
+  }
+  return horizons;
+}
+
+bool LightHorizons::is_empty() const {
+  return std::all_of(maps_.begin(), maps_.end(), [](const Map& m) { return m.empty(); });
+}
+
+std::size_t LightHorizons::texel_of(const Vec3& direction) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (std::fabs(direction[a]) > std::fabs(direction[axis])) axis = a;
+  }
+  const double length = std::fabs(direction[axis]);
+  const auto index = [&](int a) {
+    const double at = (direction[a] / length + 1) * (0.5 * kSide);
+    // Written so that NaN, which no unit vector gives, stays within the map.
+    return at > 0 ? std::min(static_cast<std::size_t>(at), std::size_t{kSide - 1}) : std::size_t{0};
+  };
+  const auto face = static_cast<std::size_t>(2 * axis + (direction[axis] < 0 ? 1 : 0));
+  return (face * kSide + index((axis + 2) % 3)) * kSide + index((axis + 1) % 3);
+}
+
+}  // namespace graycube

@@ -1,0 +1,20 @@
+// Where the work of a picture lies, from tracing a few of its pixels.
+#pragma once
+
+#include "space/light_horizons.hpp"
+#include "space/rectilinear.hpp"
+#include "trace/domain.hpp"
+
+namespace graycube {
+
+/// Pixels that are traced: about this share of the picture, within these bounds.
+inline constexpr double kCoarseShare = 0.015;
+inline constexpr std::uint64_t kLeastCoarsePixels = 1024;
+inline constexpr std::uint64_t kMostCoarsePixels = 16384;
+
+/// By region of `grid`, what tracing a few evenly spread pixels took there: one for each ray created and each
+/// primitive tested, and `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
+LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
+                    std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
+
+}  // namespace graycube

@@ -1,0 +1,57 @@
+#include "proto/comparison.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace graycube {
+
+using Json = nlohmann::ordered_json;
+
+Figures figures_of(const std::string& statistics) {
+  const Json j = Json::parse(statistics);
+  Figures f;
+  f.wall_s = j.at("wall_s");
+  f.cpu_s = j.at("cpu_s");
+  f.frontal_cpu_s = j.at("frontal_cpu_s");
+  f.efficiency = j.at("balance").at("efficiency");
+  f.blocked_fraction = j.at("balance").at("blocked_fraction");
+  f.endgame_s = j.at("endgame_s");
+  const auto count = [&](const char* group, const char* key) {
+    return j.at(group).at(key).get<std::uint64_t>();
+  };
+  f.forwarded = count("forwarded", "shadow") + count("forwarded", "secondary");
+  f.messages = count("messages", "ray_batches") + count("messages", "contribution_batches");
+  f.message_bytes = count("messages", "ray_bytes") + count("messages", "contribution_bytes");
+  f.rounds = count("token", "rounds");
+  for (const Json& n : j.at("per_node")) {
+    f.largest_memory_bytes = std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());
+    f.queue_peak = std::max(f.queue_peak, n.at("queue_peak").get<std::uint64_t>());
+    f.nodes.push_back({n.at("busy_s"), n.at("blocked_s"), n.at("window_s"), n.at("idle_s")});
+  }
+  return f;
+}
+
+std::string to_string(RowOutcome outcome) {
+  switch (outcome) {
+    case RowOutcome::kReference: return "reference";
+    case RowOutcome::kSame: return "same";
+    case RowOutcome::kDifferent: return "DIFFERENT";
+    case RowOutcome::kDeadlocked: return "deadlocked";
+    case RowOutcome::kFailed: return "FAILED";
+  }
+  return {};
+}
+
+std::string comparison_json(const std::string& scene, std::uint32_t nodes,
+                            const std::vector<ComparedRow>& rows) {
+  Json j{{"scene", scene}, {"nodes", nodes}, {"rows", Json::array()}};
+  for (const ComparedRow& r : rows) {
+    Json row{{"name", r.name}, {"arguments", r.arguments}, {"outcome", to_string(r.outcome)},
+             {"why", r.why}};
+    row["statistics"] = r.statistics.empty() ? Json() : Json::parse(r.statistics);
+    j["rows"].push_back(std::move(row));
+  }
+  return j.dump();
+}
+
+}  // namespace graycube

@@ -1,0 +1,46 @@
+// What `graycube compare` makes of statistics: figures of each way to render a scene, side by side.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace graycube {
+
+/// Evaluator seconds of one node.
+struct NodeTimes {
+  double busy_s = 0, blocked_s = 0, window_s = 0, idle_s = 0;
+};
+
+struct Figures {
+  double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, efficiency = 1, blocked_fraction = 0, endgame_s = 0;
+  std::uint64_t forwarded = 0, messages = 0, message_bytes = 0;
+  /// Of the node that holds most; model and subdivision.
+  std::uint64_t largest_memory_bytes = 0;
+  std::uint64_t rounds = 0, queue_peak = 0;
+  std::vector<NodeTimes> nodes;
+};
+
+/// `statistics` must come from statistics_json.
+Figures figures_of(const std::string& statistics);
+
+enum class RowOutcome : std::uint8_t { kReference, kSame, kDifferent, kDeadlocked, kFailed };
+/// "reference", "same", "DIFFERENT", "deadlocked", "FAILED".
+std::string to_string(RowOutcome outcome);
+
+struct ComparedRow {
+  std::string name;
+  /// Of `graycube render`.
+  std::string arguments;
+  RowOutcome outcome = RowOutcome::kSame;
+  /// What went wrong; empty when nothing did.
+  std::string why;
+  /// As of statistics_json; empty without a picture.
+  std::string statistics;
+};
+
+/// One JSON object: {"scene", "nodes", "rows": [{"name", "arguments", "outcome", "why", "statistics"}]}.
+std::string comparison_json(const std::string& scene, std::uint32_t nodes,
+                            const std::vector<ComparedRow>& rows);
+
+}  // namespace graycube

@@ -1,0 +1,26 @@
+// Light horizons as bytes: what follows the model slice behind `load`. FORMAT.md, "Light horizons", is
+// normative.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "space/light_horizons.hpp"
+
+namespace graycube {
+
+/// "GCH1", read as a little-endian integer.
+inline constexpr std::uint32_t kHorizonMagic = 0x31484347;
+inline constexpr std::size_t kHorizonHeaderBytes = 12;
+inline constexpr std::size_t kMaxHorizonBytes =
+    kHorizonHeaderBytes + kMaxCreditLights * (1 + LightHorizons::kTexels * sizeof(float));
+
+/// At most kMaxCreditLights lights.
+std::vector<std::byte> encode_horizons(const LightHorizons& horizons);
+/// Nothing when the bytes are no horizons for so many lights.
+[[nodiscard]] std::optional<LightHorizons> decode_horizons(std::span<const std::byte> bytes,
+                                                           std::size_t lights);
+
+}  // namespace graycube

@@ -1,0 +1,14 @@
+// Which macro-regions a node holds: the same answer in the frontal and in every node.
+#pragma once
+
+#include "space/macro_grid.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+/// As Hypercube::owner_of has it.
+inline RegionShare share_of(const Hypercube& cube, Rank rank) {
+  return {cube.columns(), cube.rows(), cube.column_of(rank), cube.row_of(rank)};
+}
+
+}  // namespace graycube

@@ -1,0 +1,109 @@
+// Every way in which macro can work, on simulated farms, by seed: the serial picture each time.
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "simulation/pictures.hpp"
+#include "topology/hypercube.hpp"
+
+using namespace graycube;
+using namespace graycube::simulation;
+
+namespace {
+
+control::JobOptions macro_with(ShadowMode shadows, std::uint32_t scatter) {
+  control::JobOptions o = with(Algorithm::kMacro);
+  o.shadows = shadows;
+  o.scatter = scatter;
+  return o;
+}
+
+FarmOptions farm_of(std::uint32_t nodes, std::uint64_t seed) {
+  FarmOptions options;
+  options.nodes = nodes;
+  options.threads = static_cast<std::uint32_t>(1 + seed % 3);
+  options.seed = seed;
+  options.link_delay_s = seed % 2 == 0 ? 1e-3 : 1e-1;
+  return options;
+}
+
+/// The ranks in "deadlock: node 3 waits for node 1 waits for node 3, …".
+std::vector<Rank> cycle_in(const std::string& message) {
+  std::vector<Rank> cycle;
+  const std::regex node("node ([0-9]+)");
+  for (std::sregex_iterator at(message.begin(), message.end(), node), end; at != end; ++at) {
+    cycle.push_back(Rank{static_cast<std::uint32_t>(std::stoul((*at)[1]))});
+  }
+  return cycle;
+}
+
+}  // namespace
+
+TEST_CASE("scattered regions, horizons and borrowed models give the serial picture") {
+  const std::string text = scene_text(36, 24);
+  const Picture expected = serial_picture(text);
+  for (std::uint64_t seed = 1; seed <= 180; ++seed) {
+    const std::uint32_t nodes = 1u << (seed % 6);
+    const auto shadows = static_cast<ShadowMode>(seed % 3);
+    const auto scatter = static_cast<std::uint32_t>(seed / 3 % 5);
+    INFO("seed " << seed << ", " << nodes << " nodes, " << to_string(shadows) << ", scatter "
+                 << scatter);
+    control::JobOptions options = macro_with(shadows, scatter);
+    if (seed % 5 == 0) options.partition = PartitionMode::kBalanced;
+    Farm farm(farm_of(nodes, seed));
+    check_same_picture(farm, farm.render(text, options), 1, expected);
+  }
+}
+
+TEST_CASE("with local shadows no shadow ray is forwarded, with horizons few are") {
+  const std::string text = scene_text(36, 24);
+  const auto forwarded = [&](ShadowMode shadows) {
+    Farm farm(farm_of(8, 2));
+    const Outcome outcome = farm.render(text, macro_with(shadows, 1));
+    REQUIRE(outcome.done);
+    std::smatch found;
+    const std::string stats = outcome.done->stats.text;
+    REQUIRE(std::regex_search(stats, found, std::regex(R"("forwarded":\{"shadow":([0-9]+))")));
+    return std::stoul(found[1]);
+  };
+  const auto all = forwarded(ShadowMode::kForward);
+  CHECK(all > 100);
+  CHECK(forwarded(ShadowMode::kHorizon) < all / 2);
+  CHECK(forwarded(ShadowMode::kLocal) == 0);
+}
+
+TEST_CASE("blocking queues give the serial picture or a deadlock, which is reported with its cycle") {
+  const std::string text = scene_text(36, 24);
+  const Picture expected = serial_picture(text);
+  int deadlocks = 0, pictures = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::uint32_t nodes = 1u << (seed % 5);
+    control::JobOptions options = macro_with(static_cast<ShadowMode>(seed % 3), 1 + seed % 2);
+    options.flow = FlowMode::kBlocking;
+    options.queue = seed % 4 == 0 ? 4096 : static_cast<std::uint32_t>(1 + seed % 7);
+    INFO("seed " << seed << ", " << nodes << " nodes, queue " << options.queue);
+    FarmOptions how = farm_of(nodes, seed);
+    how.link_delay_s = 1e-3;  // a ray a message: on slower links a picture takes hours
+    Farm farm(how);
+    const Outcome outcome = farm.render(text, options);
+    if (!outcome.failed) {
+      ++pictures;
+      check_same_picture(farm, outcome, 1, expected);
+      continue;
+    }
+    ++deadlocks;
+    REQUIRE(outcome.violations.empty());
+    REQUIRE(outcome.failed->errors.size() == 1);
+    const std::string why = outcome.failed->errors.front().why;
+    INFO(why);
+    REQUIRE(why.starts_with("deadlock: node "));
+    const std::vector<Rank> cycle = cycle_in(why.substr(0, why.find(',')));
+    REQUIRE(cycle.size() >= 3);
+    CHECK(cycle.front() == cycle.back());
+    const Hypercube cube = *Hypercube::of_size(nodes);
+    for (std::size_t i = 1; i < cycle.size(); ++i) CHECK(cube.link_between(cycle[i - 1], cycle[i]));
+    // The farm is still good for another job.
+    check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), 2, expected);
+  }
+  CHECK(deadlocks > 5);
+  CHECK(pictures > 15);
+}
