@@ -88,6 +88,8 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, kMaxSamples); });
   add(app, "--max-depth", "D", "Generations of rays, instead of the scene's",
       [&o](const auto& text) { o.max_depth = parse_count("--max-depth", text, 0, kMaxDepth); });
+  add(app, "--aov", "NAMES", "Also of each first hit, in OUT.exr: depth,normal,albedo,object",
+      [&o](const auto& text) { o.aov = parse_aov_list("--aov", text); });
   add(app, "--timeout", "S", "Give up after so many seconds",
       [&o](const auto& text) { o.timeout_s = parse_seconds("--timeout", text); });
 }

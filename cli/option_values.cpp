@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/failure.hpp"
+#include "film/aov.hpp"
 #include "scene/spelling.hpp"
 #include "shading/settings.hpp"
 #include "topology/hypercube.hpp"
@@ -132,6 +133,12 @@ std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
 FlowMode parse_flow(std::string_view option, std::string_view text) {
   static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
   return only(option, parse_choice<FlowMode>(option, text, choices), FlowMode::kCredit);
+}
+
+std::string parse_aov_list(std::string_view option, std::string_view text) {
+  const auto aovs = parse_aovs(text);
+  if (aovs && aovs->any()) return to_string(*aovs);
+  expected(option, to_string(AovSet::all()) + ", or some of them, each once", text);
 }
 
 std::uint32_t default_nodes() {

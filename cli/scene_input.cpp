@@ -134,6 +134,7 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   image.height = options.height.value_or(image.height);
   image.samples = options.samples.value_or(image.samples);
   settings.max_depth = options.max_depth.value_or(settings.max_depth);
+  settings.aovs = parse_aovs(options.aov).value_or(AovSet{});
 }
 
 void check_farm_limits(const SceneInput& input, const RenderSettings& settings) {

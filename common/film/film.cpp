@@ -37,17 +37,32 @@ float mean(Magnitude sum, std::uint32_t rays) {
 
 }  // namespace
 
-Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel)
-    : width_(width), height_(height), rays_per_pixel_(rays_per_pixel) {
+Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs)
+    : width_(width), height_(height), rays_per_pixel_(rays_per_pixel), aovs_(aovs) {
   GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 &&
                      height <= kMaxPictureSide && pixel_count() <= kMaxPicturePixels &&
                      rays_per_pixel >= 1,
                  "%u x %u pixels, %u rays each", width, height, rays_per_pixel);
   pixels_.resize(pixel_count());
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    if (has_plane(aovs_, p)) planes_[p].resize(pixel_count(), aov_background(p));
+  }
 }
 
-void Film::add(std::uint32_t pixel, const FixedRgb& light) {
-  GRAYCUBE_CHECK(pixel < pixels_.size(), "pixel %u of %zu", pixel, pixels_.size());
+bool Film::has_slot(std::uint32_t slot) const {
+  const std::size_t plane = slot / pixels_.size();
+  return plane == 0 || (plane <= kAovPlanes && !planes_[plane - 1].empty());
+}
+
+void Film::add(std::uint32_t slot, const FixedRgb& light) {
+  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot, pixels_.size());
+  const std::size_t pixel = slot % pixels_.size();
+  if (slot >= pixels_.size()) {
+    planes_[slot / pixels_.size() - 1][pixel] = {static_cast<std::uint32_t>(light.r),
+                                                 static_cast<std::uint32_t>(light.g),
+                                                 static_cast<std::uint32_t>(light.b)};
+    return;
+  }
   Pixel& sum = pixels_[pixel];
   sum.r += light.r;
   sum.g += light.g;
@@ -57,6 +72,9 @@ void Film::add(std::uint32_t pixel, const FixedRgb& light) {
 void Film::clear(std::uint32_t pixel) {
   GRAYCUBE_CHECK(pixel < pixels_.size(), "pixel %u of %zu", pixel, pixels_.size());
   pixels_[pixel] = {};
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    if (!planes_[p].empty()) planes_[p][pixel] = aov_background(p);
+  }
 }
 
 Picture Film::develop() const {
@@ -64,10 +82,19 @@ Picture Film::develop() const {
     const float size = mean(static_cast<Magnitude>(sum < 0 ? -sum : sum), rays_per_pixel_);
     return sum < 0 ? -size : size;
   };
-  Picture picture{width_, height_, {}};
+  Picture picture;
+  picture.width = width_;
+  picture.height = height_;
+  picture.aovs = aovs_;
   picture.rgb.reserve(3 * pixels_.size());
   for (const Pixel& pixel : pixels_) {
     for (const Sum sum : {pixel.r, pixel.g, pixel.b}) picture.rgb.push_back(component(sum));
+  }
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    picture.aov_planes[p].reserve(3 * planes_[p].size());
+    for (const AovWords& words : planes_[p]) {
+      picture.aov_planes[p].insert(picture.aov_planes[p].end(), words.begin(), words.end());
+    }
   }
   return picture;
 }

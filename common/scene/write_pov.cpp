@@ -111,9 +111,12 @@ class PovWriter {
     const Vec3 up = cross(sideways, forward);
     const bool perspective = c.projection == Projection::kPerspective;
     const double width = perspective ? 2 * tan_degrees(0.5 * c.fov_degrees) : c.width;
+    // Rays off the pixels' middles: the whole picture is shifted against them.
+    const double cell = width / image.width / image.samples;
+    const Vec3 shift = (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;
     text_ += perspective ? "camera { perspective" : "camera { orthographic";
-    item(" location ", c.eye);
-    item(" direction ", forward);
+    item(" location ", perspective ? c.eye : c.eye + shift);
+    item(" direction ", perspective ? forward + shift : forward);
     item(" right ", width * right);
     item(" up ", width * image.height / image.width * up);
     text_ += " }\n";

@@ -143,6 +143,10 @@ class SceneWriter {
     member("up", c.up);
     member(perspective ? "fov" : "width", perspective ? c.fov_degrees : c.width);
     member("handedness", word_of(kHandednessWords, c.handedness));
+    if (c.pixel_offset != Camera{}.pixel_offset) {
+      next_key("pixel_offset");
+      write_numbers({c.pixel_offset[0], c.pixel_offset[1]});
+    }
     text_ += '}';
   }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "shading/phong.hpp"
+#include "trace/first_hit.hpp"
 
 namespace graycube {
 namespace {
@@ -132,6 +133,9 @@ void Evaluator::trace_viewing_ray(RayTask& task, Step& step) {
     const auto exit = domain_.exit(task.region, task.ray, task.t);
     const auto hit = domain_.first_crossing(task.ray, task.t, exit ? exit->t : kInf, scratch_);
     if (hit) {
+      if (task.kind == RayKind::kPrimary && domain_.settings().aovs.any()) {
+        note_first_hit(domain_, task, *hit, step);
+      }
       shade(task, hit->t, hit->primitive, hit->entering, step);
       return;
     }

@@ -67,6 +67,7 @@ class RandomScene {
     (s.camera.projection == Projection::kPerspective ? s.camera.fov_degrees : s.camera.width) =
         1 + 178 * fraction();
     s.camera.handedness = below(2) == 0 ? Handedness::kRight : Handedness::kLeft;
+    if (below(2) == 0) s.camera.pixel_offset = {fraction(), fraction()};
     s.background = color();
     s.ambient = color();
     s.max_depth = static_cast<std::uint32_t>(below(1001));
