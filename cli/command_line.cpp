@@ -27,8 +27,34 @@ void add(CLI::App& app, const std::string& names, const char* type, const std::s
 
 void add_scene(CLI::App& app, std::string& scene) {
   add(
-      app, "SCENE", "", "A scene file (.json), or OpenSCAD's evaluated tree (.csg)",
+      app, "SCENE", "", "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc)",
       [&scene](const std::string& text) { scene = text; }, true);
+}
+
+/// What to show of a BRL-CAD database.
+void add_choice(CLI::App& app, ModelChoice& choice) {
+  app.add_option_function<std::vector<std::string>>(
+         "--object",
+         [&choice](const std::vector<std::string>& names) {
+           choice.objects = names;
+           choice.is_given = true;
+         },
+         "BRL-CAD: what to show (again for more; default: all that nothing refers to)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  add(app, "--view", "FILE", "BRL-CAD: a view script, as rt reads it", [&choice](const std::string& text) {
+    choice.view = text;
+    choice.is_given = true;
+  });
+  const auto angle = [&](const char* name, const char* help, double& value) {
+    add(app, name, "DEGREES", help, [&choice, &value, name](const std::string& text) {
+      value = parse_angle(name, text);
+      choice.is_given = true;
+    });
+  };
+  angle("--azimuth", "BRL-CAD: from where to look (default 35)", choice.azimuth_degrees);
+  angle("--elevation", "BRL-CAD: from how high to look (default 25)", choice.elevation_degrees);
 }
 
 void add_job(CLI::App& app, std::uint32_t& job) {
@@ -145,6 +171,7 @@ class Parser {
     auto& render = declare<RenderCommand>("render", "Render a scene on nodes of this machine", sub);
     render.nodes = default_nodes();
     add_scene(*sub, render.scene);
+    add_choice(*sub, render.choice);
     add_outputs(*sub, render.outputs, false, "The picture (default: SCENE's name with .exr, here)");
     add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
               render.nodes);
@@ -170,6 +197,7 @@ class Parser {
     auto& submit =
         declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id", sub);
     add_scene(*sub, submit.scene);
+    add_choice(*sub, submit.choice);
     add_outputs(*sub, submit.outputs, false, "The picture, with --wait");
     add_nodes(*sub, "What the farm is expected to have", submit.nodes);
     add_threads(*sub, "Evaluator threads per node (default: the farm's)", submit.options.threads);
@@ -210,6 +238,7 @@ class Parser {
     CLI::App* sub = nullptr;
     auto& check = declare<CheckCommand>("check", "Find every error of a scene file", sub);
     add_scene(*sub, check.scene);
+    add_choice(*sub, check.choice);
 
     auto& compare =
         declare<CompareCommand>("compare", "Compare the algorithms; not built yet", sub);
@@ -219,11 +248,12 @@ class Parser {
     auto& convert =
         declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
     add(
-        *sub, "IN", "", ".json, .csg or .exr",
+        *sub, "IN", "", ".json, .csg, .g, .asc or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
     add(
         *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
         [&convert](const std::string& text) { convert.out = text; }, true);
+    add_choice(*sub, convert.choice);
   }
 
   /// An argument that no option of the command takes.

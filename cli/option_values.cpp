@@ -135,6 +135,15 @@ FlowMode parse_flow(std::string_view option, std::string_view text) {
   return only(option, parse_choice<FlowMode>(option, text, choices), FlowMode::kCredit);
 }
 
+double parse_angle(std::string_view option, std::string_view text) {
+  constexpr double kMostTurns = 1e6;
+  const auto value = number<double>(text);
+  if (!value || !std::isfinite(*value) || std::fabs(*value) > kMostTurns) {
+    expected(option, "an angle in degrees", text);
+  }
+  return *value;
+}
+
 std::string parse_aov_list(std::string_view option, std::string_view text) {
   const auto aovs = parse_aovs(text);
   if (aovs && aovs->any()) return to_string(*aovs);

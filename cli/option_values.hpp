@@ -34,6 +34,9 @@ PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
 
+/// A finite number.
+double parse_angle(std::string_view option, std::string_view text);
+
 /// Names of AOVs, with commas between; as to_string(AovSet) writes them.
 std::string parse_aov_list(std::string_view option, std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -35,7 +36,7 @@ class PovWriter {
       write_node(object.csg, object.material);
       text_ += '\n';
     }
-    return {std::move(text_), std::move(warnings_)};
+    return {std::move(text_), std::move(warnings_), std::move(errors_)};
   }
 
  private:
@@ -275,6 +276,16 @@ class PovWriter {
     text_ += "sphere { <0,0,0>, 1";
     write_matrix(e.axes[0], e.axes[1], e.axes[2], e.center);
   }
+  void write_value(const EllipticConeShape&) { refuse("elliptic_cone"); }
+  void write_value(const EllipticTorusShape&) { refuse("elliptic_torus"); }
+  void write_value(const QuadricShape&) { refuse("quadric"); }
+  /// Nothing, in the place of a kind that POV-Ray has no exact twin of.
+  void refuse(const std::string& kind) {
+    if (refused_.insert(kind).second) {
+      errors_.push_back("a " + kind + " can't be written for POV-Ray");
+    }
+    text_ += "sphere { <0,0,0>, 0";
+  }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());
     text_ += "intersection {";
@@ -289,7 +300,8 @@ class PovWriter {
   const bool merges_;
   std::vector<bool> declared_;
   std::string text_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, errors_;
+  std::set<std::string> refused_;
 };
 
 }  // namespace

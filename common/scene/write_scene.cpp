@@ -281,6 +281,32 @@ class SceneWriter {
     }
     text_ += ']';
   }
+  void write_value(const EllipticConeShape& c) {
+    text_ += "\"elliptic_cone\"";
+    member("base", c.base);
+    member("top", c.top);
+    member("a", c.a);
+    member("b", c.b);
+    member("top_a", c.top_a);
+    member("top_b", c.top_b);
+  }
+  void write_value(const EllipticTorusShape& t) {
+    text_ += "\"elliptic_torus\"";
+    member("center", t.center);
+    member("axis", t.axis);
+    member("radius", t.radius);
+    member("outward", t.outward);
+    member("upward", t.upward);
+    member("across", t.across);
+  }
+  void write_value(const QuadricShape& q) {
+    text_ += "\"quadric\"";
+    next_key("coefficients");
+    const auto& c = q.coefficients;
+    write_numbers({c[0], c[1], c[2], c[3]});
+    member("min", q.min);
+    member("max", q.max);
+  }
   void write_value(const PolyhedronShape& p) {
     text_ += "\"polyhedron\", \"planes\": ";
     char before = '[';
