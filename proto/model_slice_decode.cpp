@@ -114,7 +114,7 @@ class ModelReader {
     s.image.height = r_.get<std::uint32_t>();
     s.image.samples = r_.get<std::uint32_t>();
     const auto projection = r_.get<std::uint8_t>(), handedness = r_.get<std::uint8_t>();
-    const auto aovs = r_.get<std::uint8_t>(), reserved = r_.get<std::uint8_t>();
+    const auto aovs = r_.get<std::uint8_t>(), inside = r_.get<std::uint8_t>();
     Camera& camera = s.camera;
     camera.eye = get_vec(r_);
     camera.look_at = get_vec(r_);
@@ -127,9 +127,11 @@ class ModelReader {
     s.min_weight = r_.get<double>();
     model_.delta = r_.get<double>();
     for (double& v : camera.pixel_offset) v = r_.get<double>();
-    if (projection > 1 || handedness > 1 || aovs > AovSet::kAllBits || reserved != 0) {
-      return fail("camera", "unknown projection, handedness or AOV");
+    if (projection > 1 || handedness > 1 || aovs > AovSet::kAllBits || inside > 1 ||
+        (inside == 1 && projection == 0)) {
+      return fail("camera", "unknown projection, handedness, AOV or view of insides");
     }
+    camera.inside = static_cast<InsideView>(inside);
     s.aovs = AovSet::from_bits(aovs);
     camera.projection = static_cast<Projection>(projection);
     camera.handedness = static_cast<Handedness>(handedness);

@@ -34,7 +34,7 @@ void put_settings(ByteWriter& w, const RenderSettings& s, double delta) {
   w.put(static_cast<std::uint8_t>(s.camera.projection));
   w.put(static_cast<std::uint8_t>(s.camera.handedness));
   w.put(s.aovs.bits());
-  w.put(std::uint8_t{0});
+  w.put(static_cast<std::uint8_t>(s.camera.inside));
   put_vec(w, s.camera.eye);
   put_vec(w, s.camera.look_at);
   put_vec(w, s.camera.up);

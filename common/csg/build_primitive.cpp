@@ -212,10 +212,11 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
     return build_elliptic_cone(to_world, base, top, b, a, top_b, top_a);
   }
   const double height = 1 - top_a;
-  const Affine map = compose(to_world, frame(a, b, (1 / height) * axis, base));
+  const Affine map = compose(to_world, frame(a, b, axis, base));
   Primitive p;
   p.kind = PrimitiveKind::kEllipticCone;
   p.to_local = inverse_of(map);
+  for (double& v : p.to_local.m[2]) v *= height;
   set_caps(p, to_world.point(base), to_world.point(top));
   if (p.v[3] > p.v[4]) {
     const double lower = -p.v[3];
@@ -230,7 +231,7 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
     top_extent[i] = std::sqrt(r.x * r.x * top_a * top_a + r.y * r.y * top_b * top_b);
   }
   p.bounds = union_of(around(map.point({0, 0, 0}), disc_extent(map)),
-                      around(map.point({0, 0, height}), top_extent));
+                      around(map.point({0, 0, 1}), top_extent));
   return p;
 }
 

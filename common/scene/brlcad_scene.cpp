@@ -2,7 +2,6 @@
 #include "scene/brlcad.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "csg/model.hpp"
@@ -180,7 +179,15 @@ class SceneBuilder {
     }
     if (!part.node || !check_limits(name, part)) return;
     if (surface.is_light) lamps_.emplace_back(scene_.objects.size(), surface.brightness);
-    scene_.objects.push_back({name, material_of(surface.material), std::move(*part.node)});
+    scene_.objects.push_back({printable(name), material_of(surface.material), std::move(*part.node)});
+  }
+
+  /// A scene's text is UTF-8; names in databases are any bytes.
+  static std::string printable(std::string name) {
+    for (char& c : name) {
+      if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F) c = '?';
+    }
+    return name;
   }
 
   static std::size_t leaves_below(const CsgNode& node) {
@@ -244,9 +251,9 @@ class SceneBuilder {
   }
 
   static Part everything() {
-    CsgNode node;
-    node.value = HalfSpaceShape{{0, 0, 1}, std::numeric_limits<float>::max()};
-    return {std::move(node), 1};
+    CsgNode half;
+    half.value = HalfSpaceShape{{0, 0, 1}, 0};
+    return join(Operation::kUnion, {half, 1}, inverted({half, 1}));
   }
   static Part inverted(Part part) {
     CsgNode node;

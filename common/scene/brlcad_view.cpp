@@ -12,17 +12,20 @@ namespace {
 /// rt puts the eye so far in front of the model's middle, in halves of the view's size.
 const double kEyeBackoff = std::sqrt(2.0);
 constexpr double kMaxPerspective = 179;
+constexpr double kMostNumber = 1e12;
+constexpr double kLeastViewSize = 1e-12;
 
 /// rt's rays go through the lower-left corners of its cells.
 Camera looking(const Vec3& eye, const Vec3& up, const Vec3& backward, double view_size) {
   Camera camera;
   camera.projection = Projection::kOrthographic;
   camera.eye = eye;
-  // As far as the picture is wide, so that subtracting the eye loses no digits.
-  camera.look_at = eye - view_size * backward;
+  // As far as the picture is wide, or as the eye from the origin: subtracting the eye must leave digits.
+  camera.look_at = eye - std::fmax(view_size, max_abs(eye)) * backward;
   camera.up = up;
   camera.width = view_size;
   camera.pixel_offset = {0, 0};
+  camera.inside = InsideView::kEntry;
   return camera;
 }
 
@@ -65,6 +68,7 @@ class ViewReader {
     Camera camera = looking(*eye_, axes_->up, axes_->backward, *view_size_);
     if (perspective_ > 0) {
       camera.projection = Projection::kPerspective;
+      camera.inside = InsideView::kExit;
       camera.fov_degrees = perspective_;
     }
     return camera;
@@ -81,7 +85,9 @@ class ViewReader {
                std::array<double, 16>& out) {
     for (std::size_t i = 0; i < count; ++i) {
       const auto v = from + i < words.size() ? parse_brlcad_number(words[from + i]) : std::nullopt;
-      if (!v) return fail(words.front(), "expected " + std::to_string(count) + " numbers");
+      if (!v || std::fabs(*v) > kMostNumber) {
+        return fail(words.front(), "expected " + std::to_string(count) + " numbers, none beyond 1e12");
+      }
       out[i] = *v;
     }
     return true;
@@ -93,7 +99,7 @@ class ViewReader {
     if (verb == "viewsize") {
       if (!numbers(words, 1, 1, v)) return false;
       view_size_ = v[0];
-      return v[0] > 0 || fail(verb, "expected a number > 0");
+      return v[0] >= kLeastViewSize || fail(verb, "expected a number > 0");
     }
     if (verb == "eye_pt") {
       if (!numbers(words, 1, 3, v)) return false;
@@ -160,7 +166,7 @@ Camera brlcad_camera(double azimuth_degrees, double elevation_degrees, const Aab
   const Vec3 backward{ca * ce, sa * ce, se};
   const Vec3 up{-ca * se, -sa * se, ce};
   double size = length(bounds.hi - bounds.lo);
-  if (!(size > 0)) size = 1;
+  if (!(size > kLeastViewSize)) size = 1;
   return looking(bounds.center() + 0.5 * size * kEyeBackoff * backward, up, backward, size);
 }
 

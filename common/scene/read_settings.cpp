@@ -68,7 +68,7 @@ void read_image(JsonAccess& json, JsonIndex at, ImageSize& out) {
 }
 
 void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
-  enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kPixelOffset, kKeys };
+  enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kPixelOffset, kInside, kKeys };
   constexpr std::array<KeyRule, kKeys> kRules{{{"type", true},
                                                {"eye", true},
                                                {"look_at", true},
@@ -76,10 +76,12 @@ void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
                                                {"fov"},
                                                {"width"},
                                                {"handedness"},
-                                               {"pixel_offset"}}};
+                                               {"pixel_offset"},
+                                               {"inside"}}};
   std::array<JsonIndex, kKeys> member{};
   const bool complete = json.members(at, "the camera", kRules, member);
   json.read_word(member[kHandedness], out.handedness, kHandednessWords);
+  json.read_word(member[kInside], out.inside, kInsideViewWords);
   if (member[kPixelOffset] != 0) read_pixel_offset(json, member[kPixelOffset], out.pixel_offset);
   const bool type_known =
       member[kType] != 0 && json.read_word(member[kType], out.projection, kProjectionWords);
@@ -95,6 +97,9 @@ void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
     if (member[unwanted] != 0)
       json.errors.add(member[unwanted], kind + " has no key " + quoted(kRules[unwanted].name) +
                                             "; did you mean " + quoted(kRules[wanted].name) + "?");
+  }
+  if (type_known && out.inside == InsideView::kEntry && out.projection == Projection::kPerspective) {
+    json.errors.add(member[kInside], "only an orthographic camera shows entries");
   }
   bool frame_good = json.read_optional(member[kEye], out.eye);
   frame_good = json.read_optional(member[kLookAt], out.look_at) && frame_good;

@@ -112,6 +112,8 @@ class PovWriter {
     const Vec3 up = cross(sideways, forward);
     const bool perspective = c.projection == Projection::kPerspective;
     const double width = perspective ? 2 * tan_degrees(0.5 * c.fov_degrees) : c.width;
+    if (c.inside == InsideView::kEntry)
+      warnings_.push_back("POV-Ray doesn't show entries behind the camera");
     // Rays off the pixels' middles: the whole picture is shifted against them.
     const double cell = width / image.width / image.samples;
     const Vec3 shift = (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;

@@ -147,6 +147,7 @@ class SceneWriter {
       next_key("pixel_offset");
       write_numbers({c.pixel_offset[0], c.pixel_offset[1]});
     }
+    if (c.inside != InsideView::kExit) member("inside", word_of(kInsideViewWords, c.inside));
     text_ += '}';
   }
 

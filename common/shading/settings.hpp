@@ -24,6 +24,9 @@ inline constexpr std::uint64_t kMaxPixels = 1ull << 26;
 inline constexpr std::uint32_t kMaxSamples = 64;
 
 enum class Projection : std::uint8_t { kPerspective, kOrthographic };
+/// What a ray shows that starts within a solid: where it leaves it, or where it would have entered it, behind its
+/// start. The latter is rt's way; orthographic cameras only.
+enum class InsideView : std::uint8_t { kExit, kEntry };
 enum class Handedness : std::uint8_t { kRight, kLeft };
 
 struct Camera {
@@ -36,6 +39,7 @@ struct Camera {
   Handedness handedness = Handedness::kRight;
   /// Where in its pixel (with samples: subcell) a ray goes, from the lower-left corner, in pixels; 0 … 1.
   std::array<double, 2> pixel_offset{0.5, 0.5};
+  InsideView inside = InsideView::kExit;
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "shading/phong.hpp"
+#include "trace/entry_hit.hpp"
 #include "trace/first_hit.hpp"
 
 namespace graycube {
@@ -129,6 +130,12 @@ void Evaluator::trace_light_ray(RayTask& task, Step& step) {
 }
 
 void Evaluator::trace_viewing_ray(RayTask& task, Step& step) {
+  if (task.kind == RayKind::kPrimary) {
+    if (const auto hit = entry_behind(domain_, task, scratch_)) {
+      if (domain_.settings().aovs.any()) note_first_hit(domain_, task, *hit, step);
+      return shade(task, hit->t, hit->primitive, hit->entering, step);
+    }
+  }
   while (domain_.holds(task.region)) {
     const auto exit = domain_.exit(task.region, task.ray, task.t);
     const auto hit = domain_.first_crossing(task.ray, task.t, exit ? exit->t : kInf, scratch_);

@@ -67,7 +67,11 @@ RenderSettings some_settings(Random& random) {
               random.uniform(1, 179),
               random.uniform(0.1, 9),
               random.chance(2) ? Handedness::kLeft : Handedness::kRight,
-              {random.uniform(0, 1), random.uniform(0, 1)}};
+              {random.uniform(0, 1), random.uniform(0, 1)},
+              InsideView::kExit};
+  if (s.camera.projection == Projection::kOrthographic && random.chance(2)) {
+    s.camera.inside = InsideView::kEntry;
+  }
   s.aovs = AovSet::from_bits(static_cast<std::uint8_t>(random.below(16)));
   s.background = random.rgb();
   s.ambient = random.rgb();
@@ -115,7 +119,7 @@ Model small_model() {
   Model model;
   model.settings.image = {4, 3, 1};
   model.settings.camera = {Projection::kPerspective, {0, 0, -5}, {0, 0, 0}, {0, 1, 0}, 40, 0,
-                           Handedness::kRight, {0.5, 0.5}};
+                           Handedness::kRight, {0.5, 0.5}, InsideView::kExit};
   model.materials.resize(1);
   model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
   model.primitives.resize(2);
@@ -202,6 +206,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
       {"camera", "finite", [](Model& m) { m.settings.camera.eye.x = Aabb::kInf; }},
       {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[1] = -0.5; }},
       {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[0] = std::nan(""); }},
+      {"camera", "insides", [](Model& m) { m.settings.camera.inside = InsideView::kEntry; }},
       {"camera", "width",
        [](Model& m) { m.settings.camera.projection = Projection::kOrthographic; }},
       {"settings", "range", [](Model& m) { m.settings.max_depth = 1001; }},

@@ -68,6 +68,9 @@ class RandomScene {
         1 + 178 * fraction();
     s.camera.handedness = below(2) == 0 ? Handedness::kRight : Handedness::kLeft;
     if (below(2) == 0) s.camera.pixel_offset = {fraction(), fraction()};
+    if (s.camera.projection == Projection::kOrthographic && below(2) == 0) {
+      s.camera.inside = InsideView::kEntry;
+    }
     s.background = color();
     s.ambient = color();
     s.max_depth = static_cast<std::uint32_t>(below(1001));

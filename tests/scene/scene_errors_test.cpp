@@ -137,6 +137,8 @@ TEST_CASE("a degenerate camera is refused") {
         "two numbers from 0 to 1, found 0.5"},
        {camera(frame + R"(, "fov": 40, "pixel_offset": [0, 1.5])"), "/camera/pixel_offset/1",
         "a number from 0 to 1, found 1.5"},
+       {camera(frame + R"(, "fov": 40, "inside": "entry")"), "/camera/inside",
+        "only an orthographic camera"},
        {camera(frame + R"(, "fov": 40, "handedness": "rigth")"), "/camera/handedness",
         "did you mean \"right\"?"},
        {camera(frame + R"(, "fov": 40, "width": 2)"), "/camera/width", "did you mean \"fov\"?"},
