@@ -458,8 +458,10 @@ BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double 
     case BrlcadKind::kPart: return particle(p, grow);
     case BrlcadKind::kArbn: return arbn(p, grow);
     case BrlcadKind::kPipe: return pipe(p, grow);
-    default: return refusal("this kind isn't built yet");
+    case BrlcadKind::kArs: return refusal("ars is not supported: meshes aren't built yet");
+    case BrlcadKind::kBot: return refusal("bot is not supported: meshes aren't built yet");
   }
+  return problem("it is of no known kind");
 }
 
 }  // namespace graycube

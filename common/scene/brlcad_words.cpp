@@ -36,7 +36,7 @@ void TclWords::skip_blanks() {
     if (is_continued) {
       take();
       take();
-    } else if (is_blank(c) || (ends_ == Ends::kAtText && (c == '\n' || c == '\0'))) {
+    } else if (is_blank(c) || c == '\0' || (ends_ == Ends::kAtText && c == '\n')) {
       take();
     } else {
       return;

@@ -29,7 +29,10 @@ double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, dou
 }  // namespace
 
 std::optional<Crossing> entry_behind(const Domain& domain, const RayTask& task, CrossingScratch& scratch) {
-  if (domain.settings().camera.inside != InsideView::kEntry || task.t != 0) return std::nullopt;
+  if (domain.settings().camera.inside != InsideView::kEntry || task.t != 0 ||
+      task.kind != RayKind::kPrimary) {
+    return std::nullopt;
+  }
   const Ray back{task.ray.origin, -task.ray.direction};
   std::array<std::uint32_t, kMostBehind> seen;
   std::size_t count = 0;

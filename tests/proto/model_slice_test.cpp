@@ -227,7 +227,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
       {"plane 1", "finite", [](Model& m) { m.planes[1].offset = Aabb::kInf; }},
       {"primitive 0", "kind",
-       [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(9); }},
+       [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(kPrimitiveKinds); }},
       {"primitive 0", "material", [](Model& m) { m.primitives[0].material = 1; }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].v[3] = std::nan(""); }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].to_local.m[1][2] = Aabb::kInf; }},

@@ -211,6 +211,44 @@ TEST_CASE("cones of all proportional kinds, particles and pipes hold the points 
   CHECK_FALSE(holds(pipe, 7 - ring, 3 - ring, 0.75));
 }
 
+TEST_CASE("quadrics, elliptic tori and general cones hold the points they should") {
+  const auto of = [](const std::string& solid) { return scene_of("title t\nput s " + solid + "\n"); };
+  // Half way up an epa of radii 2 and 1 its radii are √½ as long.
+  const Scene epa = of("epa V {0 0 0} H {0 0 4} A {1 0 0} r_1 2 r_2 1");
+  CHECK(holds(epa, 1.41, 0, 2));
+  CHECK_FALSE(holds(epa, 1.42, 0, 2));
+  CHECK(holds(epa, 0, 0.70, 2));
+  CHECK_FALSE(holds(epa, 0, 0.72, 2));
+  // With c = H the radius half way up is √((1.5² − 1) / 3) of the base's.
+  const Scene ehy = of("ehy V {0 0 0} H {0 0 4} A {1 0 0} r_1 2 r_2 2 c 4");
+  CHECK(holds(ehy, 1.28, 0, 2));
+  CHECK_FALSE(holds(ehy, 1.30, 0, 2));
+  CHECK_FALSE(holds(ehy, 0, 0, 4.01));
+  const Scene rpc = of("rpc V {0 0 0} H {0 0 4} B {0 2 0} r 3");
+  CHECK(holds(rpc, 2.1, 1, 3.9));
+  CHECK_FALSE(holds(rpc, 2.2, 1, 3.9));
+  CHECK_FALSE(holds(rpc, 0, 1, 4.1));
+  const Scene rhc = of("rhc V {0 0 0} H {0 0 4} B {0 2 0} r 3 c 2");
+  CHECK(holds(rhc, 1.93, 1, 3.9));
+  CHECK_FALSE(holds(rhc, 1.95, 1, 3.9));
+  const Scene hyp = of("hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5");
+  CHECK(holds(hyp, 0.99, 0, 2));
+  CHECK_FALSE(holds(hyp, 1.01, 0, 2));
+  CHECK(holds(hyp, 1.99, 0, 0.001));
+  CHECK(holds(hyp, 0, 0.49, 2));
+  CHECK_FALSE(holds(hyp, 0, 0.51, 2));
+  // The ellipse's long semi-axis leans outwards and up by 45°.
+  const Scene eto = of("eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5");
+  CHECK(holds(eto, 5.99, 0, 0.99));
+  CHECK(holds(eto, 0, 4.01, -0.99));
+  CHECK_FALSE(holds(eto, 5.5, 0, -0.5));
+  const Scene tgc = of("tgc V {0 0 0} H {0 0 4} A {2 0 0} B {0 1 0} C {1 0 0} D {0 2 0}");
+  CHECK(holds(tgc, 1.49, 0, 2));
+  CHECK_FALSE(holds(tgc, 1.51, 0, 2));
+  CHECK(holds(tgc, 0, 1.49, 2));
+  CHECK_FALSE(holds(tgc, 0, 1.51, 2));
+}
+
 TEST_CASE("what can't be read is refused by name or line") {
   CHECK(error_of("put d dsp file x\nput r comb region yes tree {l d}\n", {"r"}) == "d: dsp is not supported");
   CHECK(error_of("put b bot mode plate V {} F {}\n").find("plate mode is not supported") != std::string::npos);
