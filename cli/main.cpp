@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <variant>
 
 #include "cli/commands.hpp"
+#include "space/simd.hpp"
 
 namespace graycube {
 namespace {
@@ -16,6 +18,9 @@ ExitStatus flushed(ExitStatus status) {
 }
 
 ExitStatus run_command(int argc, char** argv) {
+  if (const std::string problem = choose_simd_from_environment(); !problem.empty()) {
+    throw Failure(ExitStatus::kBadInput, Problem{"environment", "GRAYCUBE_SIMD", problem});
+  }
   const Command command = parse_command_line(argc, argv);
   return flushed(std::visit([](const auto& c) { return run(c); }, command));
 }

@@ -37,8 +37,10 @@ std::string read_file(const fs::path& path, std::size_t most) {
   const auto too_large = [&] {
     return bad_scene(path, "the file is larger than " + std::to_string(most) + " bytes");
   };
-  if (const auto size = fs::file_size(path, error); !error && size > most) throw too_large();
+  const auto size = fs::file_size(path, error);  // a pipe has none
+  if (!error && size > most) throw too_large();
   std::string text;
+  if (!error) text.reserve(size);
   std::array<char, 65536> chunk;
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     if (text.size() + count > most) throw too_large();

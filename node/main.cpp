@@ -9,6 +9,7 @@
 
 #include "node/evaluator_pool.hpp"
 #include "node/node.hpp"
+#include "space/simd.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
@@ -91,6 +92,10 @@ int run_main(int argc, char** argv) {
       std::fprintf(stderr, "graycube-node: usage: %s: %s\n", endpoint.c_str(), problem->c_str());
       return 2;
     }
+  }
+  if (const std::string problem = choose_simd_from_environment(); !problem.empty()) {
+    std::fprintf(stderr, "graycube-node: environment: GRAYCUBE_SIMD: %s\n", problem.c_str());
+    return 2;
   }
   // A node never outlives its frontal.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

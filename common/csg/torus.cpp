@@ -1,5 +1,7 @@
 #include "csg/torus.hpp"
 
+#include <optional>
+
 #include "csg/quartic.hpp"
 
 namespace graycube::csg {
@@ -33,6 +35,34 @@ struct TorusLine {
   }
 };
 
+/// The part of the line q + s u that is in the bounding sphere and between the planes that the torus touches;
+/// nothing where it passes outside or through the hole. Everything is a little larger than the torus, so that
+/// both ends lie outside of it.
+std::optional<Interval> part_near_torus(const Vec3& q, const Vec3& u, double minor, double reach) {
+  constexpr double kMargin = 1e-6;
+  Interval part;
+  part.clip(-reach * (1 + kMargin) - kMargin, reach * (1 + kMargin) + kMargin);
+  const double height = minor * (1 + kMargin) + kMargin;
+  if (u.z == 0) {
+    if (std::fabs(q.z) > height) return std::nullopt;
+  } else {
+    const double a = (-height - q.z) / u.z;
+    const double b = (height - q.z) / u.z;
+    part.clip(std::fmin(a, b), std::fmax(a, b));
+  }
+  if (!(part.enter < part.leave)) return std::nullopt;
+  const auto axis_distance2 = [&](double s) {
+    const double x = q.x + s * u.x;
+    const double y = q.y + s * u.y;
+    return x * x + y * y;
+  };
+  // Convex in s: the largest distance from the axis is at an end.
+  const double hole = 1 - height;
+  const double farthest2 = std::fmax(axis_distance2(part.enter), axis_distance2(part.leave));
+  if (hole > 0 && farthest2 < hole * hole) return std::nullopt;
+  return part;
+}
+
 }  // namespace
 
 Spans torus_spans(const Primitive& p, const Ray& ray) {
@@ -47,9 +77,9 @@ Spans torus_spans(const Primitive& p, const Ray& ray) {
   if (!(reach2 > 0)) return {};
   const TorusLine line{dot(q, u), dot(q, q) + 1 - minor * minor, u.x * u.x + u.y * u.y,
                        q.x * u.x + q.y * u.y, q.x * q.x + q.y * q.y};
-  // A little beyond the bounding sphere, so that both ends lie outside the torus.
-  const double reach = std::sqrt(reach2) * (1 + 1e-6) + 1e-6;
-  const Knots<5> knots = quartic_extremes(line, -reach, reach);
+  const auto near = part_near_torus(q, u, minor, std::sqrt(reach2));
+  if (!near) return {};
+  const Knots<5> knots = quartic_extremes(line, near->enter, near->leave);
   Spans spans;
   double enter = 0;
   bool inside = false;

@@ -1,14 +1,19 @@
 #include "film/film.hpp"
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <new>
 
 #include "geometry/check.hpp"
 
 namespace graycube {
 namespace {
 
+__extension__ typedef __int128 Sum;
 __extension__ typedef unsigned __int128 Magnitude;
 
 int bit_width(Magnitude v) {
@@ -35,6 +40,55 @@ float mean(Magnitude sum, std::uint32_t rays) {
   return static_cast<float>(std::ldexp(static_cast<double>(quotient), -32 - shift));
 }
 
+/// The same for sums of 64 bits, which nearly all are: no 128-bit division, no library call. All
+/// means are normal floats, so scaling by a power of two is exact.
+class ShortMean {
+ public:
+  explicit ShortMean(std::uint32_t rays)
+      : rays_(rays),
+        is_power_(std::has_single_bit(rays)),
+        scale_(power_of_two(-32 - std::countr_zero(rays))) {}
+
+  float operator()(std::int64_t sum) const {
+    // The processor's conversion rounds to nearest even.
+    if (is_power_) return static_cast<float>(sum) * scale_;
+    if (sum == 0) return 0;
+    const auto size = static_cast<std::uint64_t>(sum < 0 ? -sum : sum);
+    // 63 bits over 32 leave 31 at least, more than the 25 that rounding needs beside the folded rest.
+    const int shift = std::countl_zero(size) - 1;
+    const std::uint64_t shifted = size << shift;
+    const std::uint64_t quotient = shifted / rays_ | (shifted % rays_ != 0 ? 1u : 0u);
+    const float mean =
+        static_cast<float>(static_cast<std::int64_t>(quotient)) * power_of_two(-32 - shift);
+    return sum < 0 ? -mean : mean;
+  }
+
+ private:
+  /// 2^exponent, for exponents of normal floats.
+  static float power_of_two(int exponent) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
+  }
+
+  std::uint64_t rays_;
+  bool is_power_;
+  float scale_;
+};
+
+/// Zero pages, untouched. `count` is bounded by kMaxPicturePixels.
+template <typename T>
+T* zeroed(std::uint64_t count) {
+  auto* memory = static_cast<T*>(std::calloc(count, sizeof(T)));
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+/// Adds to a sum's lower half; what that changes in the upper half is −1, 0 or 1.
+std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
+  const auto added = static_cast<std::uint64_t>(light);
+  low += added;
+  return (low < added ? 1 : 0) - (light < 0 ? 1 : 0);
+}
+
 }  // namespace
 
 Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs)
@@ -43,52 +97,80 @@ Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pix
                      height <= kMaxPictureSide && pixel_count() <= kMaxPicturePixels &&
                      rays_per_pixel >= 1,
                  "%u x %u pixels, %u rays each", width, height, rays_per_pixel);
-  pixels_.resize(pixel_count());
+  low_.reset(zeroed<Low>(pixel_count()));
+  high_.reset(zeroed<High>(pixel_count() + 1));
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (has_plane(aovs_, p)) planes_[p].resize(pixel_count(), aov_background(p));
   }
 }
 
 bool Film::has_slot(std::uint32_t slot) const {
-  const std::size_t plane = slot / pixels_.size();
+  const std::uint64_t plane = slot / pixel_count();
   return plane == 0 || (plane <= kAovPlanes && !planes_[plane - 1].empty());
 }
 
 void Film::add(std::uint32_t slot, const FixedRgb& light) {
-  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot, pixels_.size());
-  const std::size_t pixel = slot % pixels_.size();
-  if (slot >= pixels_.size()) {
-    planes_[slot / pixels_.size() - 1][pixel] = {static_cast<std::uint32_t>(light.r),
-                                                 static_cast<std::uint32_t>(light.g),
-                                                 static_cast<std::uint32_t>(light.b)};
-    return;
-  }
-  Pixel& sum = pixels_[pixel];
-  sum.r += light.r;
-  sum.g += light.g;
-  sum.b += light.b;
+  if (slot >= pixel_count()) [[unlikely]] return set_aovs(slot, light);
+  Low& low = low_[slot];
+  const High change{add_low(low.r, light.r), add_low(low.g, light.g), add_low(low.b, light.b)};
+  if ((change.r | change.g | change.b) != 0) [[unlikely]] carry(slot, change);
+}
+
+void Film::set_aovs(std::uint32_t slot, const FixedRgb& words) {
+  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot, static_cast<std::size_t>(pixel_count()));
+  planes_[slot / pixel_count() - 1][slot % pixel_count()] = {static_cast<std::uint32_t>(words.r),
+                                                             static_cast<std::uint32_t>(words.g),
+                                                             static_cast<std::uint32_t>(words.b)};
+}
+
+void Film::carry(std::uint32_t pixel, const High& change) {
+  High& high = high_[pixel];
+  high.r += change.r;
+  high.g += change.g;
+  high.b += change.b;
+  std::atomic_ref(high_[pixel_count()].r).store(1, std::memory_order_relaxed);
+}
+
+bool Film::has_high() const {
+  return std::atomic_ref(high_[pixel_count()].r).load(std::memory_order_relaxed) != 0;
 }
 
 void Film::clear(std::uint32_t pixel) {
-  GRAYCUBE_CHECK(pixel < pixels_.size(), "pixel %u of %zu", pixel, pixels_.size());
-  pixels_[pixel] = {};
+  GRAYCUBE_CHECK(pixel < pixel_count(), "pixel %u of %zu", pixel,
+                 static_cast<std::size_t>(pixel_count()));
+  low_[pixel] = {};
+  if (has_high()) high_[pixel] = {};
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (!planes_[p].empty()) planes_[p][pixel] = aov_background(p);
   }
 }
 
 Picture Film::develop() const {
-  const auto component = [this](Sum sum) {
+  const ShortMean short_mean(rays_per_pixel_);
+  const auto long_mean = [this](std::uint64_t low, std::int64_t high) {
+    const Sum sum = static_cast<Sum>(static_cast<Magnitude>(high) << 64 | low);
     const float size = mean(static_cast<Magnitude>(sum < 0 ? -sum : sum), rays_per_pixel_);
     return sum < 0 ? -size : size;
   };
+  const auto component = [&](std::uint64_t low, std::int64_t high) {
+    const auto sum = static_cast<std::int64_t>(low);
+    const bool fits = high == (sum < 0 ? -1 : 0) && sum != std::numeric_limits<std::int64_t>::min();
+    return fits ? short_mean(sum) : long_mean(low, high);
+  };
+  const bool reads_high = has_high();
+  const std::uint64_t pixels = pixel_count();
   Picture picture;
   picture.width = width_;
   picture.height = height_;
   picture.aovs = aovs_;
-  picture.rgb.reserve(3 * pixels_.size());
-  for (const Pixel& pixel : pixels_) {
-    for (const Sum sum : {pixel.r, pixel.g, pixel.b}) picture.rgb.push_back(component(sum));
+  picture.rgb.resize(3 * pixels);
+  float* out = picture.rgb.data();
+  for (std::uint64_t i = 0; i < pixels; ++i, out += 3) {
+    const Low& low = low_[i];
+    const High high = reads_high ? high_[i] : High{};
+    out[0] = component(low.r, high.r);
+    out[1] = component(low.g, high.g);
+    out[2] = component(low.b, high.b);
   }
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     picture.aov_planes[p].reserve(3 * planes_[p].size());

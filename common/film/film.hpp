@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "film/aov.hpp"
@@ -28,13 +30,15 @@ struct Picture {
 class Film {
  public:
   /// `rays_per_pixel` is S × S, at least 1; every pixel's sum is divided by it at the end. Sides
-  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 48 bytes each, 12 more for each plane of AOVs.
+  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, 24 more for those whose sums
+  /// leave 64 bits, and 12 more for each plane of AOVs. Throws std::bad_alloc.
   Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs = {});
 
   std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
   /// Whether `add` takes this slot: a pixel, or one of a plane of AOVs that is kept.
   bool has_slot(std::uint32_t slot) const;
-  /// Adds light to pixel number y · width + x, or sets AOVs (see aov_slot); has_slot(slot).
+  /// Adds light to pixel number y · width + x, or sets AOVs (see aov_slot); has_slot(slot). Different threads
+  /// may add to different pixels at once.
   void add(std::uint32_t slot, const FixedRgb& light);
   /// Forgets what a pixel has received, its AOVs too (its tile will be traced again).
   void clear(std::uint32_t pixel);
@@ -42,13 +46,27 @@ class Film {
   Picture develop() const;
 
  private:
-  __extension__ typedef __int128 Sum;
-  struct Pixel {
-    Sum r = 0, g = 0, b = 0;
+  /// A pixel's three sums, or their upper halves.
+  struct Low {
+    std::uint64_t r = 0, g = 0, b = 0;
+  };
+  struct High {
+    std::int64_t r = 0, g = 0, b = 0;
+  };
+  struct Release {
+    void operator()(void* memory) const { std::free(memory); }
   };
 
+  void set_aovs(std::uint32_t slot, const FixedRgb& words);
+  void carry(std::uint32_t pixel, const High& change);
+  bool has_high() const;
+
   std::uint32_t width_, height_, rays_per_pixel_;
-  std::vector<Pixel> pixels_;
+  /// Sums in two's complement, 128 bits each: high · 2^64 + low. Hardly any sum needs its upper half,
+  /// so those lie apart, in zero pages that the system provides when they are first written.
+  std::unique_ptr<Low[], Release> low_;
+  /// One more than there are pixels: the last one's r is not 0 when any of the others was written.
+  std::unique_ptr<High[], Release> high_;
   AovSet aovs_;
   std::array<std::vector<AovWords>, kAovPlanes> planes_;
 };

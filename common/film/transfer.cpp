@@ -18,8 +18,8 @@ int srgb_code(double v) {
   return static_cast<int>(255 * encoded + 0.5);
 }
 
-/// Entry k is the least float whose code is k + 1.
-using Thresholds = std::array<float, 255>;
+/// Entry k is the least float whose code is k + 1; the last one is beyond all.
+using Thresholds = std::array<float, 256>;
 
 /// A power per sample would cost more than all else in writing a PNG. Non-negative floats are
 /// ordered as their bits are, so each threshold is found by halving the range of bits.
@@ -34,8 +34,36 @@ Thresholds find_thresholds() {
     }
     thresholds[static_cast<std::size_t>(k)] = std::bit_cast<float>(reached);
   }
+  thresholds.back() = 2;
   return thresholds;
 }
+
+/// Codes of floats from 0 to 1 without a search: the upper half of the bits gives the code at the
+/// beginning of an interval that few thresholds share.
+class SrgbCodes {
+ public:
+  SrgbCodes() : thresholds_(find_thresholds()) {
+    std::uint8_t code = 0;
+    for (std::uint32_t i = 0; i < kIntervals; ++i) {
+      const auto begin = std::bit_cast<float>(i << kBits);
+      while (begin >= thresholds_[code]) ++code;
+      first_code_[i] = code;
+    }
+  }
+
+  std::uint8_t operator()(float v) const {
+    std::uint8_t code = first_code_[std::bit_cast<std::uint32_t>(v) >> kBits];
+    while (v >= thresholds_[code]) ++code;
+    return code;
+  }
+
+ private:
+  static constexpr int kBits = 16;
+  static constexpr std::uint32_t kIntervals = (std::bit_cast<std::uint32_t>(1.0f) >> kBits) + 1;
+
+  Thresholds thresholds_;
+  std::array<std::uint8_t, kIntervals> first_code_{};
+};
 
 }  // namespace
 
@@ -44,9 +72,8 @@ std::uint16_t linear_16_bit(float v) {
 }
 
 std::uint8_t srgb_8_bit(float v) {
-  static const Thresholds thresholds = find_thresholds();
-  const auto position = std::upper_bound(thresholds.begin(), thresholds.end(), clamped(v));
-  return static_cast<std::uint8_t>(position - thresholds.begin());
+  static const SrgbCodes codes;
+  return codes(v > 0 ? std::min(v, 1.0f) : 0.0f);
 }
 
 }  // namespace graycube

@@ -1,7 +1,9 @@
 #include "geometry/affine.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "geometry/check.hpp"
 #include "geometry/portable_math.hpp"
@@ -29,6 +31,10 @@ Affine from_rows(const Vec3& r0, const Vec3& r1, const Vec3& r2, const Vec3& t) 
 std::optional<double> balancing_factor(const Vec3& v) {
   const double largest = max_abs(v);
   if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
+  // Without the library's calls where both exponents are those of normal numbers.
+  const std::uint64_t biased = std::bit_cast<std::uint64_t>(largest) >> 52;
+  constexpr std::uint64_t kBiasSum = 2 * 1022 + 1;
+  if (biased >= 1 && biased < kBiasSum) return std::bit_cast<double>((kBiasSum - biased) << 52);
   int exponent = 0;
   std::frexp(largest, &exponent);
   const double factor = std::ldexp(1.0, -exponent);

@@ -33,9 +33,11 @@ inline Vec3 normalized(const Vec3& a) {
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
+/// The larger number; a NaN loses. std::fmax is that too, but a call.
+inline double larger(double a, double b) { return a > b || b != b ? a : b; }
 /// The largest absolute coordinate.
 inline double max_abs(const Vec3& a) {
-  return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+  return larger(std::fabs(a.x), larger(std::fabs(a.y), std::fabs(a.z)));
 }
 
 /// Linear RGB, unbounded above.
@@ -47,6 +49,6 @@ struct Rgb {
 constexpr Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 constexpr Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 constexpr Rgb operator*(double s, const Rgb& a) { return {s * a.r, s * a.g, s * a.b}; }
-inline double max_component(const Rgb& a) { return std::fmax(a.r, std::fmax(a.g, a.b)); }
+inline double max_component(const Rgb& a) { return larger(a.r, larger(a.g, a.b)); }
 
 }  // namespace graycube

@@ -22,6 +22,10 @@ class Compiler {
   Model run() {
     model_.settings = scene_.settings;
     for (const NamedMaterial& m : scene_.materials) model_.materials.push_back(m.material);
+    // One leaf an object at least, mostly one; growing further doubles as usual.
+    model_.objects.reserve(scene_.objects.size());
+    model_.nodes.reserve(scene_.objects.size());
+    model_.primitives.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
     model_.delta = delta();
     return std::move(model_);

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -16,7 +18,20 @@
 namespace graycube {
 namespace {
 
-using Json = nlohmann::json;
+/// The library appends to its token buffer a character at a time; std::string's own function for
+/// that is compiled elsewhere, and a call for each character. This string's are inlined.
+template <typename T>
+struct InlinedAllocator : std::allocator<T> {
+  template <typename U>
+  struct rebind {
+    using other = InlinedAllocator<U>;
+  };
+  InlinedAllocator() = default;
+  template <typename U>
+  explicit InlinedAllocator(const InlinedAllocator<U>&) {}
+};
+using TokenText = std::basic_string<char, std::char_traits<char>, InlinedAllocator<char>>;
+using Json = nlohmann::basic_json<std::map, std::vector, TokenText>;
 
 /// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
 constexpr std::size_t kBytesPerValue = 7;
@@ -82,11 +97,12 @@ struct Complaint {
 
 }  // namespace
 
-class JsonEvents final : public Json::json_sax_t {
+/// The library calls what has the names of its json_sax.
+class JsonEvents {
  public:
   JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {}
 
-  void parse() {
+  [[gnu::flatten]] void parse() {
     if (text_.starts_with(kByteOrderMark)) last_end_ = kByteOrderMark.size();
     const char* const end = text_.data() + text_.size();
     const bool good =
@@ -98,18 +114,18 @@ class JsonEvents final : public Json::json_sax_t {
     while (!open_.empty()) close();
   }
 
-  bool null() override { return add_word(JsonKind::kNull); }
-  bool boolean(bool value) override { return add_word(value ? JsonKind::kTrue : JsonKind::kFalse); }
+  bool null() { return add_word(JsonKind::kNull); }
+  bool boolean(bool value) { return add_word(value ? JsonKind::kTrue : JsonKind::kFalse); }
   /// Only negative numbers come here, so a zero was written "-0".
-  bool number_integer(number_integer_t value) override {
+  bool number_integer(Json::number_integer_t value) {
     return add_number(value == 0 ? -0.0 : static_cast<double>(value));
   }
-  bool number_unsigned(number_unsigned_t value) override {
+  bool number_unsigned(Json::number_unsigned_t value) {
     return add_number(static_cast<double>(value));
   }
-  bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
+  bool number_float(double value, std::string_view) { return add_number(value); }
 
-  bool string(string_t& value) override {
+  bool string(std::string_view value) {
     Text text;
     if (!keep(value, text)) return false;
     JsonTree::Value& added = add(JsonKind::kString);
@@ -119,22 +135,22 @@ class JsonEvents final : public Json::json_sax_t {
     return true;
   }
 
-  bool key(string_t& value) override {
+  bool key(std::string_view value) {
     if (!keep(value, key_)) return false;
     last_end_ = read_so_far();
     return true;
   }
 
-  bool start_object(std::size_t) override { return open(JsonKind::kObject); }
-  bool start_array(std::size_t) override { return open(JsonKind::kArray); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
+  bool start_object(std::size_t) { return open(JsonKind::kObject); }
+  bool start_array(std::size_t) { return open(JsonKind::kArray); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
   /// JSON text has none.
-  bool binary(binary_t&) override { return false; }
+  bool binary(Json::binary_t&) { return false; }
 
   /// `position` counts the bytes read, the end of the text as one.
   bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::detail::exception& error) override {
+                   const nlohmann::detail::exception& error) {
     if (error.id == kNumberOverflow) {
       const auto self = static_cast<JsonIndex>(tree_.values_.size());
       const std::size_t begin = add(JsonKind::kNumber).begin;
@@ -155,6 +171,10 @@ class JsonEvents final : public Json::json_sax_t {
   }
 
  private:
+  static bool is_between_tokens(char c) {
+    return c == ' ' || c == ',' || c == ':' || c == '\n' || c == '\r' || c == '\t';
+  }
+
   /// A string as found: a range of the text, or an index into the tree's decoded strings.
   struct Text {
     std::uint32_t begin = 0;
@@ -168,7 +188,9 @@ class JsonEvents final : public Json::json_sax_t {
   /// Where the token begins that follows the last event. A separator that doesn't belong there is
   /// passed over as well.
   std::size_t next_token() const {
-    return std::min(text_.find_first_not_of(" \t\r\n,:", last_end_), text_.size());
+    std::size_t at = last_end_;
+    while (at < text_.size() && is_between_tokens(text_[at])) ++at;
+    return at;
   }
 
   JsonTree::Value& add(JsonKind kind) {
@@ -218,7 +240,7 @@ class JsonEvents final : public Json::json_sax_t {
   }
 
   /// A string without escapes stays in the text; its length tells.
-  bool keep(std::string& decoded, Text& out) {
+  bool keep(std::string_view decoded, Text& out) {
     const std::size_t begin = next_token() + 1, length = read_so_far() - 1 - begin;
     if (decoded.size() > kMaxJsonString)
       return fail(begin - 1,
@@ -226,7 +248,7 @@ class JsonEvents final : public Json::json_sax_t {
     out.length = static_cast<std::uint32_t>(decoded.size());
     out.decoded = decoded.size() != length;
     out.begin = static_cast<std::uint32_t>(out.decoded ? tree_.decoded_.size() : begin);
-    if (out.decoded) tree_.decoded_.push_back(decoded);
+    if (out.decoded) tree_.decoded_.emplace_back(decoded);
     return true;
   }
 

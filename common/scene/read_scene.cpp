@@ -129,12 +129,20 @@ class SceneReader {
       return;
     }
     scene_.objects.resize(tree_.size(list));
-    objects.reserve(scene_.objects.size());
+    // Objects without refs need no expansion of their own: one summary holds them all.
+    TreeSummary plain;
     JsonIndex at = tree_.first_child(list);
     for (auto& object : scene_.objects) {
-      objects.push_back(read_object(csg, at, object));
+      TreeSummary summary = read_object(csg, at, object);
       at = tree_.next(at);
+      if (!summary.uses.empty()) {
+        objects.push_back(std::move(summary));
+        continue;
+      }
+      plain.leaves += summary.leaves;
+      plain.nodes += summary.nodes;
     }
+    objects.push_back(std::move(plain));
     check_expansion(tree_, errors_, shape_names_, shapes, objects, list);
   }
 

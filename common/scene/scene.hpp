@@ -5,13 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
+#include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"
 
@@ -108,7 +108,7 @@ struct CsgNode {
                EllipticTorusShape, QuadricShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
-  std::optional<Affine> transform;
+  SparseOptional<Affine> transform;
   /// The nearest one up the tree wins.
   MaterialIndex material = kInheritMaterial;
 

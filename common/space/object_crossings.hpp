@@ -10,6 +10,7 @@
 #include <span>
 
 #include "csg/box.hpp"
+#include "csg/cylinder.hpp"
 #include "csg/half_space.hpp"
 #include "csg/model.hpp"
 #include "csg/sphere.hpp"
@@ -33,6 +34,7 @@ struct PreparedRay {
   explicit PreparedRay(const Ray& r) : ray(r) {
     for (int a = 0; a < 3; ++a) inverse[a] = 1.0 / r.direction[a];
   }
+  PreparedRay(const Ray& r, const Vec3& reciprocals) : ray(r), inverse(reciprocals) {}
   Ray ray;
   Vec3 inverse;
 };
@@ -76,6 +78,12 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
       csg::clip_to_half_space(i, v[3], dot(n, ray.ray.origin), dot(n, ray.ray.direction));
       break;
     }
+    case PrimitiveKind::kCylinder: {
+      const Primitive& p = model.primitives[literal.primitive];
+      i = csg::tube_interval(p.to_local.point(ray.ray.origin), p.to_local.vector(ray.ray.direction));
+      csg::clip_to_caps(i, p, ray.ray);
+      break;
+    }
     default: {
       const Spans s = spans_along(model.primitives[literal.primitive], model.planes, ray.ray);
       if (s.count > 1) return false;
@@ -91,8 +99,32 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
   return true;
 }
 
+/// Kinds whose intervals packet_intervals-inl.hpp computes.
+inline bool has_lane_interval(PrimitiveKind kind) {
+  switch (kind) {
+    case PrimitiveKind::kSphere:
+    case PrimitiveKind::kEllipsoid:
+    case PrimitiveKind::kBox:
+    case PrimitiveKind::kParallelepiped:
+    case PrimitiveKind::kCylinder:
+    case PrimitiveKind::kHalfSpace: return true;
+    default: return false;
+  }
+}
+
 /// Literals whose intervals fit on the stack; larger programs take the general way.
 inline constexpr std::size_t kMaxFlatLiterals = 32;
+
+/// The primitive of the first literal whose own membership changes at t; interval(i) gives literal i's.
+template <typename IntervalOf>
+std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& interval, double t) {
+  for (std::size_t i = 0; i < literals.size(); ++i) {
+    const csg::Interval own = interval(i);
+    // An empty interval may have ends, the wrong way round; they change nothing.
+    if (own.enter < own.leave && (own.enter == t || own.leave == t)) return literals[i].primitive;
+  }
+  return literals.front().primitive;
+}
 
 /// Membership of a conjunction along the line, as half-open intervals [E, L): right after the crossings at t,
 /// a literal holds where enter ≤ t < leave. So the conjunction is the upright literals' common interval
@@ -144,6 +176,10 @@ struct SurfaceItem {
   std::uint32_t node_count = 0;
   /// The literals are those of the complement, which is a conjunction: entering and leaving swap.
   bool is_complement = false;
+  /// No crossing of it lets light through.
+  bool is_opaque = true;
+  /// Flat, of few literals, of kinds whose intervals are computed for several rays at once.
+  bool has_lanes = false;
 };
 
 }  // namespace graycube

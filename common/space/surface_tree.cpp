@@ -45,13 +45,18 @@ class SurfaceTreeBuilder {
     }
     if (!bounded.empty()) {
       tree_.nodes_.emplace_back();
-      build_node(0, bounded);
+      build_node(0, bounded, 0);
+      put_items_in_tree_order();
     }
     return std::move(tree_);
   }
 
  private:
   static constexpr int kBins = 16;
+  /// From here on groups are simply halved, so that no heap of items, however skewed, makes the tree deeper
+  /// than the walk's stack: 32 more levels, each of which halves the largest group at least, end 2³² items.
+  static constexpr std::size_t kMaxChosenDepth = 40;
+  static_assert(kMaxChosenDepth + 32 <= SurfaceTree::kMaxDepth);
 
   void add_object(std::uint32_t index) {
     const Object& object = model_.objects[index];
@@ -91,6 +96,7 @@ class SurfaceTreeBuilder {
     item.cell = cell;
     item.first_literal = static_cast<std::uint32_t>(tree_.literals_.size());
     const bool is_flat = std::all_of(tree.begin() + 1, tree.end(), is_leaf);
+    item.has_lanes = is_flat;
     item.is_complement = is_flat && tree.front().kind == TreeNode::Kind::kOr;
     for (const TreeNode& n : tree) {
       if (!is_leaf(n)) continue;
@@ -98,8 +104,11 @@ class SurfaceTreeBuilder {
       Literal literal{p.v, n.primitive, p.kind, n.kind == TreeNode::Kind::kInvertedLeaf};
       literal.is_inverted = literal.is_inverted != item.is_complement;
       tree_.literals_.push_back(literal);
+      item.has_lanes = item.has_lanes && crossings::has_lane_interval(p.kind);
+      item.is_opaque = item.is_opaque && !(model_.materials[p.material].transmit > 0);
     }
     item.literal_count = static_cast<std::uint32_t>(tree_.literals_.size()) - item.first_literal;
+    item.has_lanes = item.has_lanes && item.literal_count <= crossings::kMaxFlatLiterals;
     if (!is_flat) {
       item.first_node = static_cast<std::uint32_t>(tree_.program_nodes_.size());
       item.node_count = static_cast<std::uint32_t>(tree.size());
@@ -172,7 +181,7 @@ class SurfaceTreeBuilder {
     return static_cast<std::size_t>(middle - items.begin());
   }
 
-  void build_node(std::uint32_t index, std::span<std::uint32_t> items) {
+  void build_node(std::uint32_t index, std::span<std::uint32_t> items, std::size_t depth) {
     std::vector<Group> groups{group_of(items)};
     while (groups.size() < WideNode::kWidth) {
       // The group with the largest surface is opened next.
@@ -185,7 +194,7 @@ class SurfaceTreeBuilder {
       }
       if (widest == groups.size()) break;
       const auto all = groups[widest].items;
-      const std::size_t middle = partition(all);
+      const std::size_t middle = depth < kMaxChosenDepth ? partition(all) : all.size() / 2;
       groups[widest] = group_of(all.first(middle));
       groups.push_back(group_of(all.subspan(middle)));
     }
@@ -206,8 +215,33 @@ class SurfaceTreeBuilder {
     }
     tree_.nodes_[index] = node;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (groups[g].items.size() > 1) build_node(node.child[g], groups[g].items);
+      if (groups[g].items.size() > 1) build_node(node.child[g], groups[g].items, depth + 1);
     }
+  }
+
+  /// Items that are near each other in space become so in memory, with their literals.
+  void put_items_in_tree_order() {
+    std::vector<SurfaceItem> items;
+    std::vector<Literal> literals;
+    items.reserve(tree_.items_.size());
+    literals.reserve(tree_.literals_.size());
+    const auto move = [&](std::uint32_t index) {
+      SurfaceItem item = tree_.items_[index];
+      const auto own = tree_.literals_of(item);
+      item.first_literal = static_cast<std::uint32_t>(literals.size());
+      literals.insert(literals.end(), own.begin(), own.end());
+      items.push_back(item);
+      return static_cast<std::uint32_t>(items.size() - 1);
+    };
+    for (WideNode& node : tree_.nodes_) {
+      for (std::uint32_t& child : node.child) {
+        if ((child & WideNode::kItemFlag) == 0) continue;
+        child = WideNode::kItemFlag | move(child & ~WideNode::kItemFlag);
+      }
+    }
+    for (std::uint32_t& index : tree_.unbounded_) index = move(index);
+    tree_.items_ = std::move(items);
+    tree_.literals_ = std::move(literals);
   }
 
   const Model& model_;

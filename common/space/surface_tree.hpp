@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "csg/model.hpp"
 #include "space/object_crossings.hpp"
+#include "space/ray_packet.hpp"
 
 namespace graycube {
 
@@ -32,6 +34,15 @@ struct SurfaceTreeOptions {
 
 /// Scratch and counts of one evaluator.
 struct TreeScratch {
+  /// A transparent surface that a shadow ray crosses, and which ray of a packet it is.
+  struct Pane {
+    std::size_t ray;
+    double t;
+    std::uint32_t object;
+    double transmit;
+  };
+  std::vector<Pane> panes;
+
   std::vector<Mailbox::Event> events;
   std::vector<std::uint64_t> flags_before, flags_after;
   WalkCounts counts;
@@ -52,6 +63,13 @@ class SurfaceTree {
   /// transparent one's transmit, in order of t, then of the objects. False when an opaque one ends it.
   bool pass_light(const Ray& ray, double t0, double t1, TreeScratch& scratch, Rgb& light) const;
 
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  RayPacket::Mask first_crossings(const RayPacket& packet, TreeScratch& scratch,
+                                  std::span<Crossing, RayPacket::kSize> found) const;
+  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  RayPacket::Mask pass_lights(const RayPacket& packet, TreeScratch& scratch,
+                              std::span<Rgb, RayPacket::kSize> light) const;
+
   const Model& model() const { return *model_; }
   std::size_t item_count() const { return items_.size(); }
   std::size_t memory_bytes() const;
@@ -61,9 +79,20 @@ class SurfaceTree {
   bool for_each_item_crossing(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                               TreeScratch& scratch, Visit&& visit) const;
 
+  /// Entries of a walk's stack; a node leaves at most seven behind on each level.
+  static constexpr std::size_t kMaxStack = 512;
+  static constexpr std::size_t kMaxDepth = (kMaxStack - WideNode::kWidth) / (WideNode::kWidth - 1);
+
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const std::vector<SurfaceItem>& items() const { return items_; }
   const std::vector<std::uint32_t>& unbounded_items() const { return unbounded_; }
+  std::span<const Literal> literals_of(const SurfaceItem& item) const {
+    return {literals_.data() + item.first_literal, item.literal_count};
+  }
+  /// Only for items with a cell.
+  const Aabb& cell_of(const SurfaceItem& item) const { return cells_[item.cell]; }
+  /// Cuts [t0, t1) to the piece of the ray in the item's cell; false when there is none.
+  bool clip_to_cell(const SurfaceItem& item, const PreparedRay& ray, double& t0, double& t1) const;
   /// Transmit of each primitive's material.
   double transmit_of(std::uint32_t primitive) const {
     return model_->materials[model_->primitives[primitive].material].transmit;
@@ -74,7 +103,6 @@ class SurfaceTree {
   template <typename Visit>
   bool general_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                          TreeScratch& scratch, Visit&& visit) const;
-  bool clip_to_cell(const SurfaceItem& item, const PreparedRay& ray, double& t0, double& t1) const;
 
   const Model* model_ = nullptr;
   std::vector<WideNode> nodes_;
@@ -115,7 +143,7 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
   if (item.first_node != SurfaceItem::kFlat || item.literal_count > crossings::kMaxFlatLiterals) {
     return general_crossings(item, ray, t0, t1, scratch, visit);
   }
-  const std::span<const Literal> literals{literals_.data() + item.first_literal, item.literal_count};
+  const auto literals = literals_of(item);
   std::array<csg::Interval, crossings::kMaxFlatLiterals> intervals;
   std::array<csg::Interval, crossings::kMaxFlatLiterals> removed;
   std::size_t removed_count = 0;
@@ -137,17 +165,9 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
     if (!(from < to) || to < t0 || from >= t1) return true;
   }
   const auto at_end = [&](double t, bool entering) {
-    Crossing c{t, literals.front().primitive, item.object, entering != item.is_complement};
-    // The first literal whose own membership changes at t.
-    for (std::size_t i = 0; i < literals.size(); ++i) {
-      const csg::Interval& own = intervals[i];
-      // An empty interval may have ends, the wrong way round; they change nothing.
-      if (own.enter < own.leave && (own.enter == t || own.leave == t)) {
-        c.primitive = literals[i].primitive;
-        break;
-      }
-    }
-    return visit(c);
+    const auto interval = [&](std::size_t i) { return intervals[i]; };
+    return visit(Crossing{t, crossings::changed_literal(literals, interval, t), item.object,
+                          entering != item.is_complement});
   };
   return crossings::conjunction_ends({removed.data(), removed_count}, from, to, t0, t1, at_end);
 }
@@ -155,7 +175,7 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
 template <typename Visit>
 bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0,
                                     double t1, TreeScratch& scratch, Visit&& visit) const {
-  const std::span<const Literal> literals{literals_.data() + item.first_literal, item.literal_count};
+  const auto literals = literals_of(item);
   auto& events = scratch.events;
   auto& before = scratch.flags_before;
   auto& after = scratch.flags_after;

@@ -26,6 +26,31 @@ Domain::Domain(MacroGrid grid, RegionIndex region, Model model, Subdivision subd
       region_(region),
       territory_(make_territory(std::move(model), subdivision)) {}
 
+RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch& scratch,
+                                        std::span<Crossing, RayPacket::kSize> found) const {
+  if (territory_->tree) return territory_->tree->first_crossings(packet, scratch.tree, found);
+  RayPacket::Mask any = 0;
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    const auto hit = first_crossing(packet.ray(i), packet.t0[i], packet.t1[i], scratch);
+    if (!hit) continue;
+    found[i] = *hit;
+    any |= RayPacket::Mask{1} << i;
+  }
+  return any;
+}
+
+RayPacket::Mask Domain::pass_lights(const RayPacket& packet, CrossingScratch& scratch,
+                                    std::span<Rgb, RayPacket::kSize> light) const {
+  if (territory_->tree) return territory_->tree->pass_lights(packet, scratch.tree, light);
+  RayPacket::Mask arriving = 0;
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    if (pass_light(packet.ray(i), packet.t0[i], packet.t1[i], scratch, light[i])) {
+      arriving |= RayPacket::Mask{1} << i;
+    }
+  }
+  return arriving;
+}
+
 std::size_t Domain::cell_count() const {
   return territory_->tree ? territory_->tree->item_count() : territory_->bsp->leaves().size();
 }

@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "csg/model.hpp"
 #include "space/bsp.hpp"
 #include "space/camera.hpp"
 #include "space/macro_grid.hpp"
+#include "space/ray_packet.hpp"
 #include "space/surface_tree.hpp"
 #include "space/walk.hpp"
 
@@ -70,6 +72,12 @@ class Domain {
     scratch.mailbox.begin_ray();
     return graycube::pass_light(*territory_->bsp, ray, t0, t1, scratch.mailbox, light);
   }
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
+                                  std::span<Crossing, RayPacket::kSize> found) const;
+  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
+                              std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   bool holds(RegionIndex region) const { return !grid_ || region == region_; }

@@ -38,7 +38,8 @@ struct RayCounts {
 struct Step {
   /// Rays that left the domain, each with the region it goes on in and the t reached.
   std::vector<RayTask> leaving;
-  /// Consecutive contributions to one pixel are merged.
+  /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it would hold
+  /// too many contributions.
   std::vector<PixelReturn> returns;
   RayCounts rays;
   RoundingCounts rounding;
@@ -46,10 +47,11 @@ struct Step {
   void clear();
 };
 
-/// Evaluates rays one after another until nothing of them is left in the domain. One evaluator a thread.
+/// Evaluates rays until nothing of them is left in the domain: packet by packet of rays of one kind and
+/// generation, the youngest first, so that what is under way stays little. One evaluator a thread.
 class Evaluator {
  public:
-  explicit Evaluator(const Domain& domain) : domain_(domain) {}
+  explicit Evaluator(const Domain& domain);
 
   /// Traces the primary rays of a rectangle of pixels; appends to `step`.
   void trace_pixels(const PixelRect& rect, Step& step);
@@ -59,16 +61,51 @@ class Evaluator {
   WalkCounts walk_counts() const { return scratch_.counts(); }
 
  private:
-  void trace_tree(const RayTask& root, Step& step);
-  void trace_light_ray(RayTask& task, Step& step);
-  void trace_viewing_ray(RayTask& task, Step& step);
-  void shade(const RayTask& task, double t, std::uint32_t primitive, bool entering, Step& step);
-  void contribute(const RayTask& task, const Rgb& light, const Credit& credit, Step& step);
-  void give_back(std::uint32_t pixel, const Credit& credit, Step& step);
+  /// A ray, and which of the open pixels it belongs to.
+  struct OpenRay {
+    RayTask task;
+    std::uint32_t slot = 0;
+  };
+
+  /// What is known of a surface where a ray meets it.
+  struct SurfacePoint {
+    const Material& material;
+    Vec3 p;
+    /// The unit normal turned against the ray, and the ray's mirror direction.
+    Vec3 n, mirror;
+    bool entering;
+  };
+
+  void trace_block(const PixelRect& block, Step& step);
+  void trace_all(Step& step);
+  void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, Step& step);
+  void take_wave(std::vector<OpenRay>& stack);
+  template <typename Trace>
+  static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
+  void trace_sent_rays(Step& step);
+  void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
+  void trace_light_rays(std::span<const OpenRay> rays, Step& step);
+  void go_on(const OpenRay& ray, const RegionExit& exit, std::vector<OpenRay>& stack, Step& step);
+  void shade(const OpenRay& ray, const Crossing& hit, Step& step);
+  void send_secondary_rays(const OpenRay& ray, const SurfacePoint& at, Step& step);
+  void send_light_rays(const OpenRay& ray, const SurfacePoint& at, Step& step);
+  void share_credit(const OpenRay& ray);
+  void open_pixel(std::uint32_t pixel);
+  void contribute(const OpenRay& ray, const Rgb& light, Step& step);
+  void close_pixels(Step& step);
 
   const Domain& domain_;
   CrossingScratch scratch_;
-  std::vector<RayTask> stack_;
+  /// Rays of one kind, generation and region, under way together.
+  std::vector<OpenRay> wave_;
+  std::vector<OpenRay> viewing_, lights_;
+  /// What the surfaces of one wave send out: refracted and reflected rays, and the shadow rays of each light.
+  std::array<std::vector<OpenRay>, 2> secondary_;
+  std::vector<std::vector<OpenRay>> shadow_;
+  /// The lights, and kinds of secondary rays, that the surface being shaded sends rays for.
+  std::vector<std::uint32_t> lit_by_, sends_;
+  /// By slot.
+  std::vector<PixelReturn> open_;
 };
 
 }  // namespace graycube

@@ -1,8 +1,10 @@
 #include "film/film.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -37,6 +39,37 @@ Picture picture_of(const std::vector<Arrival>& arrivals, std::uint32_t width, st
   Film film(width, height, rays);
   for (const Arrival& arrival : arrivals) film.add(arrival.pixel, arrival.light);
   return film.develop();
+}
+
+__extension__ typedef __int128 Wide;
+__extension__ typedef unsigned __int128 UnsignedWide;
+
+/// sum · 2^-32 / rays rounded to float once, bit by bit in 128-bit integers: for sums below 2^90.
+float slow_mean(Wide sum, std::uint32_t rays) {
+  if (sum == 0) return 0;
+  auto size = static_cast<UnsignedWide>(sum < 0 ? -sum : sum);
+  int exponent = -32;
+  for (; size >> 95 == 0; --exponent) size <<= 1;  // 64 bits of quotient at least
+  UnsignedWide quotient = size / rays;
+  bool rest = size % rays != 0;
+  bool half = false;
+  for (; quotient >> 24 != 0; ++exponent) {
+    rest = rest || half;
+    half = (quotient & 1) != 0;
+    quotient >>= 1;
+  }
+  if (half && (rest || (quotient & 1) != 0)) ++quotient;
+  const float mean = std::ldexp(static_cast<float>(static_cast<std::uint64_t>(quotient)), exponent);
+  return sum < 0 ? -mean : mean;
+}
+
+/// Any magnitude below 2^63, of either sign; often with few bits set, so that ties occur.
+std::int64_t random_fixed(std::mt19937_64& engine) {
+  std::uint64_t bits = engine() >> 1 >> engine() % 62;
+  if (engine() % 2 == 0) bits &= engine() & engine();
+  if (engine() % 4 == 0) bits &= ~std::uint64_t{0} << engine() % 40;
+  const auto size = static_cast<std::int64_t>(bits);
+  return engine() % 4 == 0 ? -size : size;
 }
 
 /// One red component, developed.
@@ -138,6 +171,55 @@ TEST_CASE("random means agree with long division in extended precision") {
     CAPTURE(i, fixed, rays);
     // Half a unit of a float's last place, and a little for the reference's own rounding.
     CHECK(std::fabs(developed(fixed, rays) - exact) <= exact * 0x1.000001p-24L);
+  }
+}
+
+TEST_CASE("every mean has the bits of exact arithmetic, whatever the sum's size and the rays") {
+  std::mt19937_64 engine(6);
+  constexpr std::uint32_t kSide = 64;
+  for (const std::uint32_t rays : {1u, 2u, 4u, 9u, 16u, 25u, 49u, 64u, 4096u, 65025u, 1u << 31,
+                                   std::numeric_limits<std::uint32_t>::max()}) {
+    Film film(kSide, kSide, rays);
+    std::vector<Wide> sums(3 * kSide * kSide);
+    for (int round = 0; round < 12; ++round) {
+      for (std::uint32_t pixel = 0; pixel < kSide * kSide; ++pixel) {
+        // Some pixels receive once, others until their sums leave 64 bits, and some come back.
+        if (round > 0 && pixel % 4 < 2) continue;
+        const FixedRgb light{random_fixed(engine), random_fixed(engine), random_fixed(engine)};
+        film.add(pixel, light);
+        sums[3 * pixel] += light.r;
+        sums[3 * pixel + 1] += light.g;
+        sums[3 * pixel + 2] += light.b;
+      }
+      if (round != 0 && round != 1 && round != 11) continue;
+      const Picture picture = film.develop();
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        const float expected = slow_mean(sums[i], rays);
+        if (std::bit_cast<std::uint32_t>(picture.rgb[i]) == std::bit_cast<std::uint32_t>(expected))
+          continue;
+        CAPTURE(rays, round, i, picture.rgb[i], expected);
+        FAIL("another mean");
+      }
+    }
+  }
+}
+
+TEST_CASE("the ends of 64 bits are developed exactly") {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  for (const std::uint32_t rays : {1u, 3u, 16u}) {
+    for (const std::int64_t first : {kMost, kLeast, std::int64_t{0}, std::int64_t{-1}}) {
+      for (const std::int64_t second : {kMost, kLeast, std::int64_t{0}, std::int64_t{1}}) {
+        CAPTURE(rays, first, second);
+        Film film(1, 1, rays);
+        film.add(0, {0, 0, first});
+        film.add(0, {0, 0, second});
+        CHECK(film.develop().rgb[2] == slow_mean(Wide{first} + second, rays));
+        film.clear(0);
+        film.add(0, {0, 0, 1});
+        CHECK(film.develop().rgb[2] == slow_mean(1, rays));
+      }
+    }
   }
 }
 

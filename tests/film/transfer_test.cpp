@@ -1,7 +1,9 @@
 #include "film/transfer.hpp"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 using namespace graycube;
@@ -45,6 +47,26 @@ TEST_CASE("well-known sRGB values come out") {
   CHECK(srgb_8_bit(0.0030353f) == 10);  // on the straight piece
   CHECK(srgb_8_bit(0.0001f) == 0);
   CHECK(srgb_8_bit(0.0002f) == 1);
+}
+
+TEST_CASE("sRGB samples of floats in order are in order, and step where the formula does") {
+  // Every step lies between two neighbouring floats; on both sides of each the formula agrees.
+  std::uint32_t below = 0;
+  for (int code = 1; code <= 255; ++code) {
+    auto reached = std::bit_cast<std::uint32_t>(1.0f);
+    std::uint32_t low = below;
+    while (reached - low > 1) {
+      const std::uint32_t middle = low + (reached - low) / 2;
+      (srgb_8_bit(std::bit_cast<float>(middle)) >= code ? reached : low) = middle;
+    }
+    CAPTURE(code);
+    const auto at = std::bit_cast<float>(reached), before = std::bit_cast<float>(reached - 1);
+    CHECK(int{srgb_8_bit(at)} == code);
+    CHECK(int{srgb_8_bit(before)} == code - 1);
+    CHECK(255 * srgb_by_the_library(at) + 0.5 >= code - 1e-9);
+    CHECK(255 * srgb_by_the_library(before) + 0.5 < code + 1e-9);
+    below = reached;
+  }
 }
 
 TEST_CASE("every sRGB sample is the formula's, rounded") {

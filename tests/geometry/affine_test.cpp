@@ -52,6 +52,14 @@ TEST_CASE("a composed map applies the first map first") {
   }
 }
 
+TEST_CASE("scaling by any power of two has an exact inverse") {
+  for (int k = -1023; k <= 1023; ++k) {
+    CAPTURE(k);
+    const double factor = std::ldexp(1.0, k);
+    CHECK(scaling({factor, 1, -factor}).inverse() == scaling({1 / factor, 1, -1 / factor}));
+  }
+}
+
 TEST_CASE("an inverse undoes its map") {
   RandomMaps random(2);
   for (int i = 0; i < 500; ++i) {

@@ -1,7 +1,9 @@
 // One scene, one picture: byte for byte, whatever computes it.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "integration/sandbox.hpp"
+#include "space/simd.hpp"
 
 namespace graycube {
 namespace {
@@ -63,6 +65,32 @@ TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
 }
 TEST_CASE("an orthographic picture is the same whatever computes it") {
   check_identity("ortho.json");
+}
+
+TEST_CASE("a picture does not show which vector instructions computed it") {
+  Sandbox sandbox;
+  for (const char* scene : {"first.json", "glass.json", "mirrors.json", "tori.json"}) {
+    std::string reference;
+    for (const std::string& name : simd_names()) {
+      INFO(scene << " with " << name);
+      ::setenv("GRAYCUBE_SIMD", name.c_str(), 1);
+      const std::string serial = picture(sandbox, scene, kSmallSize, {"--algorithm", "serial"});
+      const std::string macro =
+          picture(sandbox, scene, kSmallSize, {"--algorithm", "macro", "-n", "4"});
+      ::unsetenv("GRAYCUBE_SIMD");
+      if (reference.empty()) reference = serial;
+      CHECK((serial == reference));
+      CHECK((macro == reference));
+    }
+  }
+}
+TEST_CASE("vector instructions that the machine doesn't have are refused") {
+  Sandbox sandbox;
+  ::setenv("GRAYCUBE_SIMD", "mmx", 1);
+  const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-q"});
+  ::unsetenv("GRAYCUBE_SIMD");
+  CHECK(o.status == 2);
+  CHECK(o.err.find("graycube: environment: GRAYCUBE_SIMD: mmx: this machine has best, scalar") == 0);
 }
 
 }  // namespace

@@ -2,11 +2,15 @@
 #include "space/surface_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "against_whole_trees.hpp"
+#include "space/simd.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -92,4 +96,116 @@ TEST_CASE("a tree of one item and a tree of thousands find the same") {
     REQUIRE(a->primitive == b->primitive);
   }
   CHECK(hits > 100);
+}
+
+namespace {
+
+/// A packet of rays of which many go the same way, and what each of them finds alone.
+struct PacketCase {
+  RayPacket packet;
+  std::array<std::optional<Crossing>, RayPacket::kSize> expected;
+  std::array<std::optional<Rgb>, RayPacket::kSize> light;
+};
+
+constexpr Rgb kStart{0.9, 0.7, 0.3};
+
+PacketCase packet_case(const SurfaceTree& tree, RandomRays& maker, TreeScratch& scratch) {
+  PacketCase c;
+  Dice& dice = maker.dice();
+  const std::size_t count = dice.one_in(4) ? 1 + dice.below(RayPacket::kSize) : RayPacket::kSize;
+  const std::uint64_t spread = dice.below(3);  // one kind of ray; side by side; anything
+  RayCase ray = maker.make(dice.below(kRayCases));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (spread == 2) ray = maker.make(dice.below(kRayCases));
+    if (spread == 1) {
+      ray.ray.origin = ray.ray.origin + 0.05 * dice.point(1);
+      ray.ray.direction = normalized(ray.ray.direction + 0.05 * dice.point(1));
+    }
+    const double t0 = std::fmax(0.0, ray.t0);
+    c.packet.add(ray.ray, t0, ray.t1);
+    c.expected[i] = tree.first_crossing(ray.ray, t0, ray.t1, scratch);
+    Rgb light = kStart;
+    if (tree.pass_light(ray.ray, t0, ray.t1, scratch, light)) c.light[i] = light;
+  }
+  return c;
+}
+
+bool finds_the_same(const SurfaceTree& tree, const PacketCase& c, TreeScratch& scratch) {
+  std::array<Crossing, RayPacket::kSize> found;
+  const RayPacket::Mask hits = tree.first_crossings(c.packet, scratch, found);
+  std::array<Rgb, RayPacket::kSize> light;
+  light.fill(kStart);
+  const RayPacket::Mask passed = tree.pass_lights(c.packet, scratch, light);
+  for (std::size_t i = 0; i < c.packet.count; ++i) {
+    if (((hits >> i & 1) != 0) != c.expected[i].has_value()) return false;
+    if (c.expected[i] && !(plain(found[i]) == plain(*c.expected[i]))) return false;
+    if (((passed >> i & 1) != 0) != c.light[i].has_value()) return false;
+    if (c.light[i] && !(light[i] == *c.light[i])) return false;
+  }
+  return hits >> c.packet.count == 0 && passed >> c.packet.count == 0;
+}
+
+}  // namespace
+
+TEST_CASE("a packet finds bit for bit what its rays find alone, with every instruction set") {
+  const std::vector<std::string> simd = simd_names();
+  REQUIRE(!simd.empty());
+  std::size_t hits = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const SceneFamily& family = kFamilies[seed % kFamilies.size()];
+    const Model model = compile_scene(RandomModel(seed, family.options).scene());
+    const SurfaceTree tree = SurfaceTree::build(model, kOptions[seed / 4 % kOptions.size()]);
+    RandomRays maker(seed, model);
+    TreeScratch scratch;
+    for (int i = 0; i < 60; ++i) {
+      const PacketCase c = packet_case(tree, maker, scratch);
+      for (const auto& hit : c.expected) hits += hit ? 1 : 0;
+      for (const std::string& name : simd) {
+        REQUIRE(choose_simd(name));
+        INFO("seed " << seed << ", packet " << i << ", " << name);
+        REQUIRE(finds_the_same(tree, c, scratch));
+      }
+      choose_simd("best");
+    }
+  }
+  CHECK(hits > 50000);
+}
+
+TEST_CASE("an instruction set is chosen by name, and unknown ones are refused") {
+  CHECK(simd_names().front() == "scalar");
+  CHECK_FALSE(choose_simd("mmx"));
+  CHECK(choose_simd("scalar"));
+  CHECK(choose_simd("best"));
+}
+
+namespace {
+
+std::size_t depth_below(const SurfaceTree& tree, std::uint32_t node) {
+  std::size_t deepest = 0;
+  for (const std::uint32_t child : tree.nodes()[node].child) {
+    if (child == 0 || (child & WideNode::kItemFlag) != 0) continue;
+    deepest = std::max(deepest, depth_below(tree, child));
+  }
+  return 1 + deepest;
+}
+
+}  // namespace
+
+TEST_CASE("items whose sizes grow without end don't make the tree deeper than the walk's stack") {
+  std::vector<CsgNode> spheres;
+  for (double size = 1e-30; size < 1e30; size *= 1.2) {
+    spheres.push_back(node_of(SphereShape{{3 * size, 0, 0}, 0.2 * size}));
+  }
+  const Model model = compile_scene(scene_of(spheres));
+  const SurfaceTree tree = SurfaceTree::build(model);
+  CHECK(depth_below(tree, 0) > 20);
+  CHECK(depth_below(tree, 0) <= SurfaceTree::kMaxDepth);
+  TreeScratch scratch;
+  for (const Primitive& p : model.primitives) {
+    const double r = p.v[3];
+    const Ray ray{Vec3{p.v[0], 0, 3 * r}, {0, 0, -1}};
+    const auto hit = tree.first_crossing(ray, 0, 2.5 * r, scratch);
+    REQUIRE(hit);
+    CHECK(hit->t == Approx(2 * r));
+  }
 }

@@ -1,0 +1,186 @@
+// How one ray passes through the nodes of the surface tree. Included once for each instruction set, in the
+// way of Highway's own headers; which one runs can't show in a result, since boxes only cull,
+// conservatively, and crossings are computed in doubles.
+#if defined(GRAYCUBE_SPACE_TREE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAYCUBE_SPACE_TREE_WALK_INL
+#undef GRAYCUBE_SPACE_TREE_WALK_INL
+#else
+#define GRAYCUBE_SPACE_TREE_WALK_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "space/surface_tree.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace graycube {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Relative error of a float plane parameter: the direction, its reciprocal and the slack itself, a
+/// difference and a product, each rounded once, with room to spare.
+constexpr float kSlack = 1e-6f;
+/// Directions flatter than this count as this: such a ray doesn't move sideways within any scene.
+constexpr float kFlattest = 1e-30f;
+
+/// One coordinate of a ray in floats, made so that no box which the exact ray meets is missed: distances
+/// are taken from a little before the origin to the near planes, from a little behind it to the far ones,
+/// and the reciprocals carry the slack.
+struct CullingAxis {
+  CullingAxis(double origin, double direction) {
+    const auto f = static_cast<float>(origin);
+    const float error = std::fabs(f) * 1.2e-7f + 1e-37f;
+    auto d = static_cast<float>(direction);
+    if (std::fabs(d) < kFlattest) d = std::signbit(d) ? -kFlattest : kFlattest;
+    is_downward = d < 0;
+    const float inverse = 1 / d;
+    near_inverse = inverse * (1 - kSlack);
+    far_inverse = inverse * (1 + kSlack);
+    near_origin = is_downward ? f - error : f + error;
+    far_origin = is_downward ? f + error : f - error;
+  }
+  float near_inverse, far_inverse, near_origin, far_origin;
+  bool is_downward;
+};
+
+struct CullingRay {
+  CullingRay() = default;
+  explicit CullingRay(const Ray& ray) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      set(a, CullingAxis(ray.origin[static_cast<int>(a)], ray.direction[static_cast<int>(a)]));
+    }
+  }
+  void set(std::size_t a, const CullingAxis& axis) {
+    near_inverse[a] = axis.near_inverse;
+    far_inverse[a] = axis.far_inverse;
+    near_origin[a] = axis.near_origin;
+    far_origin[a] = axis.far_origin;
+    near_side[a] = axis.is_downward ? 1 : 0;
+  }
+  std::array<float, 3> near_inverse, far_inverse, near_origin, far_origin;
+  /// Index into WideNode::planes of the side that the ray meets first.
+  std::array<std::size_t, 3> near_side;
+};
+
+/// Tests the eight boxes of a node against [t0, t1]; bit i of the result: child i may be met, from near[i] on.
+HWY_INLINE std::uint32_t meet(const WideNode& node, const CullingRay& ray, float t0, float t1,
+                              float* HWY_RESTRICT near) {
+  const hn::CappedTag<float, WideNode::kWidth> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < WideNode::kWidth; i += lanes) {
+    auto from = hn::Set(d, t0);
+    auto to = hn::Set(d, t1);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto near_plane = hn::Load(d, node.planes[ray.near_side[a]][a].data() + i);
+      const auto far_plane = hn::Load(d, node.planes[1 - ray.near_side[a]][a].data() + i);
+      const auto enter = hn::Mul(hn::Sub(near_plane, hn::Set(d, ray.near_origin[a])),
+                                 hn::Set(d, ray.near_inverse[a]));
+      const auto leave = hn::Mul(hn::Sub(far_plane, hn::Set(d, ray.far_origin[a])),
+                                 hn::Set(d, ray.far_inverse[a]));
+      from = hn::Max(from, enter);
+      to = hn::Min(to, leave);
+    }
+    hn::StoreU(from, d, near + i);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Le(from, to), bits);
+    mask |= static_cast<std::uint32_t>(bits[0] & ((1u << lanes) - 1)) << i;
+  }
+  return mask;
+}
+
+HWY_INLINE float float_up(double t) {
+  const auto f = static_cast<float>(t);
+  return f * (1 + kSlack) + 1e-37f;
+}
+HWY_INLINE float float_down(double t) { return static_cast<float>(t) * (1 - kSlack); }
+
+HWY_INLINE std::size_t octant(const Vec3& d) {
+  return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
+}
+
+/// What finds the first crossing wants near boxes first; for what asks whether there is any, sorting costs
+/// more than it saves.
+enum class Order { kNearestFirst, kAny };
+
+/// Moves what is nearer than t, from `base` on, up by one place of a stack; returns the place left free.
+template <typename Entry>
+HWY_INLINE std::size_t make_place(Entry* stack, std::size_t base, std::size_t top, float t) {
+  while (top > base && stack[top - 1].t < t) {
+    stack[top] = stack[top - 1];
+    --top;
+  }
+  return top;
+}
+
+/// Calls visit(item index) for the items below `root` whose boxes the ray may meet in [t0, t1()], until it
+/// returns false.
+template <Order order, typename End, typename Visit>
+bool each_item_below(const SurfaceTree& tree, std::uint32_t root, const CullingRay& ray, float t0,
+                     End&& t1, TreeScratch& scratch, Visit&& visit) {
+  struct StackEntry {
+    std::uint32_t child;
+    float t;
+  };
+  StackEntry stack[SurfaceTree::kMaxStack];
+  std::size_t size = 0;
+  stack[size++] = {root, t0};
+  while (size > 0) {
+    const StackEntry top = stack[--size];
+    const float last = float_up(t1());
+    if (top.t > last) continue;
+    if ((top.child & WideNode::kItemFlag) != 0) {
+      if (!visit(top.child & ~WideNode::kItemFlag)) return false;
+      continue;
+    }
+    ++scratch.counts.cells_visited;
+    const WideNode& node = tree.nodes()[top.child];
+    HWY_ALIGN float near[WideNode::kWidth];
+    std::uint32_t mask = meet(node, ray, t0, last, near);
+    const std::size_t base = size;
+    while (mask != 0) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
+      mask &= mask - 1;
+      std::size_t at = size++;
+      if constexpr (order == Order::kNearestFirst) at = make_place(stack, base, at, near[i]);
+      stack[at] = {node.child[i], near[i]};
+    }
+  }
+  return true;
+}
+
+/// Replaces `found` by the item's first crossing with t0 ≤ t < found.t; at equal t the first object wins.
+/// Before anything is found, found.t is the ray's end.
+HWY_INLINE void take_first_crossing(const SurfaceTree& tree, std::uint32_t index,
+                                    const PreparedRay& ray, double t0, TreeScratch& scratch,
+                                    Crossing& found, bool& any) {
+  const SurfaceItem& item = tree.items()[index];
+  const bool wins_ties = any && item.object < found.object;
+  const double end = wins_ties ? std::nextafter(found.t, Aabb::kInf) : found.t;
+  tree.for_each_item_crossing(item, ray, t0, end, scratch, [&](const Crossing& c) {
+    found = c;
+    any = true;
+    return false;
+  });
+}
+
+/// Takes what the panes keep back from the light of their rays; `light` is indexed by ray.
+inline void dim(std::vector<TreeScratch::Pane>& panes, Rgb* light) {
+  if (panes.empty()) return;
+  using Pane = TreeScratch::Pane;
+  std::sort(panes.begin(), panes.end(), [](const Pane& a, const Pane& b) {
+    return a.t != b.t ? a.t < b.t : a.object < b.object;
+  });
+  for (const Pane& pane : panes) light[pane.ray] = pane.transmit * light[pane.ray];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace graycube
+HWY_AFTER_NAMESPACE();
+
+#endif
