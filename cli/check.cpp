@@ -15,7 +15,8 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 }  // namespace
 
 ExitStatus run(const CheckCommand& command) {
-  SceneInput input = read_scene_input(command.scene);
+  if (is_brlcad(command.scene)) std::fputs(brlcad_tops_text(command.scene).c_str(), stdout);
+  SceneInput input = read_scene_input(command.scene, {}, command.choice);
   check_is_built(command.scene, input.scene);
   for (const Problem& warning : input.warnings) print(warning);
   const std::size_t materials = input.scene.materials.size();

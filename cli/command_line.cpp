@@ -27,8 +27,34 @@ void add(CLI::App& app, const std::string& names, const char* type, const std::s
 
 void add_scene(CLI::App& app, std::string& scene) {
   add(
-      app, "SCENE", "", "A scene file (.json), or OpenSCAD's evaluated tree (.csg)",
+      app, "SCENE", "", "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc)",
       [&scene](const std::string& text) { scene = text; }, true);
+}
+
+/// What to show of a BRL-CAD database.
+void add_choice(CLI::App& app, ModelChoice& choice) {
+  app.add_option_function<std::vector<std::string>>(
+         "--object",
+         [&choice](const std::vector<std::string>& names) {
+           choice.objects = names;
+           choice.is_given = true;
+         },
+         "BRL-CAD: what to show (again for more; default: all that nothing refers to)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  add(app, "--view", "FILE", "BRL-CAD: a view script, as rt reads it", [&choice](const std::string& text) {
+    choice.view = text;
+    choice.is_given = true;
+  });
+  const auto angle = [&](const char* name, const char* help, double& value) {
+    add(app, name, "DEGREES", help, [&choice, &value, name](const std::string& text) {
+      value = parse_angle(name, text);
+      choice.is_given = true;
+    });
+  };
+  angle("--azimuth", "BRL-CAD: from where to look (default 35)", choice.azimuth_degrees);
+  angle("--elevation", "BRL-CAD: from how high to look (default 25)", choice.elevation_degrees);
 }
 
 void add_job(CLI::App& app, std::uint32_t& job) {
@@ -94,6 +120,8 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
   add(app, "--flow", "NAME", "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
       [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
   add_common_options(app, o);
+  add(app, "--aov", "NAMES", "Also of each first hit, in OUT.exr: depth,normal,albedo,object",
+      [&o](const auto& text) { o.aov = parse_aov_list("--aov", text); });
   add(app, "--timeout", "S", "Give up after so many seconds",
       [&o](const auto& text) { o.timeout_s = parse_seconds("--timeout", text); });
 }
@@ -149,6 +177,7 @@ class Parser {
     auto& render = declare<RenderCommand>("render", "Render a scene on nodes of this machine", sub);
     render.nodes = default_nodes();
     add_scene(*sub, render.scene);
+    add_choice(*sub, render.choice);
     add_outputs(*sub, render.outputs, false, "The picture (default: SCENE's name with .exr, here)");
     add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
               render.nodes);
@@ -174,6 +203,7 @@ class Parser {
     auto& submit =
         declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id", sub);
     add_scene(*sub, submit.scene);
+    add_choice(*sub, submit.choice);
     add_outputs(*sub, submit.outputs, false, "The picture, with --wait");
     add_nodes(*sub, "What the farm is expected to have", submit.nodes);
     add_threads(*sub, "Evaluator threads per node (default: the farm's)", submit.options.threads);
@@ -214,6 +244,7 @@ class Parser {
     CLI::App* sub = nullptr;
     auto& check = declare<CheckCommand>("check", "Find every error of a scene file", sub);
     add_scene(*sub, check.scene);
+    add_choice(*sub, check.choice);
 
     auto& compare =
         declare<CompareCommand>("compare", "Render a scene in every way, and compare", sub);
@@ -230,11 +261,12 @@ class Parser {
     auto& convert =
         declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
     add(
-        *sub, "IN", "", ".json, .csg or .exr",
+        *sub, "IN", "", ".json, .csg, .g, .asc or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
     add(
         *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
         [&convert](const std::string& text) { convert.out = text; }, true);
+    add_choice(*sub, convert.choice);
   }
 
   /// An argument that no option of the command takes.

@@ -6,12 +6,14 @@
 #include <variant>
 
 #include "cli/outputs.hpp"
+#include "cli/scene_input.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
 
 struct RenderCommand {
   std::string scene;
+  ModelChoice choice;
   Outputs outputs;
   control::JobOptions options;
   std::uint32_t nodes = 1, threads = 1;
@@ -20,6 +22,7 @@ struct RenderCommand {
 
 struct SubmitCommand {
   std::string connect, scene;
+  ModelChoice choice;
   Outputs outputs;
   control::JobOptions options;
   /// 0: whatever the farm has.
@@ -61,6 +64,7 @@ struct DownCommand {
 };
 struct CheckCommand {
   std::string scene;
+  ModelChoice choice;
 };
 struct CompareCommand {
   std::string scene;
@@ -72,6 +76,7 @@ struct CompareCommand {
 };
 struct ConvertCommand {
   std::string in, out;
+  ModelChoice choice;
 };
 /// `--help` and `--version`, of any command.
 struct PrintCommand {

@@ -24,13 +24,18 @@ void convert_picture(const fs::path& in, const fs::path& out) {
   write_pictures({{}, out, {}}, picture, "");
 }
 
-void convert_scene(const fs::path& in, const fs::path& out) {
-  const SceneInput input = read_scene_input(in);
+void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& choice) {
+  const SceneInput input = read_scene_input(in, {}, choice);
   for (const Problem& warning : input.warnings) print(warning);
   std::string text;
   if (out.extension() == ".pov") {
     PovScene pov = write_pov(input.scene);
     for (const std::string& warning : pov.warnings) print({"warning", out.string(), warning});
+    if (!pov.errors.empty()) {
+      std::vector<Problem> problems;
+      for (const std::string& error : pov.errors) problems.push_back({"convert", out.string(), error});
+      throw Failure(ExitStatus::kBadInput, std::move(problems));
+    }
     text = std::move(pov.text);
   } else {
     text = write_scene_text(input.scene);
@@ -45,16 +50,16 @@ ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
-  const bool is_scene = from == ".json" || from == ".csg";
+  const bool is_scene = from == ".json" || from == ".csg" || is_brlcad(in);
   const bool is_known =
       (is_scene && (to == ".json" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json or .csg to .json or .pov, or .exr to .png; found " +
+                        "expected .json, .csg, .g or .asc to .json or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);
-  is_scene ? convert_scene(in, out) : convert_picture(in, out);
+  is_scene ? convert_scene(in, out, command.choice) : convert_picture(in, out);
   return ExitStatus::kDone;
 }
 

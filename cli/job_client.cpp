@@ -22,14 +22,40 @@ Failure nonsense(std::uint32_t job) {
           Problem{"fetch", "job " + std::to_string(job), "the frontal sent no proper picture"}};
 }
 
-bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_t first) {
+bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_t first,
+              std::uint32_t plane) {
   const bool is_size_possible = rows.width >= 1 && rows.width <= kMaxImageSide &&
                                 rows.height >= 1 && rows.height <= kMaxImageSide &&
                                 std::uint64_t{rows.width} * rows.height <= kMaxPixels;
   const bool is_size_same =
-      first == 0 || (rows.width == picture.width && rows.height == picture.height);
-  return is_size_possible && is_size_same && rows.first_row == first && rows.rows >= 1 &&
+      (first == 0 && plane == 0) || (rows.width == picture.width && rows.height == picture.height);
+  return is_size_possible && is_size_same && rows.plane == plane && rows.first_row == first && rows.rows >= 1 &&
          rows.rows <= rows.height - first;
+}
+
+/// All rows of light (plane 0) or of a plane of AOVs. The picture's size and AOVs come with the light.
+template <typename Value>
+void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Picture& picture,
+                 std::vector<Value>& all) {
+  std::uint32_t row = 0;
+  do {
+    const control::Fetch request{
+        job, row, picture.height == 0 ? kMaxImageSide : picture.height - row, plane};
+    const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
+    std::vector<Value> values;
+    const auto aovs = parse_aovs(rows.aov);
+    if (!is_sound(rows, picture, row, plane) || !aovs ||
+        !decode_picture_rows(payload, rows.width, rows.rows, values)) {
+      throw nonsense(job);
+    }
+    if (plane == 0) {
+      picture.width = rows.width;
+      picture.height = rows.height;
+      picture.aovs = *aovs;
+    }
+    all.insert(all.end(), values.begin(), values.end());
+    row += rows.rows;
+  } while (row < picture.height);
 }
 
 }  // namespace
@@ -70,21 +96,11 @@ control::JobInfo job_info(FarmClient& farm, std::uint32_t job) {
 
 Picture fetch_picture(FarmClient& farm, std::uint32_t job) {
   Picture picture;
-  std::uint32_t row = 0;
-  do {
-    const control::Fetch request{job, row,
-                                 picture.height == 0 ? kMaxImageSide : picture.height - row};
-    const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
-    std::vector<float> values;
-    if (!is_sound(rows, picture, row) ||
-        !decode_picture_rows(payload, rows.width, rows.rows, values)) {
-      throw nonsense(job);
-    }
-    picture.width = rows.width;
-    picture.height = rows.height;
-    picture.rgb.insert(picture.rgb.end(), values.begin(), values.end());
-    row += rows.rows;
-  } while (row < picture.height);
+  fetch_plane(farm, job, 0, picture, picture.rgb);
+  for (std::uint32_t plane = 1; plane <= kAovPlanes; ++plane) {
+    if (!has_plane(picture.aovs, plane - 1)) continue;
+    fetch_plane(farm, job, plane, picture, picture.aov_planes[plane - 1]);
+  }
   return picture;
 }
 

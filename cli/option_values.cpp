@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/failure.hpp"
+#include "film/aov.hpp"
 #include "scene/spelling.hpp"
 #include "shading/settings.hpp"
 #include "topology/hypercube.hpp"
@@ -121,6 +122,21 @@ std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
 FlowMode parse_flow(std::string_view option, std::string_view text) {
   static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
   return parse_choice<FlowMode>(option, text, choices);
+}
+
+double parse_angle(std::string_view option, std::string_view text) {
+  constexpr double kMostTurns = 1e6;
+  const auto value = number<double>(text);
+  if (!value || !std::isfinite(*value) || std::fabs(*value) > kMostTurns) {
+    expected(option, "an angle in degrees", text);
+  }
+  return *value;
+}
+
+std::string parse_aov_list(std::string_view option, std::string_view text) {
+  const auto aovs = parse_aovs(text);
+  if (aovs && aovs->any()) return to_string(*aovs);
+  expected(option, to_string(AovSet::all()) + ", or some of them, each once", text);
 }
 
 std::uint32_t default_nodes() {

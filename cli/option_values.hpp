@@ -33,6 +33,12 @@ PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
 
+/// A finite number.
+double parse_angle(std::string_view option, std::string_view text);
+
+/// Names of AOVs, with commas between; as to_string(AovSet) writes them.
+std::string parse_aov_list(std::string_view option, std::string_view text);
+
 /// The largest power of two not above the number of processors that this process may use.
 std::uint32_t default_nodes();
 

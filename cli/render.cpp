@@ -62,7 +62,7 @@ ExitStatus run(const RenderCommand& command) {
   Outputs outputs = command.outputs;
   if (outputs.exr.empty()) outputs.exr = default_exr(command.scene);
   check_outputs(outputs, command.scene);
-  SceneInput scene = read_scene_input(command.scene, command.options);
+  SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   const std::string name = scene.name;
   if (!command.is_quiet) {

@@ -82,7 +82,8 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.build_s = seconds_since(building);
 
   const auto rendering = Clock::now();
-  Film film(s.image.width, s.image.height, s.image.samples * s.image.samples);
+  Film film(s.image.width, s.image.height, s.image.samples * s.image.samples,
+            domain.settings().aovs);
   SerialOptions how;
   how.threads = threads;
   how.progress = [&](double share) {

@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "scene/brlcad.hpp"
+#include "scene/brlcad_database.hpp"
 #include "scene/openscad.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
@@ -103,19 +105,67 @@ void import_openscad(const fs::path& path, const control::JobOptions& options, S
   input.text = write_scene_text(input.scene);
 }
 
+Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
+  std::vector<Problem> problems;
+  for (const BrlcadMessage& e : errors) {
+    problems.push_back({"scene", path.string() + (e.where.empty() ? "" : ":" + e.where), e.text});
+  }
+  return {ExitStatus::kBadInput, std::move(problems)};
+}
+
+void import_brlcad(const fs::path& path, const control::JobOptions& options, const ModelChoice& choice,
+                   SceneInput& input) {
+  BrlcadOptions how;
+  how.image.width = options.width.value_or(how.image.width);
+  how.image.height = options.height.value_or(how.image.height);
+  how.max_depth = options.max_depth.value_or(how.max_depth);
+  how.objects = choice.objects;
+  if (!choice.view.empty()) how.view = read_file(choice.view, kMaxBrlcadViewBytes);
+  how.azimuth_degrees = choice.azimuth_degrees;
+  how.elevation_degrees = choice.elevation_degrees;
+  BrlcadResult read = read_brlcad(read_file(path, kMaxBrlcadBytes), how);
+  for (const BrlcadMessage& w : read.warnings) {
+    input.warnings.push_back(
+        {"warning", path.string() + (w.where.empty() ? "" : ":" + w.where), w.text});
+  }
+  if (!read.scene) throw failure_of(path, read.errors);
+  input.scene = std::move(*read.scene);
+  input.text = write_scene_text(input.scene);
+}
+
 }  // namespace
 
-SceneInput read_scene_input(const fs::path& path, const control::JobOptions& options) {
+bool is_brlcad(const fs::path& path) { return path.extension() == ".g" || path.extension() == ".asc"; }
+
+std::string brlcad_tops_text(const fs::path& path) {
+  const BrlcadTops read = list_brlcad_tops(read_file(path, kMaxBrlcadBytes));
+  if (!read.errors.empty()) throw failure_of(path, read.errors);
+  std::string text;
+  for (const BrlcadTop& top : read.tops) {
+    text += top.name + ": " + std::to_string(top.primitives) +
+            (top.primitives == 1 ? " primitive\n" : " primitives\n");
+  }
+  return text;
+}
+
+SceneInput read_scene_input(const fs::path& path, const control::JobOptions& options,
+                            const ModelChoice& choice) {
+  if (choice.is_given && !is_brlcad(path)) {
+    throw usage_failure("--object, --view, --azimuth, --elevation",
+                        "are for BRL-CAD databases (.g, .asc), not for " + path.string());
+  }
   SceneInput input;
   input.name = path.filename().string();
   if (path.extension() == ".csg") {
     import_openscad(path, options, input);
+  } else if (is_brlcad(path)) {
+    import_brlcad(path, options, choice, input);
   } else if (path.extension() == ".json") {
     read_json(path, input);
   } else if (path.extension() == ".scad") {
     throw bad_scene(path, "OpenSCAD must evaluate it first: openscad -o MODEL.csg MODEL.scad");
   } else {
-    throw bad_scene(path, "expected a name ending in .json or .csg");
+    throw bad_scene(path, "expected a name ending in .json, .csg, .g or .asc");
   }
   return input;
 }
@@ -136,6 +186,7 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   image.height = options.height.value_or(image.height);
   image.samples = options.samples.value_or(image.samples);
   settings.max_depth = options.max_depth.value_or(settings.max_depth);
+  settings.aovs = parse_aovs(options.aov).value_or(AovSet{});
 }
 
 void check_farm_limits(const SceneInput& input, const RenderSettings& settings) {

@@ -11,6 +11,17 @@
 
 namespace graycube {
 
+/// What to show of a file that holds a model without a view: a BRL-CAD database.
+struct ModelChoice {
+  /// All that nothing refers to, when empty.
+  std::vector<std::string> objects;
+  /// A view script of rt's; empty for azimuth and elevation.
+  std::filesystem::path view;
+  double azimuth_degrees = 35, elevation_degrees = 25;
+  /// Whether any option was given: other files have no use for them.
+  bool is_given = false;
+};
+
 struct SceneInput {
   /// The file's name without folders.
   std::string name;
@@ -21,11 +32,18 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json, or .csg from OpenSCAD) and finds all its errors. `options` gives a picture's
+/// Reads SCENE (.json; .csg from OpenSCAD; .g or .asc from BRL-CAD) and finds all its errors. `options` gives a picture's
 /// size and depth to import for. Throws a Failure of status 2 with a problem for each error,
 /// `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,
-                            const control::JobOptions& options = {});
+                            const control::JobOptions& options = {},
+                            const ModelChoice& choice = {});
+
+/// Whether the file is a BRL-CAD database, by its name's ending.
+bool is_brlcad(const std::filesystem::path& path);
+
+/// A database's top-level objects, each with its number of primitives, in lines; throws as above.
+std::string brlcad_tops_text(const std::filesystem::path& path);
 
 /// Throws a Failure of status 2 when the scene asks for something that the format has and this
 /// version can't compute.

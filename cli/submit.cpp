@@ -32,7 +32,7 @@ void check_farm_size(FarmClient& farm, std::uint32_t expected) {
 ExitStatus run(const SubmitCommand& command) {
   catch_interrupts("submit", 0);
   check_sense(command);
-  SceneInput scene = read_scene_input(command.scene, command.options);
+  SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
   RenderSettings settings = scene.scene.settings;

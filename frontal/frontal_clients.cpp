@@ -174,6 +174,9 @@ void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
   if (m.first_row >= picture->height) {
     return refuse(peer, m.job, FailureCode::kBadRequest, "first_row", "beyond the picture");
   }
+  if (m.plane > 0 && !has_plane(picture->aovs, m.plane - 1)) {
+    return refuse(peer, m.job, FailureCode::kBadRequest, "plane", "the picture has no such AOVs");
+  }
   const std::size_t row_values = std::size_t{picture->width} * 3;
   const std::size_t most = std::max<std::size_t>(1, kPictureChunkBytes / (row_values * 4));
   control::Picture out;
@@ -183,9 +186,14 @@ void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
   out.first_row = m.first_row;
   out.rows = static_cast<std::uint32_t>(
       std::min<std::size_t>({most, m.rows, picture->height - m.first_row}));
-  const std::span<const float> values{picture->rgb.data() + m.first_row * row_values,
-                                      out.rows * row_values};
-  send(peer, out, encode_picture_rows(values));
+  out.plane = m.plane;
+  out.aov = to_string(picture->aovs);
+  const auto rows = [&](const auto& values) {
+    return std::span(values).subspan(m.first_row * row_values, out.rows * row_values);
+  };
+  send(peer, out,
+       m.plane == 0 ? encode_picture_rows(rows(picture->rgb))
+                    : encode_picture_rows(rows(picture->aov_planes[m.plane - 1])));
 }
 
 control::Progress Frontal::progress_of(const control::JobInfo& info) const {

@@ -147,6 +147,9 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
   in_range("--samples", image.samples, 1, kMaxSamples);
   in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+  const auto aovs = parse_aovs(options.aov);
+  if (!aovs) add_error(errors, "--aov", "expected names of AOVs, each once, found " + options.aov);
+  settings.aovs = aovs.value_or(AovSet{});
 }
 
 std::string choices_text(const PreparedScene& scene) {

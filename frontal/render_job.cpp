@@ -30,7 +30,8 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       nodes_(cube.nodes()),
       threads_(threads),
       film_(scene_.settings.image.width, scene_.settings.image.height,
-            scene_.settings.image.samples * scene_.settings.image.samples),
+            scene_.settings.image.samples * scene_.settings.image.samples,
+            scene_.settings.aovs),
       ledger_(rays_per_tile(*scene_.plan)),
       holder_(scene_.plan->tile_count()),
       next_own_(nodes_, 0),
@@ -114,7 +115,7 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
 
 std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& opened) {
   BatchLimits limits;
-  limits.pixel_count = film_.pixel_count();
+  limits.pixel_count = (1 + kAovPlanes) * film_.pixel_count();
   limits.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());
   limits.max_depth = scene_.settings.max_depth;
   limits.nodes = nodes_;
@@ -130,7 +131,10 @@ std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& 
     return "a batch of contributions from node " + std::to_string(s.sender) + " was lost";
   }
   ++batches_received_[s.sender];
-  for (const Contribution& c : contributions) film_.add(c.pixel, c.light);
+  for (const Contribution& c : contributions) {
+    if (!film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
+    film_.add(c.pixel, c.light);
+  }
   for (const TileCredit& c : credits) {
     switch (ledger_.add(c.tile, c.credit)) {
       case CreditResult::kOpen: break;

@@ -12,7 +12,10 @@ MergeBuffer::Merged MergeBuffer::take(const TilePlan& plan) {
   Merged merged;
   std::uint32_t in_last = 0;
   for (auto it = returns_.begin(); it != end; ++it) {
-    merged.credits.push_back({plan.tile_of_pixel(it->pixel), it->credit});
+    // AOVs bring no credit: that of their ray follows with its light.
+    if (it->pixel < plan.pixel_count()) {
+      merged.credits.push_back({plan.tile_of_pixel(it->pixel), it->credit});
+    }
     if (it->merged == 0) continue;
     auto& all = merged.contributions;
     if (all.empty() || all.back().pixel != it->pixel ||

@@ -9,6 +9,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "film/aov.hpp"
 #include "proto/messages.hpp"
 #include "shading/settings.hpp"
 
@@ -35,6 +36,9 @@ inline constexpr FieldLimits kSeconds{.min = 0};
 inline constexpr FieldLimits kRankRange{.max = kMaxNodes - 1};
 inline constexpr FieldLimits kThreadRange{.min = 1, .max = kMaxThreads};
 inline constexpr FieldLimits kFraction{.min = 0, .max = 1};
+
+inline constexpr FieldLimits kPlaneRange{.max = kAovPlanes, .has_default = true};
+inline constexpr FieldLimits kAovText{.has_default = true};
 
 constexpr FieldLimits at_least_one() { return {.min = 1}; }
 
@@ -87,6 +91,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("height", m.height, {.min = 1, .max = kMaxImageSide});
   visit("samples", m.samples, {.min = 1, .max = kMaxSamples});
   visit("max_depth", m.max_depth, {.max = kMaxDepth});
+  visit("aov", m.aov, kAovText);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -260,6 +265,7 @@ void each_field(auto& visit, Is<Fetch> auto& m) {
   visit("job", m.job, at_least_one());
   visit("first_row", m.first_row, {.max = kMaxImageSide});
   visit("rows", m.rows, {.max = kMaxImageSide});
+  visit("plane", m.plane, kPlaneRange);
 }
 
 void each_field(auto&, Is<Down> auto&) {}
@@ -316,6 +322,8 @@ void each_field(auto& visit, Is<Picture> auto& m) {
   visit("height", m.height, {.min = 1, .max = kMaxImageSide});
   visit("first_row", m.first_row, {.max = kMaxImageSide});
   visit("rows", m.rows, {.max = kMaxImageSide});
+  visit("plane", m.plane, kPlaneRange);
+  visit("aov", m.aov, kAovText);
 }
 
 void each_field(auto& visit, Is<Failed> auto& m) {

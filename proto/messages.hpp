@@ -119,6 +119,8 @@ struct JobOptions {
   double timeout_s = 0;
   /// The scene's own values where absent.
   std::optional<std::uint32_t> width{}, height{}, samples{}, max_depth{};
+  /// Names as parse_aovs reads them.
+  std::string aov{};
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
 
@@ -372,10 +374,11 @@ struct Nodes {
   friend bool operator==(const Nodes&, const Nodes&) = default;
 };
 
-/// Rows of a picture; fewer may come, the client asks on from there.
+/// Rows of a picture; fewer may come, the client asks on from there. Plane 0 is light, 1 … kAovPlanes are
+/// those of AOVs.
 struct Fetch {
   static constexpr std::string_view kType = "fetch";
-  std::uint32_t job = 0, first_row = 0, rows = 0;
+  std::uint32_t job = 0, first_row = 0, rows = 0, plane = 0;
   friend bool operator==(const Fetch&, const Fetch&) = default;
 };
 
@@ -450,7 +453,9 @@ struct Done {
 /// Followed by a binary frame: `rows` rows of `width` pixels, see picture_rows.hpp.
 struct Picture {
   static constexpr std::string_view kType = "picture";
-  std::uint32_t job = 0, width = 1, height = 1, first_row = 0, rows = 0;
+  std::uint32_t job = 0, width = 1, height = 1, first_row = 0, rows = 0, plane = 0;
+  /// The AOVs that the picture has.
+  std::string aov{};
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 

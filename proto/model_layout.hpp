@@ -11,7 +11,7 @@
 namespace graycube::model_layout {
 
 inline constexpr std::size_t kHeaderBytes = 32;
-inline constexpr std::size_t kSettingsBytes = 172;
+inline constexpr std::size_t kSettingsBytes = 188;
 inline constexpr std::size_t kLightBytes = 49;
 inline constexpr std::size_t kMaterialBytes = 81;
 inline constexpr std::size_t kPlaneBytes = 32;

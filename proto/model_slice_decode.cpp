@@ -114,7 +114,7 @@ class ModelReader {
     s.image.height = r_.get<std::uint32_t>();
     s.image.samples = r_.get<std::uint32_t>();
     const auto projection = r_.get<std::uint8_t>(), handedness = r_.get<std::uint8_t>();
-    const auto reserved = r_.get<std::uint16_t>();
+    const auto aovs = r_.get<std::uint8_t>(), inside = r_.get<std::uint8_t>();
     Camera& camera = s.camera;
     camera.eye = get_vec(r_);
     camera.look_at = get_vec(r_);
@@ -126,9 +126,13 @@ class ModelReader {
     s.max_depth = r_.get<std::uint32_t>();
     s.min_weight = r_.get<double>();
     model_.delta = r_.get<double>();
-    if (projection > 1 || handedness > 1 || reserved != 0) {
-      return fail("camera", "unknown projection or handedness");
+    for (double& v : camera.pixel_offset) v = r_.get<double>();
+    if (projection > 1 || handedness > 1 || aovs > AovSet::kAllBits || inside > 1 ||
+        (inside == 1 && projection == 0)) {
+      return fail("camera", "unknown projection, handedness, AOV or view of insides");
     }
+    camera.inside = static_cast<InsideView>(inside);
+    s.aovs = AovSet::from_bits(aovs);
     camera.projection = static_cast<Projection>(projection);
     camera.handedness = static_cast<Handedness>(handedness);
     if (const char* why = why_wrong(s.image)) return fail("image", why);
@@ -152,6 +156,9 @@ class ModelReader {
     if (!is_finite(camera.eye) || !is_finite(camera.look_at) || !is_finite(camera.up) ||
         !std::isfinite(camera.fov_degrees) || !std::isfinite(camera.width)) {
       return "not finite";
+    }
+    for (const double v : camera.pixel_offset) {
+      if (!(v >= 0 && v <= 1)) return "pixel offset out of range";
     }
     const Vec3 view = normalized(camera.look_at - camera.eye);
     if (length(cross(view, normalized(camera.up))) == 0) return "no view direction, or up along it";

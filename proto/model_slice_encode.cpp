@@ -33,7 +33,8 @@ void put_settings(ByteWriter& w, const RenderSettings& s, double delta) {
   w.put(s.image.samples);
   w.put(static_cast<std::uint8_t>(s.camera.projection));
   w.put(static_cast<std::uint8_t>(s.camera.handedness));
-  w.put(std::uint16_t{0});
+  w.put(s.aovs.bits());
+  w.put(static_cast<std::uint8_t>(s.camera.inside));
   put_vec(w, s.camera.eye);
   put_vec(w, s.camera.look_at);
   put_vec(w, s.camera.up);
@@ -44,6 +45,7 @@ void put_settings(ByteWriter& w, const RenderSettings& s, double delta) {
   w.put(s.max_depth);
   w.put(s.min_weight);
   w.put(delta);
+  for (const double v : s.camera.pixel_offset) w.put(v);
 }
 
 void put_light(ByteWriter& w, const PointLight& light) {

@@ -1,5 +1,6 @@
 #include "csg/build_primitive.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "csg/half_space.hpp"
@@ -197,6 +198,124 @@ Primitive build_polyhedron(const Affine& to_world, std::span<const Plane> faces,
   p.plane_count = static_cast<std::uint32_t>(faces.size());
   for (const Plane& f : faces) planes.push_back(mapped_plane(inverse, f));
   p.bounds = csg::polyhedron_bounds(csg::faces_of(p, planes));
+  return p;
+}
+
+Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Vec3& top, const Vec3& a,
+                              const Vec3& b, double top_a, double top_b) {
+  const Vec3 axis = top - base;
+  if (top_a == top_b) {
+    return build_cone(compose(to_world, frame(a, b, axis, base)), {0, 0, 0}, 1, {0, 0, 1}, top_a);
+  }
+  // The axis that changes more sets the frame's height, so that k is at most 1.
+  if (std::fabs(1 - top_b) > std::fabs(1 - top_a)) {
+    return build_elliptic_cone(to_world, base, top, b, a, top_b, top_a);
+  }
+  const double height = 1 - top_a;
+  const Affine map = compose(to_world, frame(a, b, axis, base));
+  Primitive p;
+  p.kind = PrimitiveKind::kEllipticCone;
+  p.to_local = inverse_of(map);
+  for (double& v : p.to_local.m[2]) v *= height;
+  set_caps(p, to_world.point(base), to_world.point(top));
+  if (p.v[3] > p.v[4]) {
+    const double lower = -p.v[3];
+    for (std::size_t i = 0; i < 3; ++i) p.v[i] = -p.v[i] + 0.0;
+    p.v[3] = lower;
+    p.v[4] = -p.v[4];
+  }
+  p.v[5] = (1 - top_b) / height;
+  Vec3 top_extent;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 r = map.row(i);
+    top_extent[i] = std::sqrt(r.x * r.x * top_a * top_a + r.y * r.y * top_b * top_b);
+  }
+  p.bounds = union_of(around(map.point({0, 0, 0}), disc_extent(map)),
+                      around(map.point({0, 0, 1}), top_extent));
+  return p;
+}
+
+Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const Vec3& axis, double radius,
+                               double outward, double upward, double across) {
+  const Affine map = compose(to_world, frame_about(center, normalized(axis), radius, radius));
+  const double m = std::sqrt(outward * outward + upward * upward);
+  const double c = outward / m, s = upward / m;
+  const double major = m / radius, minor = across / radius;
+  const double i2 = 1 / (major * major), j2 = 1 / (minor * minor);
+  Primitive p;
+  p.kind = PrimitiveKind::kEllipticTorus;
+  p.to_local = inverse_of(map);
+  // How far the ellipse reaches in direction (u, w) of its plane.
+  const auto reach = [&](double u, double w) {
+    const double along = major * (c * u + s * w), beside = minor * (c * w - s * u);
+    return std::sqrt(along * along + beside * beside);
+  };
+  p.v = {c * c * i2 + s * s * j2, c * s * (i2 - j2), s * s * i2 + c * c * j2, reach(1, 0), reach(0, 1), 0};
+  const Vec3 ring = disc_extent(map);
+  Vec3 extent;
+  for (int i = 0; i < 3; ++i) {
+    const double z = map.row(i).z;
+    extent[i] = ring[i] + std::fmax(reach(ring[i], z), reach(ring[i], -z));
+  }
+  p.bounds = around(map.translation(), extent);
+  return p;
+}
+
+namespace {
+
+/// Bounds of a quadric's slice between two heights: of the ellipse, or the rectangle, that holds it.
+Aabb slice_bounds(const Affine& map, const std::array<double, 4>& q, const Vec3& lo, const Vec3& hi,
+                  double z0, double z1) {
+  const auto radius2 = [&](double z) { return -((q[1] * z + q[2]) * z + q[3]); };
+  double most = std::fmax(radius2(z0), radius2(z1));
+  const double turn = q[1] != 0 ? -q[2] / (2 * q[1]) : z0;
+  if (turn > z0 && turn < z1) most = std::fmax(most, radius2(turn));
+  if (!(most >= 0)) return Aabb::nothing();
+  const double a = std::sqrt(most);
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 r = map.row(i);
+    const double middle = map.translation()[i] + 0.5 * (z0 + z1) * r.z;
+    const double slope = 0.5 * (z1 - z0) * std::fabs(r.z);
+    double below = 0, above = 0;
+    if (q[0] > 0) {
+      below = above = std::sqrt(r.x * r.x * most + r.y * r.y * most / q[0]);
+    } else {
+      below = std::fabs(r.x) * a - std::fmin(r.y * lo.y, r.y * hi.y);
+      above = std::fabs(r.x) * a + std::fmax(r.y * lo.y, r.y * hi.y);
+    }
+    box.lo[i] = middle - slope - below;
+    box.hi[i] = middle + slope + above;
+  }
+  return box;
+}
+
+}  // namespace
+
+Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, const Vec3& lo,
+                        const Vec3& hi, std::vector<Plane>& planes) {
+  constexpr int kSlices = 32;
+  Primitive p;
+  p.kind = PrimitiveKind::kQuadric;
+  p.to_local = inverse_of(to_world);
+  std::copy(q.begin(), q.end(), p.v.begin());
+  p.first_plane = static_cast<std::uint32_t>(planes.size());
+  p.plane_count = 6;
+  Aabb corners = Aabb::nothing();
+  for (int i = 0; i < 8; ++i) corners.include(to_world.point(Aabb{lo, hi}.corner(i)));
+  for (int a = 0; a < 3; ++a) {
+    Vec3 n;
+    n[a] = 1;
+    planes.push_back(mapped_plane(p.to_local, {n, hi[a]}));
+    planes.push_back(mapped_plane(p.to_local, {-n, -lo[a]}));
+  }
+  Aabb slices = Aabb::nothing();
+  for (int i = 0; i < kSlices; ++i) {
+    const double z0 = lo.z + (hi.z - lo.z) * i / kSlices;
+    const double z1 = lo.z + (hi.z - lo.z) * (i + 1) / kSlices;
+    slices = union_of(slices, slice_bounds(to_world, q, lo, hi, z0, z1));
+  }
+  p.bounds = intersection_of(corners, slices.is_empty() ? corners : slices.grown(1e-12 * length(corners.hi - corners.lo)));
   return p;
 }
 

@@ -2,7 +2,10 @@
 
 #include "csg/box.hpp"
 #include "csg/cylinder.hpp"
+#include "csg/elliptic_cone.hpp"
+#include "csg/elliptic_torus.hpp"
 #include "csg/half_space.hpp"
+#include "csg/quadric.hpp"
 #include "csg/sphere.hpp"
 #include "csg/torus.hpp"
 
@@ -21,6 +24,9 @@ Spans spans_along(const Primitive& p, std::span<const Plane> planes, const Ray& 
     case PrimitiveKind::kTorus: return torus_spans(p, ray);
     case PrimitiveKind::kHalfSpace: return half_space_spans(p, ray);
     case PrimitiveKind::kPolyhedron: return polyhedron_spans(faces_of(p, planes), ray);
+    case PrimitiveKind::kEllipticCone: return elliptic_cone_spans(p, ray);
+    case PrimitiveKind::kEllipticTorus: return elliptic_torus_spans(p, ray);
+    case PrimitiveKind::kQuadric: return quadric_spans(p, faces_of(p, planes), ray);
   }
   return {};
 }
@@ -36,6 +42,9 @@ bool contains(const Primitive& p, std::span<const Plane> planes, const Vec3& poi
     case PrimitiveKind::kTorus: return torus_contains(p, point);
     case PrimitiveKind::kHalfSpace: return half_space_contains(p, point);
     case PrimitiveKind::kPolyhedron: return polyhedron_contains(faces_of(p, planes), point);
+    case PrimitiveKind::kEllipticCone: return elliptic_cone_contains(p, point);
+    case PrimitiveKind::kEllipticTorus: return elliptic_torus_contains(p, point);
+    case PrimitiveKind::kQuadric: return quadric_contains(p, faces_of(p, planes), point);
   }
   return false;
 }
@@ -51,6 +60,9 @@ Vec3 outward_normal(const Primitive& p, std::span<const Plane> planes, const Ray
     case PrimitiveKind::kTorus: return torus_normal(p, ray.at(t));
     case PrimitiveKind::kHalfSpace: return half_space_plane(p).normal;
     case PrimitiveKind::kPolyhedron: return polyhedron_normal(faces_of(p, planes), ray, t);
+    case PrimitiveKind::kEllipticCone: return elliptic_cone_normal(p, ray, t);
+    case PrimitiveKind::kEllipticTorus: return elliptic_torus_normal(p, ray.at(t));
+    case PrimitiveKind::kQuadric: return quadric_normal(p, faces_of(p, planes), ray, t);
   }
   return {};
 }
@@ -66,6 +78,9 @@ CellSide classify(const Primitive& p, std::span<const Plane> planes, const Aabb&
     case PrimitiveKind::kTorus: return classify_torus(p, cell);
     case PrimitiveKind::kHalfSpace: return classify_plane(half_space_plane(p), cell);
     case PrimitiveKind::kPolyhedron: return classify_polyhedron(p, faces_of(p, planes), cell);
+    case PrimitiveKind::kEllipticCone: return classify_elliptic_cone(p, cell);
+    case PrimitiveKind::kEllipticTorus: return classify_elliptic_torus(p, cell);
+    case PrimitiveKind::kQuadric: return classify_quadric(p, faces_of(p, planes), cell);
   }
   return CellSide::kCrosses;
 }

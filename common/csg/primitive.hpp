@@ -22,8 +22,11 @@ enum class PrimitiveKind : std::uint8_t {
   kTorus,           // to_local: major radius 1 about z, minor radius v[0]
   kHalfSpace,       // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
   kPolyhedron,      // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
+  kEllipticCone,    // caps as kCone; to_local: x² / (1 − z)² + y² / (1 − v[5] z)² ≤ 1 between them
+  kEllipticTorus,   // to_local, ρ² = x² + y²: v[0] (ρ−1)² + 2 v[1] (ρ−1) z + v[2] z² ≤ 1; reaches v[3] and v[4] far
+  kQuadric,         // to_local: x² + v[0] y² + v[1] z² + v[2] z + v[3] ≤ 0; and planes as kPolyhedron
 };
-inline constexpr int kPrimitiveKinds = 9;
+inline constexpr int kPrimitiveKinds = 12;
 
 struct Plane {
   Vec3 normal;

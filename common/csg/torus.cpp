@@ -1,7 +1,8 @@
 #include "csg/torus.hpp"
 
-#include <array>
 #include <optional>
+
+#include "csg/quartic.hpp"
 
 namespace graycube::csg {
 namespace {
@@ -23,70 +24,16 @@ struct TorusLine {
     const double g = s * (s + 2 * B) + A;
     return 4 * g + 8 * (s + B) * (s + B) - 8 * e;
   }
-};
-
-/// More than enough: each round at least halves the bracket or converges quadratically.
-constexpr int kMaxRounds = 100;
-
-/// The root of `f` in [lo, hi], where f(lo) and f(hi) have opposite signs: Newton, kept in a shrinking
-/// bracket, until the last bit settles.
-template <typename F, typename Derivative>
-double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi) {
-  const bool rises = f(lo) < 0;
-  double s = 0.5 * (lo + hi);
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const double value = f(s);
-    if (value == 0) return s;
-    if ((value < 0) == rises) {
-      lo = s;
-    } else {
-      hi = s;
+  /// The zeros of f″, a quadratic: 12 s² + 24 B s + 4A + 8B² − 8e.
+  void add_inflections(double lo, double hi, Knots<4>& knots) const {
+    const double discriminant = B * B - (A + 2 * B * B - 2 * e) / 3;
+    if (discriminant <= 0) return;
+    const double root = std::sqrt(discriminant);
+    for (const double s : {-B - root, -B + root}) {
+      if (s > lo && s < hi) knots.add(s);
     }
-    double next = s - value / derivative(s);
-    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (next == s || !(lo < next && next < hi)) return next;
-    s = next;
-  }
-  return s;
-}
-
-/// Sorted points of [lo, hi] that cut it into pieces on which a function is monotonic, ends included.
-template <int N>
-struct Knots {
-  std::array<double, N> at{};
-  int count = 0;
-  void add(double s) {
-    if (count == 0 || s > at[static_cast<std::size_t>(count - 1)]) at[static_cast<std::size_t>(count++)] = s;
   }
 };
-
-/// The zeros of f″, a quadratic: 12 s² + 24 B s + 4A + 8B² − 8e.
-void add_inflections(const TorusLine& line, double lo, double hi, Knots<4>& knots) {
-  const double discriminant = line.B * line.B - (line.A + 2 * line.B * line.B - 2 * line.e) / 3;
-  if (discriminant <= 0) return;
-  const double root = std::sqrt(discriminant);
-  for (const double s : {-line.B - root, -line.B + root}) {
-    if (s > lo && s < hi) knots.add(s);
-  }
-}
-
-Knots<5> extremes(const TorusLine& line, double lo, double hi) {
-  Knots<4> inflections;
-  inflections.add(lo);
-  add_inflections(line, lo, hi, inflections);
-  inflections.add(hi);
-  Knots<5> r;
-  r.add(lo);
-  for (int i = 0; i + 1 < inflections.count; ++i) {
-    const double a = inflections.at[static_cast<std::size_t>(i)];
-    const double b = inflections.at[static_cast<std::size_t>(i + 1)];
-    if ((line.df(a) < 0) == (line.df(b) < 0)) continue;
-    r.add(bracketed_root([&](double s) { return line.df(s); },
-                         [&](double s) { return line.ddf(s); }, a, b));
-  }
-  r.add(hi);
-  return r;
-}
 
 /// The part of the line q + s u that is in the bounding sphere and between the planes that the torus touches;
 /// nothing where it passes outside or through the hole. Everything is a little larger than the torus, so that
@@ -132,7 +79,7 @@ Spans torus_spans(const Primitive& p, const Ray& ray) {
                        q.x * u.x + q.y * u.y, q.x * q.x + q.y * q.y};
   const auto near = part_near_torus(q, u, minor, std::sqrt(reach2));
   if (!near) return {};
-  const Knots<5> knots = extremes(line, near->enter, near->leave);
+  const Knots<5> knots = quartic_extremes(line, near->enter, near->leave);
   Spans spans;
   double enter = 0;
   bool inside = false;

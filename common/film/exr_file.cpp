@@ -22,6 +22,24 @@ namespace {
 constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
 constexpr std::size_t kPixelBytes = 3 * sizeof(float);
 
+/// A word of a plane of AOVs as a channel; every word has 32 bits.
+struct AovChannel {
+  const char* name;
+  Aov aov;
+  std::size_t plane, word;
+  Imf::PixelType type;
+};
+constexpr std::array<AovChannel, 8> kAovChannels{{
+    {"depth.Z", Aov::kDepth, kDepthPlane, 0, Imf::FLOAT},
+    {"normal.X", Aov::kNormal, kNormalPlane, 0, Imf::FLOAT},
+    {"normal.Y", Aov::kNormal, kNormalPlane, 1, Imf::FLOAT},
+    {"normal.Z", Aov::kNormal, kNormalPlane, 2, Imf::FLOAT},
+    {"albedo.R", Aov::kAlbedo, kAlbedoPlane, 0, Imf::FLOAT},
+    {"albedo.G", Aov::kAlbedo, kAlbedoPlane, 1, Imf::FLOAT},
+    {"albedo.B", Aov::kAlbedo, kAlbedoPlane, 2, Imf::FLOAT},
+    {"object.I", Aov::kObject, kDepthPlane, 1, Imf::UINT},
+}};
+
 /// OpenEXR's view of a WholeFile. OpenEXR swallows what is thrown while its file closes; WholeFile
 /// remembers it.
 class Stream : public Imf::OStream {
@@ -41,14 +59,29 @@ class Stream : public Imf::OStream {
 };
 
 /// OpenEXR's slices are declared for reading and writing alike, hence the mutable pointer.
-Imf::FrameBuffer frame_of(float* rgb, const Imath::Box2i& window) {
+Imf::FrameBuffer frame_of(Picture& picture, const Imath::Box2i& window) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < kChannels.size(); ++c) {
     frame.insert(kChannels[c],
-                 Imf::Slice::Make(Imf::FLOAT, rgb + c, window, kPixelBytes, width * kPixelBytes));
+                 Imf::Slice::Make(Imf::FLOAT, picture.rgb.data() + c, window, kPixelBytes,
+                                  width * kPixelBytes));
+  }
+  for (const AovChannel& c : kAovChannels) {
+    if (!picture.aovs.has(c.aov)) continue;
+    frame.insert(c.name, Imf::Slice::Make(c.type, picture.aov_planes[c.plane].data() + c.word,
+                                          window, kPixelBytes, width * kPixelBytes));
   }
   return frame;
+}
+
+/// Words that no channel of the file fills stay those of the background.
+std::vector<std::uint32_t> blank_plane(std::size_t plane, std::uint64_t pixels) {
+  const AovWords words = aov_background(plane);
+  std::vector<std::uint32_t> blank;
+  blank.reserve(3 * pixels);
+  for (std::uint64_t i = 0; i < pixels; ++i) blank.insert(blank.end(), words.begin(), words.end());
+  return blank;
 }
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& why) {
@@ -62,6 +95,18 @@ void check_channels(const std::filesystem::path& path, const Imf::ChannelList& c
     if (channel->xSampling != 1 || channel->ySampling != 1)
       fail_to_read(path, "subsampled channels");
   }
+}
+
+/// The AOVs whose channels are all there, of the types that we write.
+AovSet aovs_among(const Imf::ChannelList& channels) {
+  std::uint8_t bits = AovSet::kAllBits;
+  for (const AovChannel& c : kAovChannels) {
+    const Imf::Channel* channel = channels.findChannel(c.name);
+    const bool is_ours = channel != nullptr && channel->type == c.type && channel->xSampling == 1 &&
+                         channel->ySampling == 1;
+    if (!is_ours) bits &= static_cast<std::uint8_t>(~(1u << static_cast<unsigned>(c.aov)));
+  }
+  return AovSet::from_bits(bits);
 }
 
 /// Shading is noise to a compressor: ZIP takes 200 to 300 ms for a megapixel of it, a good part of
@@ -101,13 +146,16 @@ void write_exr(const std::filesystem::path& path, const Picture& picture,
     Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));
     header.compression() = compression_for(picture);
     for (const char* name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    for (const AovChannel& c : kAovChannels) {
+      if (picture.aovs.has(c.aov)) header.channels().insert(c.name, Imf::Channel(c.type));
+    }
     header.insert("scene", Imf::StringAttribute(origin.scene));
     header.insert("graycube", Imf::StringAttribute(origin.version));
 
     const std::string name = path.string();
     Stream stream(file, name.c_str());
     Imf::OutputFile output(stream, header);
-    output.setFrameBuffer(frame_of(const_cast<float*>(picture.rgb.data()), header.dataWindow()));
+    output.setFrameBuffer(frame_of(const_cast<Picture&>(picture), header.dataWindow()));
     output.writePixels(static_cast<int>(picture.height));
   } catch (const std::exception& error) {
     if (!file.failed()) {
@@ -129,7 +177,11 @@ Picture read_exr(const std::filesystem::path& path) {
     const std::uint64_t pixels = std::uint64_t{picture.width} * picture.height;
     if (pixels > kMaxPicturePixels) fail_to_read(path, "too many pixels");
     picture.rgb.resize(3 * pixels);
-    input.setFrameBuffer(frame_of(picture.rgb.data(), window));
+    picture.aovs = aovs_among(input.header().channels());
+    for (std::size_t p = 0; p < kAovPlanes; ++p) {
+      if (has_plane(picture.aovs, p)) picture.aov_planes[p] = blank_plane(p, pixels);
+    }
+    input.setFrameBuffer(frame_of(picture, window));
     input.readPixels(window.min.y, window.max.y);
     return picture;
   } catch (const PictureError&) {

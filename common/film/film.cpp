@@ -91,22 +91,36 @@ std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
 
 }  // namespace
 
-Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel)
-    : width_(width), height_(height), rays_per_pixel_(rays_per_pixel) {
+Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs)
+    : width_(width), height_(height), rays_per_pixel_(rays_per_pixel), aovs_(aovs) {
   GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 &&
                      height <= kMaxPictureSide && pixel_count() <= kMaxPicturePixels &&
                      rays_per_pixel >= 1,
                  "%u x %u pixels, %u rays each", width, height, rays_per_pixel);
   low_.reset(zeroed<Low>(pixel_count()));
   high_.reset(zeroed<High>(pixel_count() + 1));
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    if (has_plane(aovs_, p)) planes_[p].resize(pixel_count(), aov_background(p));
+  }
 }
 
-void Film::add(std::uint32_t pixel, const FixedRgb& light) {
-  GRAYCUBE_CHECK(pixel < pixel_count(), "pixel %u of %zu", pixel,
-                 static_cast<std::size_t>(pixel_count()));
-  Low& low = low_[pixel];
+bool Film::has_slot(std::uint32_t slot) const {
+  const std::uint64_t plane = slot / pixel_count();
+  return plane == 0 || (plane <= kAovPlanes && !planes_[plane - 1].empty());
+}
+
+void Film::add(std::uint32_t slot, const FixedRgb& light) {
+  if (slot >= pixel_count()) [[unlikely]] return set_aovs(slot, light);
+  Low& low = low_[slot];
   const High change{add_low(low.r, light.r), add_low(low.g, light.g), add_low(low.b, light.b)};
-  if ((change.r | change.g | change.b) != 0) [[unlikely]] carry(pixel, change);
+  if ((change.r | change.g | change.b) != 0) [[unlikely]] carry(slot, change);
+}
+
+void Film::set_aovs(std::uint32_t slot, const FixedRgb& words) {
+  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot, static_cast<std::size_t>(pixel_count()));
+  planes_[slot / pixel_count() - 1][slot % pixel_count()] = {static_cast<std::uint32_t>(words.r),
+                                                             static_cast<std::uint32_t>(words.g),
+                                                             static_cast<std::uint32_t>(words.b)};
 }
 
 void Film::carry(std::uint32_t pixel, const High& change) {
@@ -126,6 +140,9 @@ void Film::clear(std::uint32_t pixel) {
                  static_cast<std::size_t>(pixel_count()));
   low_[pixel] = {};
   if (has_high()) high_[pixel] = {};
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    if (!planes_[p].empty()) planes_[p][pixel] = aov_background(p);
+  }
 }
 
 Picture Film::develop() const {
@@ -142,7 +159,10 @@ Picture Film::develop() const {
   };
   const bool reads_high = has_high();
   const std::uint64_t pixels = pixel_count();
-  Picture picture{width_, height_, {}};
+  Picture picture;
+  picture.width = width_;
+  picture.height = height_;
+  picture.aovs = aovs_;
   picture.rgb.resize(3 * pixels);
   float* out = picture.rgb.data();
   for (std::uint64_t i = 0; i < pixels; ++i, out += 3) {
@@ -151,6 +171,12 @@ Picture Film::develop() const {
     out[0] = component(low.r, high.r);
     out[1] = component(low.g, high.g);
     out[2] = component(low.b, high.b);
+  }
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    picture.aov_planes[p].reserve(3 * planes_[p].size());
+    for (const AovWords& words : planes_[p]) {
+      picture.aov_planes[p].insert(picture.aov_planes[p].end(), words.begin(), words.end());
+    }
   }
   return picture;
 }

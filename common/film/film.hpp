@@ -1,11 +1,13 @@
 // The accumulator behind a picture: 128-bit sums of fixed-point light.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <vector>
 
+#include "film/aov.hpp"
 #include "film/fixed_point.hpp"
 
 namespace graycube {
@@ -18,6 +20,9 @@ inline constexpr std::uint64_t kMaxPicturePixels = 1ull << 26;
 struct Picture {
   std::uint32_t width = 0, height = 0;
   std::vector<float> rgb;
+  AovSet aovs{};
+  /// Three words a pixel, laid out as rgb; empty for planes that aovs doesn't need.
+  std::array<std::vector<std::uint32_t>, kAovPlanes> aov_planes{};
 
   friend bool operator==(const Picture&, const Picture&) = default;
 };
@@ -25,15 +30,17 @@ struct Picture {
 class Film {
  public:
   /// `rays_per_pixel` is S × S, at least 1; every pixel's sum is divided by it at the end. Sides
-  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, and 24 more for those
-  /// whose sums leave 64 bits. Throws std::bad_alloc.
-  Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel);
+  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, 24 more for those whose sums
+  /// leave 64 bits, and 12 more for each plane of AOVs. Throws std::bad_alloc.
+  Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs = {});
 
   std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
-  /// Adds light to pixel number y · width + x; the number must be in range. Different threads may
-  /// add to different pixels at once.
-  void add(std::uint32_t pixel, const FixedRgb& light);
-  /// Forgets what a pixel has received (its tile will be traced again).
+  /// Whether `add` takes this slot: a pixel, or one of a plane of AOVs that is kept.
+  bool has_slot(std::uint32_t slot) const;
+  /// Adds light to pixel number y · width + x, or sets AOVs (see aov_slot); has_slot(slot). Different threads
+  /// may add to different pixels at once.
+  void add(std::uint32_t slot, const FixedRgb& light);
+  /// Forgets what a pixel has received, its AOVs too (its tile will be traced again).
   void clear(std::uint32_t pixel);
   /// The mean over each pixel's rays, rounded to float once.
   Picture develop() const;
@@ -50,6 +57,7 @@ class Film {
     void operator()(void* memory) const { std::free(memory); }
   };
 
+  void set_aovs(std::uint32_t slot, const FixedRgb& words);
   void carry(std::uint32_t pixel, const High& change);
   bool has_high() const;
 
@@ -59,6 +67,8 @@ class Film {
   std::unique_ptr<Low[], Release> low_;
   /// One more than there are pixels: the last one's r is not 0 when any of the others was written.
   std::unique_ptr<High[], Release> high_;
+  AovSet aovs_;
+  std::array<std::vector<AovWords>, kAovPlanes> planes_;
 };
 
 }  // namespace graycube

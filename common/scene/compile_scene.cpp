@@ -113,6 +113,15 @@ class Compiler {
   static Primitive build(const Affine& m, const EllipsoidShape& s) {
     return build_ellipsoid(m, s.center, s.axes);
   }
+  static Primitive build(const Affine& m, const EllipticConeShape& s) {
+    return build_elliptic_cone(m, s.base, s.top, s.a, s.b, s.top_a, s.top_b);
+  }
+  static Primitive build(const Affine& m, const EllipticTorusShape& s) {
+    return build_elliptic_torus(m, s.center, s.axis, s.radius, s.outward, s.upward, s.across);
+  }
+  Primitive build(const Affine& m, const QuadricShape& s) {
+    return build_quadric(m, s.coefficients, s.min, s.max, model_.planes);
+  }
   Primitive build(const Affine& m, const PolyhedronShape& s) {
     std::vector<Plane> faces;
     for (const HalfSpaceShape& f : s.planes) faces.push_back({f.normal, f.offset});

@@ -1,5 +1,7 @@
 #include "scene/read_leaf.hpp"
 
+#include <cmath>
+
 #include "geometry/affine.hpp"
 #include "geometry/check.hpp"
 #include "scene/read_scene.hpp"
@@ -34,6 +36,11 @@ constexpr std::array kRules{
     rules_of(NodeType::kHalfSpace, "half_space", "a half_space", "normal", "offset"),
     rules_of(NodeType::kEllipsoid, "ellipsoid", "an ellipsoid", "center", "axes"),
     rules_of(NodeType::kPolyhedron, "polyhedron", "a polyhedron", "planes"),
+    rules_of(NodeType::kEllipticCone, "elliptic_cone", "an elliptic_cone", "base", "top", "a", "b",
+             "top_a", "top_b"),
+    rules_of(NodeType::kEllipticTorus, "elliptic_torus", "an elliptic_torus", "center", "axis", "radius",
+             "outward", "upward", "across"),
+    rules_of(NodeType::kQuadric, "quadric", "a quadric", "coefficients", "min", "max"),
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another word.
@@ -145,6 +152,61 @@ EllipsoidShape read_ellipsoid(JsonAccess& json, LeafMembers members) {
   return e;
 }
 
+EllipticConeShape read_elliptic_cone(JsonAccess& json, LeafMembers members) {
+  EllipticConeShape c;
+  members.read(0, c.base).read(1, c.top).read(2, c.a).read(3, c.b);
+  members.read(4, c.top_a, kNotNegative).read(5, c.top_b, kNotNegative);
+  if (!members.good()) return c;
+  const Vec3 h = c.top - c.base;
+  Affine map;
+  for (int row = 0; row < 3; ++row) {
+    map.m[static_cast<std::size_t>(row)] = {c.a[row], c.b[row], h[row], 0};
+  }
+  if (!map.is_finite() || !map.inverse()) {
+    json.errors.add(members.at(2), "expected a, b and top - base linearly independent, found them dependent");
+  }
+  return c;
+}
+
+EllipticTorusShape read_elliptic_torus(JsonAccess& json, LeafMembers members) {
+  EllipticTorusShape t;
+  members.read(0, t.center).read_direction(1, t.axis).read(2, t.radius, kPositive);
+  members.read(3, t.outward).read(4, t.upward).read(5, t.across, kPositive);
+  if (!members.good()) return t;
+  const double m2 = t.outward * t.outward + t.upward * t.upward;
+  if (!(m2 > 0) || !std::isfinite(m2)) {
+    json.wrong(members.at(4), "outward and upward not both 0");
+    return t;
+  }
+  const double beside2 = t.across * t.across * t.upward * t.upward / m2;
+  if (!(std::sqrt(t.outward * t.outward + beside2) < t.radius)) {
+    json.wrong(members.at(2), "a radius that keeps the ellipse off the axis");
+  }
+  return t;
+}
+
+QuadricShape read_quadric(JsonAccess& json, LeafMembers members) {
+  QuadricShape q;
+  members.read(1, q.min).read(2, q.max);
+  for (int a = 0; members.good() && a < 3; ++a) {
+    if (q.min[a] < q.max[a]) continue;
+    json.wrong(members.at(2), "max greater than min " + json.tree.describe(members.at(1)));
+    break;
+  }
+  const JsonIndex at = members.at(0);
+  if (at == 0) return q;
+  if (json.tree.kind(at) != JsonKind::kArray || json.tree.size(at) != 4) {
+    json.wrong(at, "four numbers");
+    return q;
+  }
+  JsonIndex child = json.tree.first_child(at);
+  for (std::size_t i = 0; i < 4; ++i) {
+    json.read(child, q.coefficients[i], i == 0 ? kNotNegative : kAnyNumber);
+    child = json.tree.next(child);
+  }
+  return q;
+}
+
 void read_plane(JsonAccess& json, JsonIndex at, HalfSpaceShape& plane) {
   if (json.tree.kind(at) != JsonKind::kArray || json.tree.size(at) != 4) {
     json.wrong(at, "a plane [nx, ny, nz, d]");
@@ -196,6 +258,9 @@ void read_leaf_value(JsonAccess& json, NodeType type, const Members& members, Cs
     case NodeType::kHalfSpace: out.value = read_half_space(json, leaf); return;
     case NodeType::kEllipsoid: out.value = read_ellipsoid(json, leaf); return;
     case NodeType::kPolyhedron: out.value = read_polyhedron(json, leaf); return;
+    case NodeType::kEllipticCone: out.value = read_elliptic_cone(json, leaf); return;
+    case NodeType::kEllipticTorus: out.value = read_elliptic_torus(json, leaf); return;
+    case NodeType::kQuadric: out.value = read_quadric(json, leaf); return;
     default: GRAYCUBE_CHECK(false, "node type %d is no leaf", static_cast<int>(type));
   }
 }

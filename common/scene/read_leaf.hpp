@@ -25,11 +25,14 @@ enum class NodeType : std::uint8_t {
   kHalfSpace,
   kEllipsoid,
   kPolyhedron,
+  kEllipticCone,
+  kEllipticTorus,
+  kQuadric,
 };
 
 /// Every node's first keys; those of its type follow.
 enum CommonKey : std::size_t { kTypeKey, kTransformKey, kMaterialKey, kCommonKeys };
-inline constexpr std::size_t kMaxNodeKeys = 7;
+inline constexpr std::size_t kMaxNodeKeys = 9;
 
 struct NodeRules {
   std::string_view name;

@@ -27,6 +27,16 @@ void check_frame(JsonAccess& json, JsonIndex look_at_at, JsonIndex up_at, const 
     json.wrong(up_at, "a vector that is not along the view");
 }
 
+void read_pixel_offset(JsonAccess& json, JsonIndex at, std::array<double, 2>& out) {
+  if (json.tree.kind(at) != JsonKind::kArray || json.tree.size(at) != 2) {
+    json.wrong(at, "two numbers from 0 to 1");
+    return;
+  }
+  const JsonIndex x = json.tree.first_child(at);
+  json.read(x, out[0], kFraction);
+  json.read(json.tree.next(x), out[1], kFraction);
+}
+
 void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
   enum : std::size_t { kType, kPosition, kColor, kFalloff, kKeys };
   constexpr std::array<KeyRule, kKeys> kRules{
@@ -58,17 +68,21 @@ void read_image(JsonAccess& json, JsonIndex at, ImageSize& out) {
 }
 
 void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
-  enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kKeys };
+  enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kPixelOffset, kInside, kKeys };
   constexpr std::array<KeyRule, kKeys> kRules{{{"type", true},
                                                {"eye", true},
                                                {"look_at", true},
                                                {"up", true},
                                                {"fov"},
                                                {"width"},
-                                               {"handedness"}}};
+                                               {"handedness"},
+                                               {"pixel_offset"},
+                                               {"inside"}}};
   std::array<JsonIndex, kKeys> member{};
   const bool complete = json.members(at, "the camera", kRules, member);
   json.read_word(member[kHandedness], out.handedness, kHandednessWords);
+  json.read_word(member[kInside], out.inside, kInsideViewWords);
+  if (member[kPixelOffset] != 0) read_pixel_offset(json, member[kPixelOffset], out.pixel_offset);
   const bool type_known =
       member[kType] != 0 && json.read_word(member[kType], out.projection, kProjectionWords);
   json.read_optional(member[kFov], out.fov_degrees, kFieldOfView);
@@ -83,6 +97,9 @@ void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
     if (member[unwanted] != 0)
       json.errors.add(member[unwanted], kind + " has no key " + quoted(kRules[unwanted].name) +
                                             "; did you mean " + quoted(kRules[wanted].name) + "?");
+  }
+  if (type_known && out.inside == InsideView::kEntry && out.projection == Projection::kPerspective) {
+    json.errors.add(member[kInside], "only an orthographic camera shows entries");
   }
   bool frame_good = json.read_optional(member[kEye], out.eye);
   frame_good = json.read_optional(member[kLookAt], out.look_at) && frame_good;

@@ -69,6 +69,26 @@ struct PolyhedronShape {
   friend bool operator==(const PolyhedronShape&, const PolyhedronShape&) = default;
 };
 
+/// Between two ellipses: semi-axes a, b about `base`, and top_a · a, top_b · b about `top`.
+struct EllipticConeShape {
+  Vec3 base, top, a, b;
+  double top_a = 0, top_b = 0;
+  friend bool operator==(const EllipticConeShape&, const EllipticConeShape&) = default;
+};
+/// An ellipse turned about an axis that it doesn't reach: one semi-axis goes `outward` along the radius and `upward`
+/// along the axis, the other is `across` long.
+struct EllipticTorusShape {
+  Vec3 center, axis;
+  double radius = 0, outward = 0, upward = 0, across = 0;
+  friend bool operator==(const EllipticTorusShape&, const EllipticTorusShape&) = default;
+};
+/// The points of the box with x² + q₀ y² + q₁ z² + q₂ z + q₃ ≤ 0; q₀ ≥ 0.
+struct QuadricShape {
+  std::array<double, 4> coefficients{};
+  Vec3 min, max;
+  friend bool operator==(const QuadricShape&, const QuadricShape&) = default;
+};
+
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
 struct OperationNode {
@@ -84,7 +104,8 @@ struct ReferenceNode {
 
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
-               TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape>
+               TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
+               EllipticTorusShape, QuadricShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

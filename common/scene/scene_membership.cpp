@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 
 namespace graycube {
@@ -68,6 +69,31 @@ bool value_holds(const Scene&, const EllipsoidShape& e, const Vec3& p) {
   const Vec3 q{dot(d, cross(b, c)) / whole, dot(a, cross(d, c)) / whole,
                dot(a, cross(b, d)) / whole};
   return length(q) <= 1;
+}
+/// The coordinates of p for three axes, by Cramer's rule.
+Vec3 coordinates(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const double whole = dot(a, cross(b, c));
+  return {dot(p, cross(b, c)) / whole, dot(a, cross(p, c)) / whole, dot(a, cross(b, p)) / whole};
+}
+bool value_holds(const Scene&, const EllipticConeShape& s, const Vec3& p) {
+  const Vec3 q = coordinates(s.a, s.b, s.top - s.base, p - s.base);
+  const double x = 1 + q.z * (s.top_a - 1), y = 1 + q.z * (s.top_b - 1);
+  const double u = q.x * y, v = q.y * x;
+  return q.z >= 0 && q.z <= 1 && u * u + v * v <= x * x * y * y;
+}
+bool value_holds(const Scene&, const EllipticTorusShape& t, const Vec3& p) {
+  const Vec3 axis = normalized(t.axis);
+  const double height = dot(p - t.center, axis);
+  const double outwards = length(p - t.center - height * axis) - t.radius;
+  const double m = std::sqrt(t.outward * t.outward + t.upward * t.upward);
+  const double along = (outwards * t.outward + height * t.upward) / (m * m);
+  const double beside = (height * t.outward - outwards * t.upward) / (m * t.across);
+  return along * along + beside * beside <= 1;
+}
+bool value_holds(const Scene&, const QuadricShape& s, const Vec3& p) {
+  const auto& q = s.coefficients;
+  return Aabb{s.min, s.max}.contains(p) &&
+         p.x * p.x + q[0] * p.y * p.y + (q[1] * p.z + q[2]) * p.z + q[3] <= 0;
 }
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),

@@ -18,6 +18,8 @@ inline constexpr std::array<Word<Projection>, 2> kProjectionWords{
     {{"perspective", Projection::kPerspective}, {"orthographic", Projection::kOrthographic}}};
 inline constexpr std::array<Word<Handedness>, 2> kHandednessWords{
     {{"right", Handedness::kRight}, {"left", Handedness::kLeft}}};
+inline constexpr std::array<Word<InsideView>, 2> kInsideViewWords{
+    {{"exit", InsideView::kExit}, {"entry", InsideView::kEntry}}};
 inline constexpr std::array<Word<Falloff>, 2> kFalloffWords{
     {{"none", Falloff::kNone}, {"inverse_square", Falloff::kInverseSquare}}};
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -35,7 +36,7 @@ class PovWriter {
       write_node(object.csg, object.material);
       text_ += '\n';
     }
-    return {std::move(text_), std::move(warnings_)};
+    return {std::move(text_), std::move(warnings_), std::move(errors_)};
   }
 
  private:
@@ -111,9 +112,14 @@ class PovWriter {
     const Vec3 up = cross(sideways, forward);
     const bool perspective = c.projection == Projection::kPerspective;
     const double width = perspective ? 2 * tan_degrees(0.5 * c.fov_degrees) : c.width;
+    if (c.inside == InsideView::kEntry)
+      warnings_.push_back("POV-Ray doesn't show entries behind the camera");
+    // Rays off the pixels' middles: the whole picture is shifted against them.
+    const double cell = width / image.width / image.samples;
+    const Vec3 shift = (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;
     text_ += perspective ? "camera { perspective" : "camera { orthographic";
-    item(" location ", c.eye);
-    item(" direction ", forward);
+    item(" location ", perspective ? c.eye : c.eye + shift);
+    item(" direction ", perspective ? forward + shift : forward);
     item(" right ", width * right);
     item(" up ", width * image.height / image.width * up);
     text_ += " }\n";
@@ -272,6 +278,16 @@ class PovWriter {
     text_ += "sphere { <0,0,0>, 1";
     write_matrix(e.axes[0], e.axes[1], e.axes[2], e.center);
   }
+  void write_value(const EllipticConeShape&) { refuse("elliptic_cone"); }
+  void write_value(const EllipticTorusShape&) { refuse("elliptic_torus"); }
+  void write_value(const QuadricShape&) { refuse("quadric"); }
+  /// Nothing, in the place of a kind that POV-Ray has no exact twin of.
+  void refuse(const std::string& kind) {
+    if (refused_.insert(kind).second) {
+      errors_.push_back("a " + kind + " can't be written for POV-Ray");
+    }
+    text_ += "sphere { <0,0,0>, 0";
+  }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());
     text_ += "intersection {";
@@ -286,7 +302,8 @@ class PovWriter {
   const bool merges_;
   std::vector<bool> declared_;
   std::string text_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, errors_;
+  std::set<std::string> refused_;
 };
 
 }  // namespace

@@ -12,6 +12,8 @@ struct PovScene {
   std::string text;
   /// What POV-Ray can't compute as Graycube does, one sentence each.
   std::vector<std::string> warnings;
+  /// What can't be written at all; then the text is of no use.
+  std::vector<std::string> errors;
 };
 
 /// The scene for POV-Ray. On what both can represent the two compute the same light (README, "Scene

@@ -143,6 +143,11 @@ class SceneWriter {
     member("up", c.up);
     member(perspective ? "fov" : "width", perspective ? c.fov_degrees : c.width);
     member("handedness", word_of(kHandednessWords, c.handedness));
+    if (c.pixel_offset != Camera{}.pixel_offset) {
+      next_key("pixel_offset");
+      write_numbers({c.pixel_offset[0], c.pixel_offset[1]});
+    }
+    if (c.inside != InsideView::kExit) member("inside", word_of(kInsideViewWords, c.inside));
     text_ += '}';
   }
 
@@ -276,6 +281,32 @@ class SceneWriter {
       write(e.axes[i]);
     }
     text_ += ']';
+  }
+  void write_value(const EllipticConeShape& c) {
+    text_ += "\"elliptic_cone\"";
+    member("base", c.base);
+    member("top", c.top);
+    member("a", c.a);
+    member("b", c.b);
+    member("top_a", c.top_a);
+    member("top_b", c.top_b);
+  }
+  void write_value(const EllipticTorusShape& t) {
+    text_ += "\"elliptic_torus\"";
+    member("center", t.center);
+    member("axis", t.axis);
+    member("radius", t.radius);
+    member("outward", t.outward);
+    member("upward", t.upward);
+    member("across", t.across);
+  }
+  void write_value(const QuadricShape& q) {
+    text_ += "\"quadric\"";
+    next_key("coefficients");
+    const auto& c = q.coefficients;
+    write_numbers({c[0], c[1], c[2], c[3]});
+    member("min", q.min);
+    member("max", q.max);
   }
   void write_value(const PolyhedronShape& p) {
     text_ += "\"polyhedron\", \"planes\": ";

@@ -1,9 +1,11 @@
 // Everything of a scene that is not a solid: picture, camera, lights, limits of the photometric tree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "film/aov.hpp"
 #include "geometry/vec.hpp"
 
 namespace graycube {
@@ -22,6 +24,9 @@ inline constexpr std::uint64_t kMaxPixels = 1ull << 26;
 inline constexpr std::uint32_t kMaxSamples = 64;
 
 enum class Projection : std::uint8_t { kPerspective, kOrthographic };
+/// What a ray shows that starts within a solid: where it leaves it, or where it would have entered it, behind its
+/// start. The latter is rt's way; orthographic cameras only.
+enum class InsideView : std::uint8_t { kExit, kEntry };
 enum class Handedness : std::uint8_t { kRight, kLeft };
 
 struct Camera {
@@ -32,6 +37,9 @@ struct Camera {
   /// Orthographic: the picture's width in scene units.
   double width = 0;
   Handedness handedness = Handedness::kRight;
+  /// Where in its pixel (with samples: subcell) a ray goes, from the lower-left corner, in pixels; 0 … 1.
+  std::array<double, 2> pixel_offset{0.5, 0.5};
+  InsideView inside = InsideView::kExit;
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -61,6 +69,8 @@ struct RenderSettings {
   std::uint32_t max_depth = 5;
   double min_weight = 0;
   std::vector<PointLight> lights;
+  /// Of the render, not of the scene: no scene file says so.
+  AovSet aovs;
 
   friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -19,13 +19,15 @@ CameraFrame CameraFrame::from(const Camera& camera, const ImageSize& image) {
                            ? 2 * tan_degrees(0.5 * camera.fov_degrees)
                            : camera.width;
   frame.pixel_size = width / image.width;
+  frame.sample_x = camera.pixel_offset[0];
+  frame.sample_y = 1 - camera.pixel_offset[1];
   return frame;
 }
 
 Ray CameraFrame::primary_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sx,
                              std::uint32_t sy) const {
-  const Vec3 across = column_position(x + (sx + 0.5) / image.samples) * right +
-                      row_position(y + (sy + 0.5) / image.samples) * down;
+  const Vec3 across = column_position(x + (sx + sample_x) / image.samples) * right +
+                      row_position(y + (sy + sample_y) / image.samples) * down;
   if (projection == Projection::kOrthographic) return {eye + across, forward};
   return {eye, normalized(forward + across)};
 }

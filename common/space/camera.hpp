@@ -16,6 +16,8 @@ struct CameraFrame {
   /// Width of one (square) pixel: at distance 1 along `forward` in perspective, in scene units
   /// otherwise.
   double pixel_size = 0;
+  /// Where in its subcell a ray goes: share of the width from the left, of the height from the top.
+  double sample_x = 0.5, sample_y = 0.5;
 
   /// The camera must be valid (read_scene checks): eye ≠ look_at, up not along the view, fov in
   /// range.
@@ -26,8 +28,8 @@ struct CameraFrame {
   double column_position(double edge) const { return (edge - 0.5 * image.width) * pixel_size; }
   double row_position(double edge) const { return (edge - 0.5 * image.height) * pixel_size; }
 
-  /// The primary ray of sample (sx, sy), each 0 … samples − 1, of pixel (x, y): through the centre
-  /// of that subcell. Unit direction; perspective rays start at the eye, orthographic ones on the
+  /// The primary ray of sample (sx, sy), each 0 … samples − 1, of pixel (x, y): through the camera's
+  /// point of that subcell. Unit direction; perspective rays start at the eye, orthographic ones on the
   /// plane through the eye.
   Ray primary_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sx, std::uint32_t sy) const;
 };

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "shading/phong.hpp"
+#include "trace/entry_hit.hpp"
+#include "trace/first_hit.hpp"
 
 namespace graycube {
 namespace {
@@ -279,7 +281,9 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   std::array<Crossing, RayPacket::kSize> found;
   const RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if ((hits >> i & 1) != 0) {
+    if (const auto entry = entry_behind(domain_, rays[i].task, scratch_)) {
+      shade(rays[i], *entry, step);
+    } else if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
     } else if (exits[i]) {
       go_on(rays[i], *exits[i], step);
@@ -295,6 +299,9 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
   const Primitive& solid = model.primitives[hit.primitive];
   const Material& m = model.materials[solid.material];
   const RayTask& task = ray.task;
+  if (task.kind == RayKind::kPrimary && model.settings.aovs.any()) {
+    note_first_hit(domain_, task, hit, step);
+  }
   const Vec3& d = task.ray.direction;
   const Vec3 p = task.ray.at(hit.t);
   Vec3 n = outward_normal(solid, model.planes, task.ray, hit.t);

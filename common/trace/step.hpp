@@ -14,7 +14,7 @@
 
 namespace graycube {
 
-/// Light for one pixel, and the credit that comes back with it.
+/// Light for one pixel, and the credit that comes back with it; or a pixel's AOVs (aov_slot).
 struct PixelReturn {
   std::uint32_t pixel = 0;
   /// So many contributions were merged here; at most kMaxMergedContributions.

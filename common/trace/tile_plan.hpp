@@ -26,6 +26,7 @@ class TilePlan {
   TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid);
 
   std::uint32_t tile_count() const { return tile_count_; }
+  std::uint64_t pixel_count() const { return std::uint64_t{image_.width} * image_.height; }
   PixelRect rect(std::uint32_t tile) const;
   std::uint32_t tile_of_pixel(std::uint32_t pixel) const;
   /// S × S primary rays a pixel.

@@ -36,6 +36,16 @@ TEST_CASE("counts are whole numbers within their limits") {
   }
 }
 
+TEST_CASE("AOVs are named in any order and told back in one") {
+  CHECK(parse_aov_list("--aov", "object,depth") == "depth,object");
+  for (const char* bad : {"", "depth,", "depht", "normal,normal"}) {
+    CHECK(refusal([&] { parse_aov_list("--aov", bad); }) ==
+          "graycube: usage: --aov: expected depth,normal,albedo,object, or some of them, each once, "
+          "found \"" +
+              std::string(bad) + "\"");
+  }
+}
+
 TEST_CASE("a size is two numbers of pixels around an x") {
   CHECK(parse_size("--size", "640x480") == PictureSize{640, 480});
   CHECK(parse_size("--size", "1x16384") == PictureSize{1, 16384});

@@ -67,7 +67,7 @@ TEST_CASE("what is no scene file is told apart") {
         }).ends_with("No such file or directory"));
   CHECK(refusal([&] {
           read_scene_input(folder.path());
-        }).ends_with("expected a name ending in .json or .csg"));
+        }).ends_with("expected a name ending in .json, .csg, .g or .asc"));
   CHECK(refusal([&] {
           read_scene_input(write_file(folder / "a.scad", ""));
         }).ends_with("openscad -o MODEL.csg MODEL.scad"));

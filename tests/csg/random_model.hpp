@@ -14,7 +14,7 @@
 
 namespace graycube::testing {
 
-inline constexpr std::size_t kLeafKinds = 8;
+inline constexpr std::size_t kLeafKinds = 11;
 
 struct RandomOptions {
   /// Half of all coordinates are multiples of 1/2, and some leaves repeat others: faces coincide.
@@ -71,6 +71,9 @@ class RandomModel {
       case 4: return node_of(torus());
       case 5: return node_of(ellipsoid());
       case 6: return node_of(polyhedron());
+      case 7: return node_of(elliptic_cone());
+      case 8: return node_of(elliptic_torus());
+      case 9: return node_of(quadric());
       default: return node_of(half_space());
     }
   }
@@ -210,6 +213,34 @@ class RandomModel {
   EllipsoidShape ellipsoid() {
     const Affine a = shear();
     return {place(), {size() * a.row(0), size() * a.row(1), size() * a.row(2)}};
+  }
+  EllipticConeShape elliptic_cone() {
+    const Affine a = shear();
+    EllipticConeShape c{place(), {}, size() * a.row(0), size() * a.row(1), size(), size()};
+    c.top = c.base + size() * a.row(2);
+    if (dice_.one_in(4)) c.top_a = 0;
+    if (dice_.one_in(4)) c.top_b = c.top_a;
+    return c;
+  }
+  EllipticTorusShape elliptic_torus() {
+    const double radius = size();
+    return {place(),
+            axis(),
+            radius,
+            radius * dice_.between(-0.6, 0.6),
+            radius * dice_.between(0.05, 0.6),
+            radius * dice_.between(0.1, 0.6)};
+  }
+  /// As rpc, rhc, epa, ehy and hyp.
+  QuadricShape quadric() {
+    const double k = 1 + 2 * size();
+    switch (dice_.below(5)) {
+      case 0: return {{0, 0, 1, -1}, {-1, 0, 0}, {1, 1, 1}};
+      case 1: return {{0, -1 / k, (k + 1) / k, -1}, {-1, 0, 0}, {1, 1, 1}};
+      case 2: return {{1, 0, 1, -1}, {-1, -1, 0}, {1, 1, 1}};
+      case 3: return {{1, -1 / k, (k + 1) / k, -1}, {-1, -1, 0}, {1, 1, 1}};
+      default: return {{1, 1 - k * k, 0, -1}, {-k, -k, -1}, {k, k, 1}};
+    }
   }
   HalfSpaceShape half_space() {
     return {axis(), is_on_grid() ? dice_.on_grid(2) : dice_.between(-2, 2)};

@@ -176,7 +176,7 @@ TEST_CASE("a scene moved, scaled, sheared or mirrored with its rays has the same
     }
   }
   INFO(grazing << " of " << rays_traced);
-  CHECK(hits > rays_traced / 3);
+  CHECK(10 * hits > 3 * rays_traced);
   CHECK(grazing == 0);
 }
 

@@ -236,3 +236,35 @@ TEST_CASE("a cleared pixel forgets its light and its neighbours keep theirs") {
   film.clear(1);
   CHECK(film.develop().rgb == std::vector<float>{1, 1, 1, 0, 0, 0, 1, 1, 1});
 }
+
+TEST_CASE("AOVs are set, never summed, and forgotten with their pixel") {
+  AovSet aovs;
+  aovs.add(Aov::kObject);
+  Film film(2, 1, 4, aovs);
+  CHECK(film.has_slot(1));
+  CHECK_FALSE(film.has_slot(aov_slot(kNormalPlane, 2, 0)));
+  CHECK_FALSE(film.has_slot(8));
+  const std::uint32_t slot = aov_slot(kDepthPlane, 2, 1);
+  REQUIRE(film.has_slot(slot));
+  film.add(slot, {0x40000000, 7, 0});
+  film.add(1, {1, 1, 1});
+  const Picture picture = film.develop();
+  const std::uint32_t infinity = 0x7F800000;
+  CHECK(picture.aovs == aovs);
+  CHECK(picture.aov_planes[kDepthPlane] ==
+        std::vector<std::uint32_t>{infinity, 0, 0, 0x40000000, 7, 0});
+  CHECK(picture.aov_planes[kNormalPlane].empty());
+  film.clear(1);
+  CHECK(film.develop().aov_planes[kDepthPlane] ==
+        std::vector<std::uint32_t>{infinity, 0, 0, infinity, 0, 0});
+}
+
+TEST_CASE("AOVs' names are read in any order, each at most once") {
+  CHECK(parse_aovs("")->bits() == 0);
+  CHECK(to_string(*parse_aovs("object,depth")) == "depth,object");
+  CHECK(*parse_aovs("depth,normal,albedo,object") == AovSet::all());
+  for (const char* wrong : {",", "depth,", ",depth", "depth,depth", "Depth", "depth normal", "z"}) {
+    INFO(wrong);
+    CHECK_FALSE(parse_aovs(wrong));
+  }
+}

@@ -408,3 +408,39 @@ TEST_CASE("pictures of absurd size are refused before memory is taken") {
     CHECK_THROWS_AS(read_exr(folder / "a.exr"), PictureError);
   }
 }
+
+TEST_CASE("AOVs are channels of the EXR beside R, G and B, and come back") {
+  const Folder folder;
+  Picture picture;
+  picture.width = 2;
+  picture.height = 1;
+  picture.rgb = {0, 0.25, 0.5, 1, 2, 3};
+  picture.aovs = AovSet::all();
+  picture.aov_planes = {{{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}, {13, 14, 0, 16, 17, 0}}};
+  const fs::path file = folder / "aov.exr";
+  write_exr(file, picture, {"scene.json", "1"});
+  CHECK(read_exr(file) == picture);
+  const Imf::InputFile input(file.c_str());
+  const Imf::ChannelList& channels = input.header().channels();
+  REQUIRE(channels.findChannel("object.I") != nullptr);
+  CHECK(channels.findChannel("object.I")->type == Imf::UINT);
+  for (const char* name : {"depth.Z", "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G",
+                           "albedo.B"}) {
+    INFO(name);
+    REQUIRE(channels.findChannel(name) != nullptr);
+    CHECK(channels.findChannel(name)->type == Imf::FLOAT);
+  }
+}
+
+TEST_CASE("only the AOVs that were asked for are written") {
+  const Folder folder;
+  Picture picture;
+  picture.width = picture.height = 1;
+  picture.rgb = {0, 0, 0};
+  picture.aovs.add(Aov::kObject);
+  picture.aov_planes[kDepthPlane] = {0x7F800000, 5, 0};
+  write_exr(folder / "object.exr", picture, {});
+  CHECK(read_exr(folder / "object.exr") == picture);
+  const Imf::InputFile input((folder / "object.exr").c_str());
+  CHECK(input.header().channels().findChannel("depth.Z") == nullptr);
+}

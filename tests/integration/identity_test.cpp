@@ -27,9 +27,13 @@ std::string picture(Sandbox& sandbox, const std::string& scene, const char* size
   return bytes;
 }
 
-void check_identity(const std::string& scene, const char* size = kSize) {
+void check_identity(const std::string& scene, const char* size = kSize, const Arguments& also = {}) {
   Sandbox sandbox;
-  const std::string reference = picture(sandbox, scene, size, {"--algorithm", "serial"});
+  const auto with_also = [&](Arguments way) {
+    way.insert(way.end(), also.begin(), also.end());
+    return way;
+  };
+  const std::string reference = picture(sandbox, scene, size, with_also({"--algorithm", "serial"}));
   std::vector<Arguments> ways{{"--algorithm", "serial", "--threads", "2"},
                               {"--algorithm", "auto"},
                               {"--algorithm", "macro", "-n", "4", "--threads", "2"},
@@ -51,7 +55,7 @@ void check_identity(const std::string& scene, const char* size = kSize) {
     std::string name;
     for (const std::string& word : way) name += word + " ";
     INFO(scene << " with " << name);
-    CHECK((picture(sandbox, scene, size, way) == reference));
+    CHECK((picture(sandbox, scene, size, with_also(way)) == reference));
   }
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
@@ -79,6 +83,9 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
 
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }
 TEST_CASE("glass looks the same whatever computes it") { check_identity("glass.json", kSmallSize); }
+TEST_CASE("AOVs are the same whatever computes them") {
+  check_identity("first.json", kSize, {"--aov", "depth,normal,albedo,object"});
+}
 TEST_CASE("tori look the same whatever computes them") { check_identity("tori.json"); }
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");

@@ -65,6 +65,13 @@ TEST_CASE("picture rows come back bit for bit, infinities included") {
   CHECK(std::memcmp(again.data(), values.data(), 24) == 0);
 }
 
+TEST_CASE("rows of AOVs come back bit for bit, signalling NaNs included") {
+  const std::vector<std::uint32_t> words{0, 0x7F800001, 0xFFFFFFFF, 1, 2, 0x80000000};
+  std::vector<std::uint32_t> again;
+  REQUIRE(decode_picture_rows(encode_picture_rows(words), 1, 2, again));
+  CHECK(again == words);
+}
+
 TEST_CASE("picture rows of another size than announced are refused") {
   const auto frame = encode_picture_rows(std::vector<float>(6));
   std::vector<float> values(1);

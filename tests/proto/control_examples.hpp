@@ -48,6 +48,7 @@ inline control::JobOptions example_options() {
   o.height = 480;
   o.samples = 2;
   o.max_depth = 0;
+  o.aov = "depth,object";
   return o;
 }
 
@@ -103,7 +104,7 @@ inline std::vector<ControlMessage> example_messages() {
       Watch{9},
       Cancel{9},
       Nodes{},
-      Fetch{9, 100, 20},
+      Fetch{9, 100, 20, 2},
       Down{},
       Accepted{9},
       example_job(),
@@ -111,7 +112,7 @@ inline std::vector<ControlMessage> example_messages() {
       Progress{9, JobState::kDone, 1, 0.0, 64, 64, 4, TokenProgress{4, 32}},
       NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
       Done{9, stats},
-      Picture{9, 640, 480, 100, 20},
+      Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
       Failed{9, FailureCode::kBadInput, {{"/objects/0/csg", "unknown type"}}},
       Bye{},
   };

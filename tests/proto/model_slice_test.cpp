@@ -66,7 +66,13 @@ RenderSettings some_settings(Random& random) {
               {0, 1, 0},
               random.uniform(1, 179),
               random.uniform(0.1, 9),
-              random.chance(2) ? Handedness::kLeft : Handedness::kRight};
+              random.chance(2) ? Handedness::kLeft : Handedness::kRight,
+              {random.uniform(0, 1), random.uniform(0, 1)},
+              InsideView::kExit};
+  if (s.camera.projection == Projection::kOrthographic && random.chance(2)) {
+    s.camera.inside = InsideView::kEntry;
+  }
+  s.aovs = AovSet::from_bits(static_cast<std::uint8_t>(random.below(16)));
   s.background = random.rgb();
   s.ambient = random.rgb();
   s.max_depth = static_cast<std::uint32_t>(random.below(kMaxDepth + 1));
@@ -113,7 +119,7 @@ Model small_model() {
   Model model;
   model.settings.image = {4, 3, 1};
   model.settings.camera = {Projection::kPerspective, {0, 0, -5}, {0, 0, 0}, {0, 1, 0}, 40, 0,
-                           Handedness::kRight};
+                           Handedness::kRight, {0.5, 0.5}, InsideView::kExit};
   model.materials.resize(1);
   model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
   model.primitives.resize(2);
@@ -168,15 +174,15 @@ TEST_CASE("a sphere takes 87 bytes: no matrix, no planes") {
 TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives") {
   const Bytes bytes = encode_model(small_model());
   CHECK(std::memcmp(bytes.data(), "GCM1", 4) == 0);
-  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 1);
+  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == kModelVersion);
   const std::uint32_t counts[] = {0, 1, 2, 2, 6, 2};
   for (std::size_t i = 0; i < 6; ++i)
     CHECK(load_little<std::uint32_t>(bytes.data() + 8 + 4 * i) == counts[i]);
   CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 4);
   CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 3);
   CHECK(load_little<double>(bytes.data() + 48 + 16) == -5);
-  // Settings end at 204; a material of 81 bytes, two planes, then the first primitive.
-  const std::byte* primitive = bytes.data() + 204 + 81 + 64;
+  // Settings end at 220; a material of 81 bytes, two planes, then the first primitive.
+  const std::byte* primitive = bytes.data() + 220 + 81 + 64;
   CHECK(load_little<std::uint8_t>(primitive) == 0);
   CHECK(load_little<std::uint16_t>(primitive + 1) == (0x0F | 0x80));
   CHECK(load_little<double>(primitive + 7 + 24) == 0.5);
@@ -198,6 +204,9 @@ TEST_CASE("a broken model is refused, and the error names the part") {
          m.settings.camera.up = {0, 0, 3};
        }},
       {"camera", "finite", [](Model& m) { m.settings.camera.eye.x = Aabb::kInf; }},
+      {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[1] = -0.5; }},
+      {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[0] = std::nan(""); }},
+      {"camera", "insides", [](Model& m) { m.settings.camera.inside = InsideView::kEntry; }},
       {"camera", "width",
        [](Model& m) { m.settings.camera.projection = Projection::kOrthographic; }},
       {"settings", "range", [](Model& m) { m.settings.max_depth = 1001; }},
@@ -218,7 +227,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
       {"plane 1", "finite", [](Model& m) { m.planes[1].offset = Aabb::kInf; }},
       {"primitive 0", "kind",
-       [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(9); }},
+       [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(kPrimitiveKinds); }},
       {"primitive 0", "material", [](Model& m) { m.primitives[0].material = 1; }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].v[3] = std::nan(""); }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].to_local.m[1][2] = Aabb::kInf; }},

@@ -67,6 +67,10 @@ class RandomScene {
     (s.camera.projection == Projection::kPerspective ? s.camera.fov_degrees : s.camera.width) =
         1 + 178 * fraction();
     s.camera.handedness = below(2) == 0 ? Handedness::kRight : Handedness::kLeft;
+    if (below(2) == 0) s.camera.pixel_offset = {fraction(), fraction()};
+    if (s.camera.projection == Projection::kOrthographic && below(2) == 0) {
+      s.camera.inside = InsideView::kEntry;
+    }
     s.background = color();
     s.ambient = color();
     s.max_depth = static_cast<std::uint32_t>(below(1001));
@@ -114,7 +118,7 @@ class RandomScene {
   void leaf(CsgNode& node) {
     const Vec3 corner = vector();
     const double major = positive();
-    switch (below(scene_.shapes.empty() ? 8 : 9)) {
+    switch (below(scene_.shapes.empty() ? 11 : 12)) {
       case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
         node.value =
@@ -140,6 +144,19 @@ class RandomScene {
         node.value = PolyhedronShape{};
         for (std::size_t i = 0, count = 1 + below(5); i < count; ++i)
           std::get<PolyhedronShape>(node.value).planes.push_back({direction(), number()});
+        return;
+      case 8:
+        node.value = EllipticConeShape{corner,     corner + Vec3{0.1, 0.2, 2}, {1, fraction(), 0},
+                                       {0, 2, 0.1}, positive(),                positive()};
+        return;
+      case 9:
+        node.value = EllipticTorusShape{vector(),       direction(), major, major * 0.5 * fraction(),
+                                        major * 0.5, major * 0.5};
+        return;
+      case 10:
+        node.value = QuadricShape{{positive(), number(), number(), number()},
+                                  corner,
+                                  corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
         return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};

@@ -23,6 +23,43 @@ TEST_CASE("macro gives the serial picture on 1 to 64 nodes, whatever the links' 
   }
 }
 
+TEST_CASE("AOVs are the serial ones, also of rays that run along the macro-regions' boundaries") {
+  std::string text = scene_text(32, 32);
+  const std::string camera = "\"fov\": 60";
+  for (const char* offset : {"[0.5,0.5]", "[0,0]", "[1,0.25]"}) {
+    for (const char* projection : {"perspective", "orthographic"}) {
+      std::string own = text;
+      const bool is_parallel = projection[0] == 'o';
+      own.replace(own.find("perspective"), 11, projection);
+      own.replace(own.find(camera), camera.size(),
+                  (is_parallel ? std::string("\"width\": 9, \"inside\": \"entry\"") : camera) +
+                      ", \"pixel_offset\": " + offset);
+      if (is_parallel) own.replace(own.find("[0,3,-9]"), 8, "[0,1,-2]");
+      own.replace(own.find("\"height\": 32"), 12, "\"height\": 32, \"samples\": 2");
+      const Picture expected = serial_picture(own, AovSet::all());
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        FarmOptions options;
+        options.nodes = 1u << (seed % 5);
+        options.seed = seed;
+        INFO(offset << " " << projection << ", seed " << seed << ", " << options.nodes << " nodes");
+        Farm farm(options);
+        control::JobOptions job = with(seed % 3 == 0 ? Algorithm::kRoth : Algorithm::kMacro);
+        job.aov = "depth,normal,albedo,object";
+        check_same_picture(farm, farm.render(own, job), 1, expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("a job that asks for unknown AOVs is refused") {
+  Farm farm({.nodes = 2, .seed = 3});
+  control::JobOptions job = with(Algorithm::kMacro);
+  job.aov = "depth,colour";
+  const Outcome outcome = farm.render(scene_text(16, 16), job);
+  REQUIRE(outcome.failed);
+  CHECK(outcome.failed->errors.front().where == "--aov");
+}
+
 TEST_CASE("roth gives the serial picture for every grain") {
   const std::string text = scene_text(30, 20);
   const Picture expected = serial_picture(text);

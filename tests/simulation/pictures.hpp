@@ -34,12 +34,13 @@ inline std::string scene_text(unsigned width, unsigned height) {
     {"material": "mirror", "csg": {"type": "box", "min": [-5,0,4], "max": [5,4,4.2]}}]})";
 }
 
-inline Picture serial_picture(const std::string& text) {
-  const ReadResult read = read_scene_text(text);
+inline Picture serial_picture(const std::string& text, AovSet aovs = {}) {
+  ReadResult read = read_scene_text(text);
   REQUIRE(read.scene);
+  read.scene->settings.aovs = aovs;
   const Domain domain(compile_scene(*read.scene));
   const ImageSize& image = domain.settings().image;
-  Film film(image.width, image.height, image.samples * image.samples);
+  Film film(image.width, image.height, image.samples * image.samples, aovs);
   render_serial(domain, {}, film);
   return film.develop();
 }

@@ -51,6 +51,16 @@ TEST_CASE("pixel (0,0) is top left") {
   }
 }
 
+TEST_CASE("a pixel offset counts from the pixel's lower-left corner") {
+  Camera camera = looking_along_z(Handedness::kLeft);
+  camera.projection = Projection::kOrthographic;  // pixels of side 1, x −4 … 4, y −2 … 2
+  camera.pixel_offset = {0, 0};
+  check_close(CameraFrame::from(camera, {8, 4, 1}).primary_ray(0, 0, 0, 0).origin, {-4, 1, -5});
+  check_close(CameraFrame::from(camera, {8, 4, 2}).primary_ray(7, 3, 1, 1).origin, {3.5, -2, -5});
+  camera.pixel_offset = {1, 0.75};
+  check_close(CameraFrame::from(camera, {8, 4, 1}).primary_ray(2, 1, 0, 0).origin, {-1, 0.75, -5});
+}
+
 TEST_CASE("fov is the full horizontal angle and pixels are square") {
   const auto frame = CameraFrame::from(looking_along_z(Handedness::kLeft), {8, 4, 1});
   // tan 45° = 1, so eight pixels span −1 … 1 and the four rows −0.5 … 0.5.

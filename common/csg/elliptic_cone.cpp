@@ -1,0 +1,80 @@
+#include "csg/elliptic_cone.hpp"
+
+#include "csg/box.hpp"
+#include "csg/quartic.hpp"
+
+namespace graycube::csg {
+namespace {
+
+/// How far beyond its bounds a solid is looked for, in parts of their size: there its quartic is positive.
+constexpr double kBeyond = 1e-9;
+
+struct Range {
+  double lo, hi;
+};
+/// 1 − k z over an interval of z, not below 0.
+Range radius_over(double k, double lo, double hi) {
+  const double a = 1 - k * lo, b = 1 - k * hi;
+  return {std::fmax(0, std::fmin(a, b)), std::fmax(0, std::fmax(a, b))};
+}
+
+}  // namespace
+
+Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
+  const Aabb box = p.bounds.grown(kBeyond * length(p.bounds.hi - p.bounds.lo));
+  Interval i = box_interval(box.lo, box.hi, ray.origin, ray.direction);
+  if (i.is_empty()) return {};
+  clip_to_caps(i, p, ray);
+  if (!(i.enter < i.leave)) return {};
+  const double k = second_slope(p);
+  const Vec3 o = p.to_local.point(ray.origin);
+  const Vec3 d = p.to_local.vector(ray.direction);
+  const double speed = length(d);
+  const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
+  // Recentred in the middle of the piece that counts.
+  const double nearest = 0.5 * (i.enter + i.leave) * speed;
+  const Vec3 q = o + nearest * u;
+  const Quadratic x = product(q.x, u.x, 1 - k * q.z, -k * u.z);
+  const Quadratic y = product(q.y, u.y, 1 - q.z, -u.z);
+  const Quadratic w = product(1 - q.z, -u.z, 1 - k * q.z, -k * u.z);
+  const ProductQuartic<3> line{{{{1, x, x}, {1, y, y}, {-1, w, w}}}};
+  return quartic_spans(line, {i.enter, i.leave, nearest, speed});
+}
+
+bool elliptic_cone_contains(const Primitive& p, const Vec3& q) {
+  const Vec3 l = p.to_local.point(q);
+  const double a = 1 - l.z, b = 1 - second_slope(p) * l.z;
+  if (!(a >= 0 && b >= 0 && is_between_caps(p, q))) return false;
+  const double x = l.x * b, y = l.y * a, w = a * b;
+  return x * x + y * y <= w * w;
+}
+
+Vec3 elliptic_cone_normal(const Primitive& p, const Ray& ray, double t) {
+  const Vec3 cap = cap_at(p, ray, t);
+  if (cap != Vec3{}) return cap;
+  const double k = second_slope(p);
+  const Vec3 l = p.to_local.point(ray.at(t));
+  const double a = 1 - l.z, b = 1 - k * l.z;
+  return normalized(p.to_local.transposed_vector(
+      {l.x * b * b, l.y * a * a, a * b * (b + k * a) - k * l.x * l.x * b - l.y * l.y * a}));
+}
+
+CellSide classify_elliptic_cone(const Primitive& p, const Aabb& cell) {
+  if (misses_caps(p, cell)) return CellSide::kOutside;
+  const Aabb near = intersection_of(cell, p.bounds);
+  if (near.is_empty()) return CellSide::kOutside;
+  const Aabb l = mapped_bounds(p.to_local, near);
+  const Range a = radius_over(1, l.lo.z, l.hi.z);
+  const Range b = radius_over(second_slope(p), l.lo.z, l.hi.z);
+  const double x = distance_to_zero(l.lo.x, l.hi.x), y = distance_to_zero(l.lo.y, l.hi.y);
+  // Multiplied out, as radii may be 0.
+  if (x * x * b.hi * b.hi + y * y * a.hi * a.hi > a.hi * a.hi * b.hi * b.hi) return CellSide::kOutside;
+  const double far_x = std::fmax(-l.lo.x, l.hi.x), far_y = std::fmax(-l.lo.y, l.hi.y);
+  const bool is_within_sides =
+      far_x * far_x * b.lo * b.lo + far_y * far_y * a.lo * a.lo < a.lo * a.lo * b.lo * b.lo;
+  const Vec3 n = cap_normal(p);
+  const bool is_within_caps = least_along(n, cell) > p.v[3] && greatest_along(n, cell) < p.v[4];
+  return near == cell && is_within_sides && is_within_caps ? CellSide::kInside : CellSide::kCrosses;
+}
+
+}  // namespace graycube::csg

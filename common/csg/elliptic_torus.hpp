@@ -1,0 +1,14 @@
+// Ellipses turned about an axis that they don't reach. In the primitive's frame, with ρ² = x² + y²,
+// v[0] (ρ − 1)² + 2 v[1] (ρ − 1) z + v[2] z² ≤ 1; the ellipse reaches v[3] outwards and v[4] along the axis.
+#pragma once
+
+#include "csg/roots.hpp"
+
+namespace graycube::csg {
+
+Spans elliptic_torus_spans(const Primitive& p, const Ray& ray);
+bool elliptic_torus_contains(const Primitive& p, const Vec3& q);
+Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q);
+CellSide classify_elliptic_torus(const Primitive& p, const Aabb& cell);
+
+}  // namespace graycube::csg

@@ -1,0 +1,28 @@
+// BRL-CAD's solids as nodes of a scene: exact primitives, or a few of them joined.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/brlcad_database.hpp"
+#include "scene/scene.hpp"
+
+namespace graycube {
+
+/// rt takes surfaces of one region that are nearer to each other than this, in mm, for one: so a cut flush with
+/// a face leaves no skin. Here what is cut off is that much larger.
+inline constexpr double kBrlcadSkin = 0.0005;
+/// Corners of an arb may lie so far off their face's plane, in parts of the arb's size, or in kBrlcadSkin.
+inline constexpr double kBrlcadPlanar = 1e-3;
+
+struct BrlcadNode {
+  /// Absent when `problem` says why; rt leaves such solids out, unless `is_error`.
+  std::optional<CsgNode> node;
+  std::string problem;
+  bool is_error = false;
+};
+
+/// The solid in world coordinates under `to_world`, every face moved outwards by `grow` mm.
+BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double grow);
+
+}  // namespace graycube
