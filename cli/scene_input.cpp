@@ -40,7 +40,7 @@ std::string read_file(const fs::path& path, std::size_t most) {
   const auto size = fs::file_size(path, error);  // a pipe has none
   if (!error && size > most) throw too_large();
   std::string text;
-  if (!error) text.reserve(size);
+  if (!error) text.reserve(size + kTextPadding);
   std::array<char, 65536> chunk;
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     if (text.size() + count > most) throw too_large();
@@ -71,8 +71,8 @@ std::string pointer_word(const std::string& name) {
 }
 
 void read_json(const fs::path& path, SceneInput& input) {
-  input.text = read_file(path, kMaxSubmitBytes);
-  ReadResult read = read_scene_text(input.text);
+  PaddedText text(read_file(path, kMaxSubmitBytes));
+  ReadResult read = read_scene_text(text);
   if (!read.scene) {
     std::vector<Problem> problems;
     for (const SceneError& e : read.errors) {
@@ -82,6 +82,7 @@ void read_json(const fs::path& path, SceneInput& input) {
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   input.scene = std::move(*read.scene);
+  input.text = std::move(text).take();
 }
 
 void import_openscad(const fs::path& path, const control::JobOptions& options, SceneInput& input) {

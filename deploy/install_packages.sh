@@ -10,7 +10,7 @@ fail() {
 
 packages=(
   g++ cmake git ninja-build pkg-config
-  libzmq3-dev cppzmq-dev nlohmann-json3-dev libopenexr-dev libpng-dev zlib1g-dev
+  libzmq3-dev cppzmq-dev nlohmann-json3-dev libsimdjson-dev libopenexr-dev libpng-dev zlib1g-dev
   catch2 libcli11-dev libhwy-dev libcpp-httplib-dev
 )
 case "${1-}" in

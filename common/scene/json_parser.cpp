@@ -1,5 +1,5 @@
 // Fills a JsonTree from the events of nlohmann's parser: the only file of this folder that knows
-// the library.
+// the library. It decides what is JSON here, and words what is wrong.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,10 +32,6 @@ struct InlinedAllocator : std::allocator<T> {
 };
 using TokenText = std::basic_string<char, std::char_traits<char>, InlinedAllocator<char>>;
 using Json = nlohmann::basic_json<std::map, std::vector, TokenText>;
-
-/// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
-constexpr std::size_t kBytesPerValue = 7;
-constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// The library's number for a number beyond a double.
@@ -276,10 +272,6 @@ class JsonEvents {
   Text key_;                     // of the next value; empty in an array
 };
 
-JsonTree::JsonTree(std::string_view text) : text_(text) {
-  // Growing by doubling would touch three times the memory, and first touches are half the time.
-  values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
-  JsonEvents(text, *this).parse();
-}
+void JsonTree::read_carefully() { JsonEvents(text_, *this).parse(); }
 
 }  // namespace graycube

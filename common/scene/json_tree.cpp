@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "scene/padded_text.hpp"
 #include "scene/spelling.hpp"
 
 namespace graycube {
@@ -11,6 +12,10 @@ namespace {
 
 /// Longest excerpt of the text in a message.
 constexpr std::size_t kMaxExcerpt = 40;
+
+/// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
+constexpr std::size_t kBytesPerValue = 7;
+constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
 
 /// RFC 6901: "~" is written ~0 and "/" ~1.
 void append_token(std::string& pointer, std::string_view token) {
@@ -26,6 +31,20 @@ void append_token(std::string& pointer, std::string_view token) {
 }
 
 }  // namespace
+
+JsonTree::JsonTree(std::string_view text) : JsonTree(text, nullptr) {}
+
+JsonTree::JsonTree(const PaddedText& text) : JsonTree(text.view(), &text) {}
+
+JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text) {
+  // Growing by doubling would touch three times the memory, and first touches are half the time.
+  values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
+  was_read_fast_ = padded != nullptr && read_fast(*padded);
+  if (was_read_fast_) return;
+  values_.clear();
+  decoded_.clear();
+  read_carefully();
+}
 
 double JsonTree::number(JsonIndex i) const { return std::bit_cast<double>(values_[i].payload); }
 

@@ -49,8 +49,8 @@ constexpr std::array<KeyRule, kRootKeys> kRootRules{{{"graycube", true},
 
 class SceneReader {
  public:
-  explicit SceneReader(std::string_view text)
-      : text_(text), tree_(text), errors_(tree_), json_(tree_, errors_) {}
+  explicit SceneReader(const PaddedText& text)
+      : text_(text.view()), tree_(text), errors_(tree_), json_(tree_, errors_) {}
 
   ReadResult read() {
     if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}};
@@ -175,14 +175,20 @@ std::string too_large() {
 
 }  // namespace
 
+ReadResult read_scene_text(const PaddedText& json) {
+  if (json.view().size() > kMaxSceneBytes) return failure(too_large());
+  return SceneReader(json).read();
+}
+
 ReadResult read_scene_text(std::string_view json) {
   if (json.size() > kMaxSceneBytes) return failure(too_large());
-  return SceneReader(json).read();
+  return read_scene_text(PaddedText(json));
 }
 
 ReadResult read_scene_file(const std::filesystem::path& path) {
   // In pieces, since pipes have no size; a regular file's size is checked before memory is taken.
   constexpr std::size_t kPiece = std::size_t{1} << 20;
+  static_assert(kPiece >= kTextPadding);
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return failure("cannot read the file: it is a directory");
@@ -203,7 +209,7 @@ ReadResult read_scene_file(const std::filesystem::path& path) {
     text.resize(before + static_cast<std::size_t>(file.gcount()));
   }
   if (file.bad()) return failure("reading the file failed");
-  return read_scene_text(text);
+  return read_scene_text(PaddedText(std::move(text)));
 }
 
 }  // namespace graycube

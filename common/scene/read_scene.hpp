@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/padded_text.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -42,6 +43,8 @@ struct ReadResult {
 };
 
 /// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds.
+ReadResult read_scene_text(const PaddedText& json);
+/// As above, copying the text. Large ones are best padded where they are read.
 ReadResult read_scene_text(std::string_view json);
 /// As above; that the file can't be read is an error with an empty pointer.
 ReadResult read_scene_file(const std::filesystem::path& path);
