@@ -43,6 +43,15 @@ struct Specimen {
       case PrimitiveKind::kCone: primitive = build_cone(none, {0, -1, 0}, 1, {0, 1, 0}, 0.3); break;
       case PrimitiveKind::kTorus: primitive = build_torus(none, {}, {0, 1, 0}, 0.8, 0.3); break;
       case PrimitiveKind::kHalfSpace: primitive = build_half_space(none, {{0, 1, 0}, 0.2}); break;
+      case PrimitiveKind::kEllipticCone:
+        primitive = build_elliptic_cone(none, {0, -1, 0}, {0.2, 1, 0}, {1, 0, 0}, {0, 0, 0.7}, 0.4, 0.6);
+        break;
+      case PrimitiveKind::kEllipticTorus:
+        primitive = build_elliptic_torus(none, {}, {0, 1, 0}, 0.7, 0.3, 0.1, 0.2);
+        break;
+      case PrimitiveKind::kQuadric:  // the paraboloid y ≥ x² + z² − 1, cut at y = 1
+        primitive = build_quadric(none, {1, 1, 0, -1}, {-1.5, -1.5, -1}, {1.5, 1.5, 1}, planes);
+        break;
       case PrimitiveKind::kPolyhedron: {
         const std::array<Plane, 4> faces{
             {{{1, 1, 1}, 1}, {{-1, -1, 1}, 1}, {{-1, 1, -1}, 1}, {{1, -1, -1}, 1}}};
@@ -68,7 +77,8 @@ std::vector<Ray> rays_about_the_origin() {
 
 constexpr std::array<const char*, kPrimitiveKinds> kKindNames{
     "sphere", "ellipsoid", "box",        "parallelepiped", "cylinder",
-    "cone",   "torus",     "half_space", "polyhedron"};
+    "cone",   "torus",     "half_space", "polyhedron",     "elliptic_cone",
+    "elliptic_torus", "quadric"};
 
 void spans_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);

@@ -52,10 +52,11 @@ class CreditSplit {
 };
 
 /// A ray from `origin` that inherits pixel and generation.
-RayTask spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& direction,
-              const Rgb& weight) {
-  RayTask r;
-  r.ray = {origin, direction};
+/// Written in place, number by number: a copy made on the way would wait for its parts to reach the cache.
+void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& direction,
+           const Rgb& weight, RayTask& r) {
+  r.ray.origin = origin;
+  r.ray.direction = direction;
   r.t = origin_epsilon(origin);
   r.t_max = kInf;
   r.weight = weight;
@@ -63,7 +64,6 @@ RayTask spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec
   r.kind = kind;
   r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
   r.region = parent.region;
-  return r;
 }
 
 }  // namespace
@@ -247,21 +247,26 @@ void Evaluator::light_arrives(const OpenRay& ray, Step& step) {
 /// `rays` are in one region, a packet at most.
 void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
-  std::array<std::optional<RegionExit>, RayPacket::kSize> exits;
+  std::array<RegionExit, RayPacket::kSize> exits;
+  RayPacket::Mask leaving = 0;
   std::array<Rgb, RayPacket::kSize> light;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    exits[i] = domain_.exit(task.region, task.ray, task.t);
-    if (exits[i] && exits[i]->t >= task.t_max) exits[i].reset();
+    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const bool leaves = exit && exit->t < task.t_max;
+    if (leaves) {
+      exits[i] = *exit;
+      leaving |= RayPacket::Mask{1} << i;
+    }
     light[i] = task.weight;
-    packet.add(task.ray, task.t, exits[i] ? exits[i]->t : task.t_max);
+    packet.add(task.ray, task.t, leaves ? exit->t : task.t_max);
   }
   const RayPacket::Mask passing = domain_.pass_lights(packet, scratch_, light);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if ((passing >> i & 1) != 0 && exits[i]) {
+    if ((passing & leaving) >> i & 1) {
       OpenRay dimmed = rays[i];
       dimmed.task.weight = light[i];
-      go_on_to_light(dimmed, *exits[i], step);
+      go_on_to_light(dimmed, exits[i], step);
       continue;
     }
     if ((passing >> i & 1) != 0) contribute(rays[i], light[i], step);
@@ -272,11 +277,16 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
 /// `rays` are in one region, a packet at most.
 void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
-  std::array<std::optional<RegionExit>, RayPacket::kSize> exits;
+  std::array<RegionExit, RayPacket::kSize> exits;
+  RayPacket::Mask leaving = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    exits[i] = domain_.exit(task.region, task.ray, task.t);
-    packet.add(task.ray, task.t, exits[i] ? exits[i]->t : kInf);
+    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    if (exit) {
+      exits[i] = *exit;
+      leaving |= RayPacket::Mask{1} << i;
+    }
+    packet.add(task.ray, task.t, exit ? exit->t : kInf);
   }
   std::array<Crossing, RayPacket::kSize> found;
   const RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
@@ -285,8 +295,8 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
       shade(rays[i], *entry, step);
     } else if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
-    } else if (exits[i]) {
-      go_on(rays[i], *exits[i], step);
+    } else if ((leaving >> i & 1) != 0) {
+      go_on(rays[i], exits[i], step);
     } else {
       contribute(rays[i], rays[i].task.weight * domain_.settings().background, step);
       open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);
@@ -327,9 +337,10 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
     if (max_component(weight) < domain_.settings().min_weight) return;
     ++step.rays.created[static_cast<std::size_t>(kind)];
     ++at.secondary_rays;
-    secondary_[kind == RayKind::kRefraction ? 0 : 1].push_back(
-        {spawn(task, kind, p, normalized(direction), weight), at.ray->slot,
-         static_cast<std::uint32_t>(surfaces_.size() - 1)});
+    OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
+    spawn(task, kind, p, normalized(direction), weight, sent.task);
+    sent.slot = at.ray->slot;
+    sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
   };
   if (m.transmit > 0) {
     const auto through = refracted(task.ray.direction, n, entering ? 1 / m.ior : m.ior);
@@ -374,9 +385,10 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   const Rgb weight = task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
   if (!(max_component(weight) > 0)) return;
   const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
-  OpenRay& sent = shadow_[light].emplace_back(
-      OpenRay{spawn(task, RayKind::kShadow, p, l, weight), at.ray->slot,
-              static_cast<std::uint32_t>(surface)});
+  OpenRay& sent = shadow_[light].emplace_back();
+  spawn(task, RayKind::kShadow, p, l, weight, sent.task);
+  sent.slot = at.ray->slot;
+  sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
   sent.task.light = static_cast<std::uint16_t>(light);
   ++at.lights;
