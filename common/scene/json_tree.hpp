@@ -46,7 +46,7 @@ class JsonTree {
   /// no longer than kMaxJsonBytes. Numbers are rounded to nearest; one beyond the range of a
   /// double counts as a syntax error. Duplicate keys are kept, for the reader to find. After a
   /// syntax error the tree holds what came before.
-  /// Without padding behind the text only the careful parser can read it, at a quarter of the
+  /// Without padding behind the text only the careful parser can read it, at a third of the
   /// speed. Both give the same tree and the same errors.
   explicit JsonTree(std::string_view text);
   explicit JsonTree(const PaddedText& text);
