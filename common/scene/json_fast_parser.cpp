@@ -1,11 +1,11 @@
 // Fills a JsonTree by simdjson: the only file that knows the library. It reads what scenes are made
 // of at several times the speed of the careful parser, and gives up at the first thing that is
 // wrong or unusual; the careful parser then reads the text again, and finds the words.
+#include <simdjson.h>
 #include <bit>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <simdjson.h>
 #include <string_view>
 #include <system_error>
 
@@ -206,6 +206,8 @@ class FastJsonReader {
   std::uint32_t nesting_ = 0;
 };
 
-bool JsonTree::read_fast(const PaddedText& text) { return FastJsonReader(text.view(), *this).read(); }
+bool JsonTree::read_fast(const PaddedText& text) {
+  return FastJsonReader(text.view(), *this).read();
+}
 
 }  // namespace graycube

@@ -5,8 +5,6 @@
 #include <bit>
 #include <cstddef>
 #include <iterator>
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -18,20 +16,7 @@
 namespace graycube {
 namespace {
 
-/// The library appends to its token buffer a character at a time; std::string's own function for
-/// that is compiled elsewhere, and a call for each character. This string's are inlined.
-template <typename T>
-struct InlinedAllocator : std::allocator<T> {
-  template <typename U>
-  struct rebind {
-    using other = InlinedAllocator<U>;
-  };
-  InlinedAllocator() = default;
-  template <typename U>
-  explicit InlinedAllocator(const InlinedAllocator<U>&) {}
-};
-using TokenText = std::basic_string<char, std::char_traits<char>, InlinedAllocator<char>>;
-using Json = nlohmann::basic_json<std::map, std::vector, TokenText>;
+using Json = nlohmann::json;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// The library's number for a number beyond a double.

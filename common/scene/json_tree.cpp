@@ -1,7 +1,6 @@
 #include "scene/json_tree.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "scene/padded_text.hpp"
@@ -44,21 +43,6 @@ JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text
   values_.clear();
   decoded_.clear();
   read_carefully();
-}
-
-double JsonTree::number(JsonIndex i) const { return std::bit_cast<double>(values_[i].payload); }
-
-std::string_view JsonTree::string(JsonIndex i) const {
-  const Value& v = values_[i];
-  const auto begin = static_cast<std::size_t>(v.payload >> 32);
-  const auto length = static_cast<std::size_t>(v.payload & 0xFFFFFFFFu);
-  return v.string_is_decoded ? std::string_view(decoded_[begin]) : text_.substr(begin, length);
-}
-
-std::string_view JsonTree::key(JsonIndex i) const {
-  const Value& v = values_[i];
-  return v.key_is_decoded ? std::string_view(decoded_[v.key_begin])
-                          : text_.substr(v.key_begin, v.key_length);
 }
 
 std::string JsonTree::pointer(JsonIndex i) const {

@@ -15,7 +15,9 @@ inline constexpr std::size_t kTextPadding = 64;
 /// than the text's size: then nothing is copied, on the way in or out.
 class PaddedText {
  public:
-  explicit PaddedText(std::string text) : bytes_(std::move(text)) { bytes_.append(kTextPadding, '\0'); }
+  explicit PaddedText(std::string text) : bytes_(std::move(text)) {
+    bytes_.append(kTextPadding, '\0');
+  }
   /// Copies.
   explicit PaddedText(std::string_view text) {
     bytes_.reserve(text.size() + kTextPadding);

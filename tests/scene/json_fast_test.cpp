@@ -26,12 +26,31 @@ class RandomJson {
 
   std::string number() {
     static constexpr std::array<std::string_view, 25> kHard{
-        "0", "-0", "-0.0", "0e0", "-0E+00", "1e5", "1E+05", "1e-05", "9007199254740993",
-        "-9007199254740993", "18446744073709551615", "18446744073709551616", "-9223372036854775808",
-        "-9223372036854775809", "9223372036854775807", "123456789012345678901234567890", "1e-400",
-        "-1e-9999", "4.9e-324", "2.2250738585072011e-308",
-        "1.7976931348623157e308", "1.7976931348623158e+308", "0.1",
-        "0.000000000000000000000000000000000000000012345678901234567891", "1e0000000000022"};
+        "0",
+        "-0",
+        "-0.0",
+        "0e0",
+        "-0E+00",
+        "1e5",
+        "1E+05",
+        "1e-05",
+        "9007199254740993",
+        "-9007199254740993",
+        "18446744073709551615",
+        "18446744073709551616",
+        "-9223372036854775808",
+        "-9223372036854775809",
+        "9223372036854775807",
+        "123456789012345678901234567890",
+        "1e-400",
+        "-1e-9999",
+        "4.9e-324",
+        "2.2250738585072011e-308",
+        "1.7976931348623157e308",
+        "1.7976931348623158e+308",
+        "0.1",
+        "0.000000000000000000000000000000000000000012345678901234567891",
+        "1e0000000000022"};
     const std::size_t form = below(6);
     if (form == 0) return std::string(kHard[below(kHard.size())]);
     if (form == 1) return std::to_string(static_cast<std::int64_t>(random_()) >> below(64));
@@ -69,9 +88,26 @@ class RandomJson {
   }
 
   std::string string() {
-    static constexpr std::array<std::string_view, 20> kParts{
-        "a", "Z", "é", "→", "😀", "\x7F", "/", "{[,:]}", "\\n", "\\\"", "\\\\", "\\/", "\\b\\f\\r\\t",
-        "\\u0000", "\\u00e9", "\\u20AC", "\\ud83d\\uDE00", "\\uFFFF", " ", "plain words"};
+    static constexpr std::array<std::string_view, 20> kParts{"a",
+                                                             "Z",
+                                                             "é",
+                                                             "→",
+                                                             "😀",
+                                                             "\x7F",
+                                                             "/",
+                                                             "{[,:]}",
+                                                             "\\n",
+                                                             "\\\"",
+                                                             "\\\\",
+                                                             "\\/",
+                                                             "\\b\\f\\r\\t",
+                                                             "\\u0000",
+                                                             "\\u00e9",
+                                                             "\\u20AC",
+                                                             "\\ud83d\\uDE00",
+                                                             "\\uFFFF",
+                                                             " ",
+                                                             "plain words"};
     std::string text = "\"";
     const std::size_t kinds = below(2) == 0 ? 8 : kParts.size();
     for (std::size_t n = below(8); n > 0; --n) text += kParts[below(kinds)];
@@ -107,10 +143,40 @@ class RandomJson {
 
 /// Changes that leave most texts wrong, and some right.
 std::string mutated(std::string text, RandomJson& random) {
-  static constexpr std::array<std::string_view, 34> kPieces{
-      "\"", "\\", "{", "}", "[", "]", ",", ":", " ", "\n", std::string_view("\0", 1), "\x1F", "\x80",
-      "\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xEF\xBB\xBF", "0", "00", "-", "+", ".", "e",
-      "1e999", "1e99999999999999999999", "\\ud800", "\\udc00", "\\u12", "\\x", "tru", "nul", "NaN", "/**/", "0x1"};
+  static constexpr std::array<std::string_view, 34> kPieces{"\"",
+                                                            "\\",
+                                                            "{",
+                                                            "}",
+                                                            "[",
+                                                            "]",
+                                                            ",",
+                                                            ":",
+                                                            " ",
+                                                            "\n",
+                                                            std::string_view("\0", 1),
+                                                            "\x1F",
+                                                            "\x80",
+                                                            "\xC0\x80",
+                                                            "\xED\xA0\x80",
+                                                            "\xF4\x90\x80\x80",
+                                                            "\xEF\xBB\xBF",
+                                                            "0",
+                                                            "00",
+                                                            "-",
+                                                            "+",
+                                                            ".",
+                                                            "e",
+                                                            "1e999",
+                                                            "1e99999999999999999999",
+                                                            "\\ud800",
+                                                            "\\udc00",
+                                                            "\\u12",
+                                                            "\\x",
+                                                            "tru",
+                                                            "nul",
+                                                            "NaN",
+                                                            "/**/",
+                                                            "0x1"};
   for (std::size_t n = 1 + random.below(3); n > 0; --n) {
     const std::size_t at = random.below(text.size() + 1);
     const std::string_view piece = kPieces[random.below(kPieces.size())];
@@ -154,8 +220,9 @@ TEST_CASE("numbers of every form are the same to the bit", "[json_fast]") {
 }
 
 TEST_CASE("long numbers below the least double are the same to the bit", "[json_fast]") {
-  for (const char* number : {"2.4703282292062327e-324", "2.4703282292062328e-324", "0.12345678901234567890e-330",
-                             "-123456789012345678901234567890e-400", "4.9406564584124654e-324"})
+  for (const char* number :
+       {"2.4703282292062327e-324", "2.4703282292062328e-324", "0.12345678901234567890e-330",
+        "-123456789012345678901234567890e-400", "4.9406564584124654e-324"})
     fuzz_json("[" + std::string(number) + "]");
 }
 
@@ -185,13 +252,53 @@ TEST_CASE("a text cut or with another byte anywhere gives the same tree or error
 
 TEST_CASE("what the careful parser refuses is never read fast", "[json_fast]") {
   const std::string zero(1, '\0');
-  for (const std::string& text : std::initializer_list<std::string>{
-           "", " ", "[", "]", "{", "[]]", "[[]", "{}}", "{} {}", "[1,]", "[,1]", "{\"a\":1,}", "[1 2]",
-           "[1\"a\"]", "[\"a\"1]", "[\"a\"\"b\"]", "{\"a\" 1}", "{1:2}", "[01]", "[1.]", "[.5]", "[-]",
-           "[+1]", "[1e]", "[1e+]", "[1e400]", "[-1e400]", "[truex]", "[true1]", "[nulll]", "[nul]",
-           "[\"\\ud800\"]", "[\"\\ud800\\u0041\"]", "[\"\\udc00\"]", "[\"\\u12g4\"]", "[\"\\a\"]",
-           "[\"\n\"]", "[\"a]", "[\"\xC0\x80\"]", "[\"\xED\xA0\x80\"]", "[1" + zero + "]",
-           "[true" + zero + "]", "[]" + zero, "[\"" + zero + "\"]", "[1]x", "[1]\xC2\xA0", "[1\x0C]"}) {
+  for (const std::string& text : std::initializer_list<std::string>{"",
+                                                                    " ",
+                                                                    "[",
+                                                                    "]",
+                                                                    "{",
+                                                                    "[]]",
+                                                                    "[[]",
+                                                                    "{}}",
+                                                                    "{} {}",
+                                                                    "[1,]",
+                                                                    "[,1]",
+                                                                    "{\"a\":1,}",
+                                                                    "[1 2]",
+                                                                    "[1\"a\"]",
+                                                                    "[\"a\"1]",
+                                                                    "[\"a\"\"b\"]",
+                                                                    "{\"a\" 1}",
+                                                                    "{1:2}",
+                                                                    "[01]",
+                                                                    "[1.]",
+                                                                    "[.5]",
+                                                                    "[-]",
+                                                                    "[+1]",
+                                                                    "[1e]",
+                                                                    "[1e+]",
+                                                                    "[1e400]",
+                                                                    "[-1e400]",
+                                                                    "[truex]",
+                                                                    "[true1]",
+                                                                    "[nulll]",
+                                                                    "[nul]",
+                                                                    "[\"\\ud800\"]",
+                                                                    "[\"\\ud800\\u0041\"]",
+                                                                    "[\"\\udc00\"]",
+                                                                    "[\"\\u12g4\"]",
+                                                                    "[\"\\a\"]",
+                                                                    "[\"\n\"]",
+                                                                    "[\"a]",
+                                                                    "[\"\xC0\x80\"]",
+                                                                    "[\"\xED\xA0\x80\"]",
+                                                                    "[1" + zero + "]",
+                                                                    "[true" + zero + "]",
+                                                                    "[]" + zero,
+                                                                    "[\"" + zero + "\"]",
+                                                                    "[1]x",
+                                                                    "[1]\xC2\xA0",
+                                                                    "[1\x0C]"}) {
     INFO(text);
     REQUIRE(JsonTree(text).syntax_error());
     REQUIRE_FALSE(fuzz_json(text));
