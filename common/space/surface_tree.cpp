@@ -129,54 +129,71 @@ class SurfaceTreeBuilder {
     return g;
   }
 
+  /// One of kBins slices of the centres' extent along each axis.
+  struct Slices {
+    explicit Slices(const Aabb& centers) : lo(centers.lo) {
+      for (int a = 0; a < 3; ++a) {
+        const double extent = centers.hi[a] - centers.lo[a];
+        scale[a] = extent > 0 ? kBins / extent : 0;
+      }
+    }
+    std::size_t of(const Vec3& center, int axis) const {
+      const double at = (center[axis] - lo[axis]) * scale[axis];
+      // Written so that NaN, which centres beyond all doubles would give, stays within the slices.
+      return at > 0 ? static_cast<std::size_t>(std::min(at, kBins - 1.0)) : std::size_t{0};
+    }
+    Vec3 lo, scale;
+  };
+
   /// Sorts the items into two halves by the best of kBins planes a side through their centres.
   std::size_t partition(std::span<std::uint32_t> items) const {
     Aabb centers = Aabb::nothing();
     for (const std::uint32_t i : items) centers.include(boxes_[i].center());
+    const Slices slices(centers);
+    struct Bin {
+      Aabb box = Aabb::nothing();
+      std::size_t count = 0;
+    };
+    std::array<std::array<Bin, kBins>, 3> bins;
+    for (const std::uint32_t i : items) {
+      const Vec3 center = boxes_[i].center();
+      for (int axis = 0; axis < 3; ++axis) {
+        Bin& bin = bins[static_cast<std::size_t>(axis)][slices.of(center, axis)];
+        bin.box = union_of(bin.box, boxes_[i]);
+        ++bin.count;
+      }
+    }
     double best_cost = Aabb::kInf;
     int best_axis = -1;
-    int best_bin = 0;
-    const auto bin_of = [&](std::uint32_t i, int axis) {
-      const double extent = centers.hi[axis] - centers.lo[axis];
-      const double share = (boxes_[i].center()[axis] - centers.lo[axis]) / extent;
-      return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
-    };
+    std::size_t best_bin = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(centers.hi[axis] > centers.lo[axis])) continue;
-      std::array<Aabb, kBins> box;
-      box.fill(Aabb::nothing());
-      std::array<std::size_t, kBins> count{};
-      for (const std::uint32_t i : items) {
-        const auto b = static_cast<std::size_t>(bin_of(i, axis));
-        box[b] = union_of(box[b], boxes_[i]);
-        ++count[b];
-      }
+      if (!(slices.scale[axis] > 0)) continue;
+      const auto& row = bins[static_cast<std::size_t>(axis)];
       std::array<double, kBins> above_cost{};
-      Aabb above = Aabb::nothing();
-      std::size_t above_count = 0;
+      Bin above;
       for (std::size_t b = kBins - 1; b > 0; --b) {
-        above = union_of(above, box[b]);
-        above_count += count[b];
-        above_cost[b] = above_count == 0 ? 0 : above.half_area() * static_cast<double>(above_count);
+        above.box = union_of(above.box, row[b].box);
+        above.count += row[b].count;
+        above_cost[b] =
+            above.count == 0 ? 0 : above.box.half_area() * static_cast<double>(above.count);
       }
-      Aabb below = Aabb::nothing();
-      std::size_t below_count = 0;
+      Bin below;
       for (std::size_t b = 0; b + 1 < kBins; ++b) {
-        below = union_of(below, box[b]);
-        below_count += count[b];
-        if (below_count == 0 || below_count == items.size()) continue;
+        below.box = union_of(below.box, row[b].box);
+        below.count += row[b].count;
+        if (below.count == 0 || below.count == items.size()) continue;
         const double cost =
-            below.half_area() * static_cast<double>(below_count) + above_cost[b + 1];
+            below.box.half_area() * static_cast<double>(below.count) + above_cost[b + 1];
         if (cost < best_cost) {
           best_cost = cost;
           best_axis = axis;
-          best_bin = static_cast<int>(b);
+          best_bin = b;
         }
       }
     }
     if (best_axis < 0) return items.size() / 2;  // all centres coincide
     const auto middle = std::partition(items.begin(), items.end(), [&](std::uint32_t i) {
-      return bin_of(i, best_axis) <= best_bin;
+      return slices.of(boxes_[i].center(), best_axis) <= best_bin;
     });
     return static_cast<std::size_t>(middle - items.begin());
   }
