@@ -155,7 +155,7 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
     watch_for_deadlock(rank, *waits);
   } else if (const auto* ready = std::get_if<control::Ready>(&message)) {
     if (ready->job != render.id() || ready->epoch != render.epoch()) return;
-    render.set_ready(rank, *ready);
+    render.set_ready(rank);
     if (render.all_ready() && !running_->is_started) start_rendering();
   } else if (const auto* round = std::get_if<control::TokenRound>(&message)) {
     if (round->job != render.id() || round->epoch != render.epoch()) return;

@@ -59,9 +59,9 @@ void Frontal::load_when_possible() {
   running_->is_loaded = true;
   running_->build_began_s = now_s_;
   running_->info.state = JobState::kBuilding;
+  const control::Load load = running_->render->load();
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
-    send(nodes_[rank].peer, running_->render->load_for(Rank{rank}),
-         running_->render->take_slice(Rank{rank}));
+    send(nodes_[rank].peer, load, running_->render->take_slice(Rank{rank}));
   }
   report_progress(true);
 }

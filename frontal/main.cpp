@@ -5,19 +5,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <iostream>
-#include <system_error>
 
 #include "frontal/frontal.hpp"
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "transport/endpoint.hpp"
+#include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
 #include "version.hpp"
 
@@ -42,28 +41,6 @@ double seconds_of(clockid_t clock) {
   clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-
-/// A folder of our own for sockets, removed at the end.
-class SocketFolder {
- public:
-  SocketFolder() {
-    std::string pattern = (fs::temp_directory_path() / "graycube-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw std::system_error(errno, std::generic_category(), pattern);
-    }
-    path_ = pattern;
-  }
-  ~SocketFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  SocketFolder(const SocketFolder&) = delete;
-  SocketFolder& operator=(const SocketFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Signals that ask for the end, as a descriptor; SIGCHLD too, to wake the loop.
 int signal_descriptor() {
@@ -146,7 +123,7 @@ class FrontalProcess {
   }
 
   int signals_;
-  SocketFolder folder_;
+  TemporaryFolder folder_;
   ZmqContext context_;
   Wakeup wakeup_;
   Inbox inbox_;

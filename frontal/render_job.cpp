@@ -60,7 +60,7 @@ const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
   return keeps && rank < nodes_ ? &scene_.slices[rank] : nullptr;
 }
 
-control::Load RenderJob::load_for(Rank) const {
+control::Load RenderJob::load() const {
   control::Load m;
   m.job = job_;
   m.epoch = epoch_;
@@ -87,7 +87,7 @@ control::Load RenderJob::load_for(Rank) const {
   return m;
 }
 
-void RenderJob::set_ready(Rank rank, const control::Ready&) {
+void RenderJob::set_ready(Rank rank) {
   if (ready_[rank.value]) return;
   ready_[rank.value] = true;
   ++ready_count_;

@@ -31,9 +31,9 @@ class RenderJob {
   Bytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
   const Bytes* slice_to_lend(std::uint32_t rank) const;
-  control::Load load_for(Rank rank) const;
+  control::Load load() const;
 
-  void set_ready(Rank rank, const control::Ready& ready);
+  void set_ready(Rank rank);
   bool all_ready() const { return ready_count_ == nodes_; }
 
   /// Tiles to hand to a node now, as its window allows.

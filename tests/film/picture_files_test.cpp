@@ -5,7 +5,6 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
-#include <stdlib.h>  // mkdtemp; NOLINT(modernize-deprecated-headers)
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -23,35 +22,18 @@
 #include <vector>
 
 #include "geometry/check.hpp"
+#include "transport/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own, gone when the test is over.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "graycube-XXXXXX").string();
-    REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  fs::path operator/(const char* name) const { return path_ / name; }
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path_))
-      names.push_back(entry.path().filename());
-    return names;
-  }
-
- private:
-  fs::path path_;
-};
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
 
 using Bytes = std::vector<char>;
 
@@ -140,17 +122,17 @@ const PictureOrigin kOrigin{"first.json", "0.1.0"};
 }  // namespace
 
 TEST_CASE("an EXR read back is the picture written, bit for bit") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 40u}, {67u, 1u}, {67u, 35u}}) {
     const Picture picture = noise(width, height);
     write_exr(folder / "a.exr", picture, kOrigin);
     CHECK(read_exr(folder / "a.exr") == picture);
   }
-  CHECK(folder.names() == std::vector<std::string>{"a.exr"});
+  CHECK(names_in(folder.path()) == std::vector<std::string>{"a.exr"});
 }
 
 TEST_CASE("equal pictures are equal EXR files whatever the thread count") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Picture picture = noise(130, 90);
   write_exr(folder / "0.exr", picture, kOrigin);
   const int before = Imf::globalThreadCount();
@@ -164,7 +146,7 @@ TEST_CASE("equal pictures are equal EXR files whatever the thread count") {
 
 TEST_CASE(
     "an EXR's header says scene and version and 32-bit float, and nothing of its making") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_exr(folder / "a.exr", noise(4, 3), kOrigin);
   const Imf::InputFile file((folder / "a.exr").c_str());
   const Imf::Header& header = file.header();
@@ -181,7 +163,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an EXR is compressed where three quarters of the pixels repeat the one before") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Picture picture = noise(64, 64);
   const auto compression_at = [&](std::size_t plain_pixels) {
     for (std::size_t i = 0; i < 3 * plain_pixels; ++i) picture.rgb[i] = static_cast<float>(i % 3);
@@ -199,7 +181,7 @@ TEST_CASE("an EXR is compressed where three quarters of the pixels repeat the on
 }
 
 TEST_CASE("a linear PNG holds 16-bit samples by the rule and says that they are linear") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Picture picture{
       2, 2, {0, 1, 0.5f, -1, 2, 0.25f, 1e-5f, 0.9999f, 1e-6f, std::nanf(""), 0, 0.1f}};
   write_png(folder / "a.linear.png", picture);
@@ -217,7 +199,7 @@ TEST_CASE("a linear PNG holds 16-bit samples by the rule and says that they are 
 }
 
 TEST_CASE("any other PNG holds 8-bit sRGB and says so") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_png(folder / "a.png", {2, 1, {0, 0.5f, 1, 0.18f, 5, -1}});
   const PngImage image = read_png(folder / "a.png");
   CHECK(image.bits == 8);
@@ -227,7 +209,7 @@ TEST_CASE("any other PNG holds 8-bit sRGB and says so") {
 }
 
 TEST_CASE("equal pictures are equal PNG files") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.linear.png"}) {
     write_png(folder / name, noise(50, 20));
     const Bytes first = bytes_of(folder / name);
@@ -239,7 +221,7 @@ TEST_CASE("equal pictures are equal PNG files") {
 }
 
 TEST_CASE("grey, palette and transparent PNGs are read as RGB") {
-  const Folder folder;
+  const TemporaryFolder folder;
   struct Sample {
     const char* name;
     int bits;
@@ -285,7 +267,7 @@ TEST_CASE("grey, palette and transparent PNGs are read as RGB") {
 }
 
 TEST_CASE("a path that can't be written is named with its reason and leaves nothing behind") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Picture picture = noise(4, 4);
   const auto complaint = [&](const fs::path& path) {
     const std::string exr = complaint_of([&] { write_exr(path, picture, kOrigin); });
@@ -302,11 +284,11 @@ TEST_CASE("a path that can't be written is named with its reason and leaves noth
   CHECK(complaint(folder / "file" / "a.exr").ends_with(": Not a directory"));
   CHECK(complaint(folder / std::string(300, 'n').c_str()).ends_with(": File name too long"));
   CHECK(fs::is_character_file("/dev/null"));
-  CHECK(folder.names().size() == 2);
+  CHECK(names_in(folder.path()).size() == 2);
 }
 
 TEST_CASE("a folder without permission is named as such") {
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::permissions(folder / ".", fs::perms(0755));
   fs::create_directory(folder / "closed");
   fs::permissions(folder / "closed", fs::perms(0555));
@@ -320,7 +302,7 @@ TEST_CASE("a folder without permission is named as such") {
 }
 
 TEST_CASE("when the disk is full the old file stays and the temporary one goes") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Picture small = noise(2, 2);
   write_exr(folder / "a.exr", small, kOrigin);
   write_png(folder / "a.png", small);
@@ -337,12 +319,12 @@ TEST_CASE("when the disk is full the old file stays and the temporary one goes")
     CHECK(png_complaint.ends_with("a.png: File too large"));
     CHECK(bytes_of(folder / "a.exr") == exr);
     CHECK(bytes_of(folder / "a.png") == png);
-    CHECK(folder.names().size() == 2);
+    CHECK(names_in(folder.path()).size() == 2);
   }
 }
 
 TEST_CASE("writing to a symbolic link writes the file it leads to") {
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::create_directory(folder / "sub");
   write_exr(folder / "sub" / "real.exr", noise(2, 2), kOrigin);
   fs::create_symlink("sub/real.exr", folder / "link.exr");
@@ -352,7 +334,7 @@ TEST_CASE("writing to a symbolic link writes the file it leads to") {
 }
 
 TEST_CASE("truncated pictures are complaints, never crashes or half pictures") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path exr = folder / "a.exr", png = folder / "a.png";
   write_exr(exr, noise(9, 40), kOrigin);
   write_png(png, noise(9, 40));
@@ -370,7 +352,7 @@ TEST_CASE("truncated pictures are complaints, never crashes or half pictures") {
 }
 
 TEST_CASE("files that are no pictures are complaints with the file's name") {
-  const Folder folder;
+  const TemporaryFolder folder;
   put(folder / "text", {'h', 'e', 'l', 'l', 'o'});
   for (const char* name : {"text", "missing"}) {
     CHECK(complaint_of([&] { read_exr(folder / name); }).find((folder / name).string()) !=
@@ -383,7 +365,7 @@ TEST_CASE("files that are no pictures are complaints with the file's name") {
 }
 
 TEST_CASE("pictures of absurd size are refused before memory is taken") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto replaced = [](Bytes bytes, const std::string& from, const std::string& to) {
     const auto at = std::search(bytes.begin(), bytes.end(), from.begin(), from.end());
     REQUIRE(at != bytes.end());
@@ -410,7 +392,7 @@ TEST_CASE("pictures of absurd size are refused before memory is taken") {
 }
 
 TEST_CASE("AOVs are channels of the EXR beside R, G and B, and come back") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Picture picture;
   picture.width = 2;
   picture.height = 1;
@@ -433,7 +415,7 @@ TEST_CASE("AOVs are channels of the EXR beside R, G and B, and come back") {
 }
 
 TEST_CASE("only the AOVs that were asked for are written") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Picture picture;
   picture.width = picture.height = 1;
   picture.rgb = {0, 0, 0};

@@ -1,4 +1,3 @@
-#include <stdlib.h>  // mkdtemp; NOLINT(modernize-deprecated-headers)
 #include <sys/wait.h>
 
 #include <array>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "film/picture_files.hpp"
+#include "transport/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;
@@ -23,19 +23,10 @@ struct Outcome {
 /// A folder with pictures, and the tool run in it.
 class Bench {
  public:
-  Bench() {
-    std::string pattern = (fs::temp_directory_path() / "graycube-XXXXXX").string();
-    REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-    folder_ = pattern;
-  }
-  ~Bench() { fs::remove_all(folder_); }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
   fs::path operator/(const char* name) const { return folder_ / name; }
   Outcome compare(const std::string& arguments) const {
     const std::string command =
-        "cd " + folder_.string() + " && " COMPARE_PICTURES " " + arguments + " 2>&1";
+        "cd " + folder_.path().string() + " && " COMPARE_PICTURES " " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
     Outcome outcome;
@@ -47,7 +38,7 @@ class Bench {
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// 10 × 10 pixels of mid-grey; the first `off` of them have a green brighter by `units` / 65535.

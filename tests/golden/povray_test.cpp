@@ -1,5 +1,4 @@
 // Pictures against POV-Ray's of the same scenes, as 16-bit linear samples.
-#include <stdlib.h>  // mkdtemp; NOLINT(modernize-deprecated-headers)
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "scene/read_scene.hpp"
 #include "scene/write_pov.hpp"
 #include "trace/render_serial.hpp"
+#include "transport/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;
@@ -32,23 +32,6 @@ int run(const std::string& command) {
   const int status = std::system(command.c_str());  // NOLINT(cert-env33-c,concurrency-mt-unsafe)
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
-
-/// A folder that goes when the test does.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "graycube-XXXXXX").string();
-    REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 struct Golden {
   std::string scene;
@@ -88,7 +71,7 @@ PngImage povray_picture(const Scene& scene) {
   const std::string prefix = "// povray +INAME.pov +ONAME.png ";
   const std::string first_line = pov.text.substr(0, pov.text.find('\n'));
   REQUIRE(first_line.substr(0, prefix.size()) == prefix);
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "scene.pov") << pov.text;
   const std::string command = "cd " + folder.path().string() +
                               " && povray +Iscene.pov +Oscene.png " +

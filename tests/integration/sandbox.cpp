@@ -128,19 +128,11 @@ Outcome Running::wait(std::chrono::milliseconds limit) {
 // ---- Sandbox
 
 Sandbox::Sandbox() {
-  std::string pattern = (fs::temp_directory_path() / "gc-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  root_ = pattern;
   for (auto [member, name] :
        {std::pair{&work_, "w"}, {&temporary_, "t"}, {&runtime_, "r"}, {&logs_, "l"}}) {
     *member = root_ / name;
     fs::create_directory(*member);
   }
-}
-
-Sandbox::~Sandbox() {
-  std::error_code ignored;
-  fs::remove_all(root_, ignored);
 }
 
 fs::path Sandbox::write(const std::string& name, const std::string& text) const {
@@ -170,7 +162,7 @@ Running Sandbox::start_program(const std::string& path, const Arguments& argumen
   argv.insert(argv.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables{"TMPDIR=" + temporary_.string(),
                                      "XDG_RUNTIME_DIR=" + runtime_.string(),
-                                     kMark + root_.string()};
+                                     kMark + root_.path().string()};
   for (char** v = environ; *v != nullptr; ++v) {
     if (!is_replaced(*v)) variables.push_back(*v);
   }
@@ -212,7 +204,7 @@ Running Sandbox::start_program(const std::string& path, const Arguments& argumen
 
 std::vector<std::string> Sandbox::processes() const {
   std::vector<std::string> found;
-  const std::string mark = kMark + root_.string();
+  const std::string mark = kMark + root_.path().string();
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename().string();
     if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); })) {

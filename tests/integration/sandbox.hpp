@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "transport/temporary_folder.hpp"
+
 namespace graycube {
 
 using Arguments = std::vector<std::string>;
@@ -69,7 +71,6 @@ class Running {
 class Sandbox {
  public:
   Sandbox();
-  ~Sandbox();
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
@@ -97,7 +98,8 @@ class Sandbox {
  private:
   Running start_program(const std::string& path, const Arguments& arguments);
 
-  std::filesystem::path root_, work_, temporary_, runtime_, logs_;
+  TemporaryFolder root_{"gc-"};
+  std::filesystem::path work_, temporary_, runtime_, logs_;
   int started_ = 0;
 };
 
