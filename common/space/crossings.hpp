@@ -98,6 +98,42 @@ class ProgramView {
   CellProgram::Shape shape_;
 };
 
+/// Takes the events of a program in groups of equal t, and calls visit(t, entering) where the membership before
+/// and after a group differs, until it returns false; false then. `before` holds the flags before the first
+/// event; during a visit `before` and `after` are those around its group.
+template <typename IsMember, typename Visit>
+bool grouped(std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& before,
+             std::vector<std::uint64_t>& after, IsMember&& is_member, Visit&& visit) {
+  std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  after = before;
+  bool inside = is_member(before);
+  for (std::size_t i = 0; i < events.size();) {
+    const double t = events[i].t;
+    for (; i < events.size() && events[i].t == t; ++i) {
+      after[events[i].literal / 64] ^= std::uint64_t{1} << (events[i].literal % 64);
+    }
+    const bool now = is_member(after);
+    if (now != inside) {
+      inside = now;
+      if (!visit(t, now)) return false;
+    }
+    before = after;
+  }
+  return true;
+}
+
+/// Adds the events of one literal's spans that lie in [t0, t1), and its flag at t0, which comes from all events
+/// before it.
+inline void gather(const Spans& spans, std::uint32_t literal, double t0, double t1,
+                   std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& flags) {
+  for (int i = 0; i < spans.count; ++i) {
+    const auto [enter, leave] = spans.interval[static_cast<std::size_t>(i)];
+    if (enter < t0 && !(leave < t0)) flags[literal / 64] |= std::uint64_t{1} << (literal % 64);
+    if (enter >= t0 && enter < t1) events.push_back({enter, literal});
+    if (leave >= t0 && leave < t1) events.push_back({leave, literal});
+  }
+}
+
 /// One primitive is the whole object here: its own interval ends are the crossings.
 template <typename Visit>
 bool single(const TreeNode& node, std::uint32_t object, const Spans& spans, double t0, double t1,
@@ -145,34 +181,15 @@ bool for_each_crossing(const Bsp& bsp, const CellProgram& program, const Ray& ra
   std::uint32_t literal = 0;
   for (const TreeNode& node : view.nodes()) {
     if (node.size != 1) continue;
-    const Spans& spans = mailbox.spans(model, node.primitive, ray);
-    for (int i = 0; i < spans.count; ++i) {
-      const auto [enter, leave] = spans.interval[static_cast<std::size_t>(i)];
-      // Flags at t0 come from all events before it.
-      if (enter < t0 && !(leave < t0)) before[literal / 64] |= std::uint64_t{1} << (literal % 64);
-      if (enter >= t0 && enter < t1) events.push_back({enter, literal});
-      if (leave >= t0 && leave < t1) events.push_back({leave, literal});
-    }
-    ++literal;
+    crossings::gather(mailbox.spans(model, node.primitive, ray), literal++, t0, t1, events, before);
   }
   if (events.empty()) return true;
-  std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
-  auto& after = mailbox.flags_after;
-  after = before;
-  bool inside = view.is_member(before);
-  for (std::size_t i = 0; i < events.size();) {
-    const double t = events[i].t;
-    for (; i < events.size() && events[i].t == t; ++i) {
-      after[events[i].literal / 64] ^= std::uint64_t{1} << (events[i].literal % 64);
-    }
-    const bool now = view.is_member(after);
-    if (now != inside) {
-      inside = now;
-      if (!visit(Crossing{t, view.changed(before, after), program.object, now})) return false;
-    }
-    before = after;
-  }
-  return true;
+  return crossings::grouped(
+      events, before, mailbox.flags_after, [&](const auto& flags) { return view.is_member(flags); },
+      [&](double t, bool entering) {
+        return visit(
+            Crossing{t, view.changed(before, mailbox.flags_after), program.object, entering});
+      });
 }
 
 }  // namespace graycube

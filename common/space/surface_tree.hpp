@@ -183,17 +183,10 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
   before.assign(literals.size() / 64 + 1, 0);
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
     ++scratch.counts.primitives_tested;
-    const Spans spans =
-        spans_along(model_->primitives[literals[i].primitive], model_->planes, ray.ray);
-    for (int k = 0; k < spans.count; ++k) {
-      const auto [enter, leave] = spans.interval[static_cast<std::size_t>(k)];
-      if (enter < t0 && !(leave < t0)) before[i / 64] |= std::uint64_t{1} << (i % 64);
-      if (enter >= t0 && enter < t1) events.push_back({enter, i});
-      if (leave >= t0 && leave < t1) events.push_back({leave, i});
-    }
+    const Primitive& primitive = model_->primitives[literals[i].primitive];
+    crossings::gather(spans_along(primitive, model_->planes, ray.ray), i, t0, t1, events, before);
   }
   if (events.empty()) return true;
-  std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   const bool is_flat = item.first_node == SurfaceItem::kFlat;
   const std::span<const TreeNode> tree{
       is_flat ? nullptr : program_nodes_.data() + item.first_node, item.node_count};
@@ -213,21 +206,9 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
     while (i + 1 < literals.size() && crossings::flag(before, i) == crossings::flag(after, i)) ++i;
     return literals[i].primitive;
   };
-  after = before;
-  bool inside = is_member(before);
-  for (std::size_t i = 0; i < events.size();) {
-    const double t = events[i].t;
-    for (; i < events.size() && events[i].t == t; ++i) {
-      after[events[i].literal / 64] ^= std::uint64_t{1} << (events[i].literal % 64);
-    }
-    const bool now = is_member(after);
-    if (now != inside) {
-      inside = now;
-      if (!visit(Crossing{t, changed(), item.object, now})) return false;
-    }
-    before = after;
-  }
-  return true;
+  return crossings::grouped(events, before, after, is_member, [&](double t, bool entering) {
+    return visit(Crossing{t, changed(), item.object, entering});
+  });
 }
 
 }  // namespace graycube
