@@ -25,6 +25,10 @@ struct PreparationWork {
 /// `roth` copies the scene to every node; `auto` picks it only when a node's copy stays below this.
 inline constexpr std::uint64_t kReplicatedModelBytes = std::uint64_t{512} << 20;
 
+/// In `macro`, a model of at most so many bytes is sent to every node whole, beside the node's own part: sharing
+/// out what is so small saves less memory than forwarding its shadow rays costs. `auto` shadows only.
+inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{4} << 20;
+
 struct PreparedScene {
   Algorithm algorithm = Algorithm::kMacro;
   control::GridLayout grid;
@@ -40,6 +44,8 @@ struct PreparedScene {
   std::vector<Bytes> slices;
   /// Encoded light horizons, for every node; empty without them.
   Bytes horizons;
+  /// The whole model, for every node; empty without replicas.
+  Bytes replica;
   double load_s = 0, partition_s = 0;
 };
 

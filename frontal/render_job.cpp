@@ -49,15 +49,15 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
 
 Bytes RenderJob::take_slice(Rank rank) {
   if (is_roth()) return scene_.slices.front();
-  const bool keeps = scene_.shadows == ShadowMode::kLocal;
+  const bool keeps = lends();
   Bytes slice = keeps ? scene_.slices[rank.value] : std::move(scene_.slices[rank.value]);
   slice.insert(slice.end(), scene_.horizons.begin(), scene_.horizons.end());
+  slice.insert(slice.end(), scene_.replica.begin(), scene_.replica.end());
   return slice;
 }
 
 const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
-  const bool keeps = !is_roth() && scene_.shadows == ShadowMode::kLocal;
-  return keeps && rank < nodes_ ? &scene_.slices[rank] : nullptr;
+  return lends() && rank < nodes_ ? &scene_.slices[rank] : nullptr;
 }
 
 control::Load RenderJob::load() const {
@@ -73,7 +73,8 @@ control::Load RenderJob::load() const {
   m.flow = scene_.flow;
   m.queue = scene_.queue;
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
-  m.borrow_bytes = scene_.shadows == ShadowMode::kLocal ? kBorrowBytes : 0;
+  m.borrow_bytes = lends() ? kBorrowBytes : 0;
+  m.replica_bytes = scene_.replica.size();
   m.link_credit_bytes = kLinkCreditBytes;
   m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : kWindowTiles;
   m.batch_bytes = kBatchBytes;

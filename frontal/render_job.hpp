@@ -64,6 +64,10 @@ class RenderJob {
 
  private:
   bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
+  /// Whether nodes may ask for each other's slices.
+  bool lends() const {
+    return !is_roth() && scene_.shadows == ShadowMode::kLocal && scene_.replica.empty();
+  }
   bool all_batches_in() const;
 
   std::uint32_t job_;

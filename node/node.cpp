@@ -127,6 +127,7 @@ void Node::on_finish(const control::Finish& m) {
   stats_.malformed_drops = drops_;
   if (domain_) {
     stats_.primitives = domain_->model().primitives.size();
+    if (const auto& r = domain_->replica()) stats_.replica_primitives = r->model.primitives.size();
     stats_.memory_bytes = domain_->memory_bytes();
   }
   if (measure) measure(stats_);

@@ -23,8 +23,8 @@ struct GridEdges {
 /// Subdivide the macro-regions that came with `load`.
 struct BuildWork {
   Bytes slice;
-  /// The last so many bytes of the slice are light horizons.
-  std::size_t horizon_bytes = 0;
+  /// Behind the model come so many bytes of light horizons, and so many of the whole model.
+  std::size_t horizon_bytes = 0, replica_bytes = 0;
   /// Nothing in `roth`: all of space.
   std::optional<GridEdges> edges;
   RegionShare share;

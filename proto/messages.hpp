@@ -35,7 +35,7 @@ inline constexpr std::uint32_t kMaxQueue = 1u << 16;
 
 enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
 enum class Grain : std::uint8_t { kPixel, kLine, kTile };
-enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
+enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal, kAuto };
 enum class PartitionMode : std::uint8_t { kRegular, kBalanced };
 enum class FlowMode : std::uint8_t { kCredit, kBlocking };
 enum class JobState : std::uint8_t {
@@ -97,6 +97,8 @@ struct NodeStats {
   std::uint64_t memory_bytes = 0;
   /// Other nodes' models, fetched to finish shadow rays here.
   std::uint64_t models_borrowed = 0;
+  /// Leaves of the whole scene, where the node holds a replica of it beside its own regions.
+  std::uint64_t replica_primitives = 0;
   /// From the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -106,7 +108,7 @@ struct NodeStats {
 struct JobOptions {
   Algorithm algorithm = Algorithm::kAuto;
   Grain grain = Grain::kTile;
-  ShadowMode shadows = ShadowMode::kHorizon;
+  ShadowMode shadows = ShadowMode::kAuto;
   PartitionMode partition = PartitionMode::kRegular;
   /// K: K × K macro-regions per node; 0: what suits the scene.
   std::uint32_t scatter = 0;
@@ -268,7 +270,8 @@ struct Welcome {
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
-/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light horizons.
+/// Followed by a binary frame: the node's model slice, behind it `horizon_bytes` of light horizons, and
+/// behind these `replica_bytes` of the whole model.
 struct Load {
   static constexpr std::string_view kType = "load";
   std::uint32_t job = 0, epoch = 0;
@@ -290,6 +293,7 @@ struct Load {
   std::uint64_t horizon_bytes = 0;
   /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
   std::uint64_t borrow_bytes = 0;
+  std::uint64_t replica_bytes = 0;
   friend bool operator==(const Load&, const Load&) = default;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "space/ray_packet.hpp"
+#include "space/simd.hpp"
 #include "space/surface_tree.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -197,19 +198,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace graycube {
 
-HWY_EXPORT(FirstCrossings);
-HWY_EXPORT(PassLights);
+GRAYCUBE_SIMD_TABLE(FirstCrossings);
+GRAYCUBE_SIMD_TABLE(PassLights);
 
 RayPacket::Mask SurfaceTree::first_crossings(const RayPacket& packet, TreeScratch& scratch,
                                              std::span<Crossing, RayPacket::kSize> found) const {
   if (packet.count == 0) return 0;
-  return HWY_DYNAMIC_DISPATCH(FirstCrossings)(*this, packet, scratch, found.data());
+  return GRAYCUBE_SIMD_CALL(FirstCrossings)(*this, packet, scratch, found.data());
 }
 
 RayPacket::Mask SurfaceTree::pass_lights(const RayPacket& packet, TreeScratch& scratch,
                                          std::span<Rgb, RayPacket::kSize> light) const {
   if (packet.count == 0) return 0;
-  return HWY_DYNAMIC_DISPATCH(PassLights)(*this, packet, scratch, light.data());
+  return GRAYCUBE_SIMD_CALL(PassLights)(*this, packet, scratch, light.data());
 }
 
 }  // namespace graycube

@@ -21,23 +21,42 @@ constexpr std::array<Named, 6> kNamed{{{"scalar", HWY_EMU128},
                                        {"avx2", HWY_AVX2},
                                        {"avx512", HWY_AVX3}}};
 
-/// What the processor has, whatever was chosen before.
+/// What the processor and its operating system have, of what is compiled.
 std::int64_t available() {
-  hwy::SetSupportedTargetsForTest(0);
-  return hwy::SupportedTargets() & HWY_TARGETS;
+  std::int64_t found = HWY_EMU128 | HWY_SCALAR;
+#if HWY_ARCH_X86
+  const auto has_all = [](auto... has) { return (has && ...); };
+  const bool sse4 = has_all(__builtin_cpu_supports("sse4.2"), __builtin_cpu_supports("aes"),
+                            __builtin_cpu_supports("pclmul"));
+  const bool avx2 = sse4 && has_all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("bmi"),
+                                    __builtin_cpu_supports("bmi2"), __builtin_cpu_supports("fma"),
+                                    __builtin_cpu_supports("f16c"), __builtin_cpu_supports("lzcnt"));
+  const bool avx512 = avx2 && has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
+                                      __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"));
+  if (sse4) found |= HWY_SSE4;
+  if (avx2) found |= HWY_AVX2;
+  if (avx512) found |= HWY_AVX3;
+#elif HWY_ARCH_ARM_A64
+  found |= HWY_NEON;
+#endif
+  return found & HWY_TARGETS;
 }
 
-void use(std::int64_t targets) {
-  hwy::SetSupportedTargetsForTest(targets);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+/// Place in a table of functions by target; the best's, before anything else is chosen.
+std::size_t index_of(std::int64_t targets) {
+  hwy::ChosenTarget target;
+  target.Update(targets);
+  return target.GetIndex();
 }
+
+std::size_t chosen_index = index_of(available());
 
 }  // namespace
 
+std::size_t simd_index() { return chosen_index; }
+
 std::vector<std::string> simd_names() {
-  const std::int64_t chosen = hwy::SupportedTargets();
   const std::int64_t all = available();
-  hwy::SetSupportedTargetsForTest(chosen);
   std::vector<std::string> names;
   for (const Named& n : kNamed) {
     if ((n.target & all) != 0) names.emplace_back(n.name);
@@ -48,12 +67,12 @@ std::vector<std::string> simd_names() {
 bool choose_simd(std::string_view name) {
   const std::int64_t all = available();
   if (name.empty() || name == "best") {
-    use(all);
+    chosen_index = index_of(all);
     return true;
   }
   for (const Named& n : kNamed) {
     if (n.name != name || (n.target & all) == 0) continue;
-    use(n.target);
+    chosen_index = index_of(n.target);
     return true;
   }
   return false;

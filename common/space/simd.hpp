@@ -2,6 +2,7 @@
 // for tests, for comparisons, and for doubting a machine.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,17 @@ std::vector<std::string> simd_names();
 /// called while rays are traced.
 bool choose_simd(std::string_view name);
 
+/// Where tables made by GRAYCUBE_SIMD_TABLE hold the function to call.
+std::size_t simd_index();
+
 /// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it; empty when all is well.
 std::string choose_simd_from_environment();
 
 }  // namespace graycube
+
+/// The versions of a function that Highway compiled, and a call of the one chosen. As HWY_EXPORT and
+/// HWY_DYNAMIC_DISPATCH, but without libhwy, which measures a timer for 4 ms whenever a process starts.
+#define GRAYCUBE_SIMD_TABLE(function)                                        \
+  constexpr decltype(&HWY_STATIC_DISPATCH(function)) k##function##Versions[] = { \
+      nullptr, HWY_CHOOSE_TARGET_LIST(function), HWY_CHOOSE_FALLBACK(function)}
+#define GRAYCUBE_SIMD_CALL(function) k##function##Versions[graycube::simd_index()]

@@ -1,4 +1,5 @@
 // Single rays through the surface tree.
+#include "space/simd.hpp"
 #include "space/surface_tree.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -71,19 +72,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace graycube {
 
-HWY_EXPORT(FirstCrossing);
-HWY_EXPORT(PassLight);
+GRAYCUBE_SIMD_TABLE(FirstCrossing);
+GRAYCUBE_SIMD_TABLE(PassLight);
 
 std::optional<Crossing> SurfaceTree::first_crossing(const Ray& ray, double t0, double t1,
                                                     TreeScratch& scratch) const {
   Crossing found;
-  if (!HWY_DYNAMIC_DISPATCH(FirstCrossing)(*this, ray, t0, t1, scratch, found)) return std::nullopt;
+  if (!GRAYCUBE_SIMD_CALL(FirstCrossing)(*this, ray, t0, t1, scratch, found)) return std::nullopt;
   return found;
 }
 
 bool SurfaceTree::pass_light(const Ray& ray, double t0, double t1, TreeScratch& scratch,
                              Rgb& light) const {
-  return HWY_DYNAMIC_DISPATCH(PassLight)(*this, ray, t0, t1, scratch, light);
+  return GRAYCUBE_SIMD_CALL(PassLight)(*this, ray, t0, t1, scratch, light);
 }
 
 }  // namespace graycube

@@ -30,8 +30,11 @@ std::size_t Territory::memory_bytes() const {
 }
 
 Domain::Domain(Model model, Subdivision subdivision)
-    : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
-      territory_(Territory::of(std::move(model), subdivision)) {}
+    : Domain(Territory::of(std::move(model), subdivision)) {}
+
+Domain::Domain(std::shared_ptr<const Territory> territory)
+    : frame_(CameraFrame::from(territory->model.settings.camera, territory->model.settings.image)),
+      territory_(std::move(territory)) {}
 
 Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
@@ -54,6 +57,7 @@ RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch
 
 RayPacket::Mask Domain::pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                                     std::span<Rgb, RayPacket::kSize> light) const {
+  if (replica_) return replica_->tree->pass_lights(packet, scratch.replica, light);
   if (territory_->tree) return territory_->tree->pass_lights(packet, scratch.tree, light);
   RayPacket::Mask arriving = 0;
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -70,8 +74,14 @@ std::size_t Domain::cell_count() const {
 
 std::size_t Domain::memory_bytes() const {
   std::size_t bytes = territory_->memory_bytes();
+  if (replica_) bytes += replica_->memory_bytes();
   for (const auto& b : borrowed_) bytes += b ? b->memory_bytes() : 0;
   return bytes;
+}
+
+void Domain::set_replica(std::shared_ptr<const Territory> replica) {
+  GRAYCUBE_CHECK(!replica || replica->tree.has_value(), "a replica has a surface tree");
+  replica_ = std::move(replica);
 }
 
 std::shared_ptr<const Domain> Domain::with_borrowed(

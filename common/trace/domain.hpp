@@ -42,12 +42,14 @@ struct Territory {
 struct CrossingScratch {
   TreeScratch tree;
   Mailbox mailbox;
-  /// For borrowed territories: what a scratch remembers belongs to one tree.
+  /// For a replica and for borrowed territories: what a scratch remembers belongs to one tree.
+  TreeScratch replica;
   std::vector<TreeScratch> borrowed;
 
   WalkCounts counts() const {
     WalkCounts sum = tree.counts;
     sum.add(mailbox.counts);
+    sum.add(replica.counts);
     for (const TreeScratch& b : borrowed) sum.add(b.counts);
     return sum;
   }
@@ -58,6 +60,7 @@ class Domain {
  public:
   /// All of space, without boundaries.
   explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree);
+  explicit Domain(std::shared_ptr<const Territory> territory);
   /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
   /// reaches into several is held once.
   Domain(MacroGrid grid, RegionShare share, Model model,
@@ -75,6 +78,9 @@ class Domain {
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
+  /// The whole scene beside the domain's own regions: shadow rays need never leave.
+  void set_replica(std::shared_ptr<const Territory> replica);
+  const std::shared_ptr<const Territory>& replica() const { return replica_; }
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
@@ -109,7 +115,8 @@ class Domain {
   /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
-  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  /// As pass_light for each ray of a packet, in the replica if there is one: bit i of the result tells whether
+  /// light[i] arrives.
   RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                               std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
@@ -120,6 +127,11 @@ class Domain {
     if (!grid_) return std::nullopt;
     return grid_->exit(region, ray, t);
   }
+  /// As exit, for a shadow ray: with a replica, nothing.
+  std::optional<RegionExit> light_exit(RegionIndex region, const Ray& ray, double t) const {
+    if (replica_) return std::nullopt;
+    return exit(region, ray, t);
+  }
   RegionIndex region_of_pixel(std::uint32_t x, std::uint32_t y) const {
     return grid_ ? grid_->region_of_pixel(x, y) : RegionIndex{};
   }
@@ -129,6 +141,7 @@ class Domain {
   std::optional<MacroGrid> grid_;
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
+  std::shared_ptr<const Territory> replica_;
   /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_;

@@ -252,7 +252,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   std::array<Rgb, RayPacket::kSize> light;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const auto exit = domain_.light_exit(task.region, task.ray, task.t);
     const bool leaves = exit && exit->t < task.t_max;
     if (leaves) {
       exits[i] = *exit;
