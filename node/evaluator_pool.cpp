@@ -45,11 +45,13 @@ void EvaluatorPool::after_change() {
 }
 
 void EvaluatorPool::work(unsigned index) {
+  Workbench bench;
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     std::optional<Work> piece;
     if (index < node_.threads()) piece = node_.take_work();
     if (!piece) {
+      if (!node_.has_job()) bench.clear();
       ++waiting_;
       after_change();
       changed_.wait(lock);
@@ -62,7 +64,7 @@ void EvaluatorPool::work(unsigned index) {
     const bool is_primary = std::holds_alternative<TileWork>(piece->what);
     lock.unlock();
     const double started = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    WorkResult result = run(std::move(*piece));
+    WorkResult result = bench.run(std::move(*piece));
     const double busy = seconds_of(CLOCK_THREAD_CPUTIME_ID) - started;
     lock.lock();
     if (!is_build) busy_s_ += busy;

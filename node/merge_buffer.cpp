@@ -1,45 +1,97 @@
 #include "node/merge_buffer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace graycube {
 
-MergeBuffer::Merged MergeBuffer::take(const TilePlan& plan) {
-  const std::size_t count = std::min(returns_.size(), kFullReturns);
-  const auto end = returns_.begin() + static_cast<std::ptrdiff_t>(count);
-  std::sort(returns_.begin(), end,
-            [](const PixelReturn& a, const PixelReturn& b) { return a.pixel < b.pixel; });
-  Merged merged;
-  std::uint32_t in_last = 0;
-  for (auto it = returns_.begin(); it != end; ++it) {
+std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
+  // Fibonacci hashing: neighbours in a row of pixels fall far apart.
+  constexpr std::uint32_t kGolden = 2654435769u;
+  for (std::size_t i = (key * kGolden) % kSlots;; i = (i + 1) % kSlots) {
+    Slot& slot = slots_[i];
+    if (slot.generation != generation_) {
+      slot = {key, next, generation_};
+      return slot.place;
+    }
+    if (slot.key == key) return slot.place;
+  }
+}
+
+void MergeBuffer::Index::clear() {
+  if (++generation_ != 0) return;
+  std::fill(slots_.begin(), slots_.end(), Slot{});
+  generation_ = 1;
+}
+
+MergeBuffer::MergeBuffer() { clear(); }
+
+void MergeBuffer::clear() {
+  merged_ = {};
+  merged_.contributions.reserve(kFullPixels);
+  in_entry_.clear();
+  pixels_.clear();
+  tiles_.clear();
+}
+
+std::size_t MergeBuffer::add(std::span<const PixelReturn> returns, const TilePlan& plan) {
+  std::size_t taken = 0;
+  for (; taken < returns.size() && !is_full(); ++taken) {
+    const PixelReturn& r = returns[taken];
     // AOVs bring no credit: that of their ray follows with its light.
-    if (it->pixel < plan.pixel_count()) {
-      merged.credits.push_back({plan.tile_of_pixel(it->pixel), it->credit});
-    }
-    if (it->merged == 0) continue;
-    auto& all = merged.contributions;
-    if (all.empty() || all.back().pixel != it->pixel ||
-        in_last + it->merged > kMaxMergedContributions) {
-      all.push_back({it->pixel, {}});
-      in_last = 0;
-    }
-    all.back().light.add(it->light);
-    in_last += it->merged;
+    if (r.pixel < plan.pixel_count()) add_credit(plan.tile_of_pixel(r.pixel), r.credit);
+    if (r.merged > 0) add_light(r);
   }
-  returns_.erase(returns_.begin(), end);
-  auto& credits = merged.credits;
-  std::sort(credits.begin(), credits.end(),
-            [](const TileCredit& a, const TileCredit& b) { return a.tile < b.tile; });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < credits.size(); ++i) {
-    if (kept > 0 && credits[kept - 1].tile == credits[i].tile) {
-      credits[kept - 1].credit.add(credits[i].credit);
-    } else {
-      credits[kept++] = credits[i];
+  return taken;
+}
+
+std::size_t MergeBuffer::add_tile(std::span<const PixelReturn> returns, std::uint32_t tile,
+                                  const TilePlan& plan) {
+  auto& all = merged_.contributions;
+  const std::size_t room = is_full() ? 0 : kFullPixels - all.size();
+  const auto taken = returns.first(std::min(returns.size(), room));
+  Credit credit;
+  for (const PixelReturn& r : taken) {
+    if (r.pixel < plan.pixel_count()) credit.add(r.credit);
+    if (r.merged > 0) {
+      all.push_back({r.pixel, r.light});
+      in_entry_.push_back(r.merged);
     }
   }
-  credits.resize(kept);
-  return merged;
+  if (!taken.empty()) add_credit(tile, credit);
+  return taken.size();
+}
+
+void MergeBuffer::add_credit(std::uint32_t tile, const Credit& credit) {
+  auto& all = merged_.credits;
+  // Mostly they come tile by tile.
+  if (!all.empty() && all.back().tile == tile) return all.back().credit.add(credit);
+  const auto next = static_cast<std::uint32_t>(all.size());
+  const std::uint32_t place = tiles_.place_of(tile, next);
+  if (place == next) {
+    all.push_back({tile, credit});
+  } else {
+    all[place].credit.add(credit);
+  }
+}
+
+void MergeBuffer::add_light(const PixelReturn& r) {
+  auto& all = merged_.contributions;
+  const auto next = static_cast<std::uint32_t>(all.size());
+  std::uint32_t& place = pixels_.place_of(r.pixel, next);
+  if (place != next && in_entry_[place] + r.merged > kMaxMergedContributions) place = next;
+  if (place == next) {
+    all.push_back({r.pixel, {}});
+    in_entry_.push_back(0);
+  }
+  all[place].light.add(r.light);
+  in_entry_[place] += r.merged;
+}
+
+MergeBuffer::Merged MergeBuffer::take() {
+  Merged taken = std::move(merged_);
+  clear();
+  return taken;
 }
 
 }  // namespace graycube

@@ -69,6 +69,7 @@ class Node {
   bool may_have_work() const;
   /// Evaluators that the job is to have; those of the node when there is none.
   std::uint32_t threads() const { return state_ == State::kNoJob ? id_.threads : load_.threads; }
+  bool has_job() const { return state_ != State::kNoJob; }
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return state_ == State::kRendering; }
 
@@ -106,7 +107,7 @@ class Node {
 
   bool is_blocking() const { return load_.flow == FlowMode::kBlocking; }
   std::optional<PixelRect> next_pixels();
-  void absorb(Step& step);
+  void absorb(Step& step, std::optional<std::uint32_t> tile);
   void forward(const RayTask& ray);
   void send_stalled();
   void wait_for_model(Rank owner, const RayTask& ray);

@@ -76,15 +76,14 @@ void Node::grant_credit(Link& link) {
 }
 
 void Node::flush_contributions() {
-  while (!merge_.is_empty()) {
-    const MergeBuffer::Merged merged = merge_.take(*plan_);
-    Bytes batch =
-        encode_contributions(stamp(contribution_sequence_++), merged.credits, merged.contributions);
-    ring_.contribution_batch_sent();
-    ++stats_.contribution_batches;
-    stats_.contribution_bytes += batch.size();
-    outgoing_.push_back({std::nullopt, Message::of_batch(std::move(batch))});
-  }
+  if (merge_.is_empty()) return;
+  const MergeBuffer::Merged merged = merge_.take();
+  Bytes batch =
+      encode_contributions(stamp(contribution_sequence_++), merged.credits, merged.contributions);
+  ring_.contribution_batch_sent();
+  ++stats_.contribution_batches;
+  stats_.contribution_bytes += batch.size();
+  outgoing_.push_back({std::nullopt, Message::of_batch(std::move(batch))});
 }
 
 void Node::flush_on_idle() {

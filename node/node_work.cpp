@@ -49,7 +49,7 @@ std::optional<Work> Node::take_work() {
     }
     work.what = std::move(batch);
   } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
-    work.what = TileWork{*pixels};
+    work.what = TileWork{*pixels, plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0)};
   } else {
     flush_on_idle();
     return std::nullopt;
@@ -86,7 +86,7 @@ void Node::give_result(WorkResult result) {
   if (result.borrowed_from) {
     adopt_borrowed(result);
   } else {
-    absorb(result.step);
+    absorb(result.step, result.tile);
   }
   pass_token();
 }
@@ -129,7 +129,8 @@ void Node::send_ready_when_complete() {
                               domain_->cell_count(), build_s_});
 }
 
-void Node::absorb(Step& step) {
+/// `tile`: the tile whose primary rays the step traced, if it did.
+void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
   const auto& created = step.rays.created;
   stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
   stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
@@ -148,8 +149,12 @@ void Node::absorb(Step& step) {
   for (const Step::Lacking& l : step.lacking) {
     wait_for_model(cube_->owner_of(l.region.column, l.region.row), l.task);
   }
-  merge_.add(step.returns);
-  if (merge_.is_full()) flush_contributions();
+  std::span<const PixelReturn> returns = step.returns;
+  while (!returns.empty()) {
+    returns = returns.subspan(tile ? merge_.add_tile(returns, *tile, *plan_)
+                                   : merge_.add(returns, *plan_));
+    if (merge_.is_full()) flush_contributions();
+  }
   if (is_blocking()) {
     send_stalled();
   } else if (!step.leaving.empty() || !step.lacking.empty()) {

@@ -62,7 +62,12 @@ void build(BuildWork work, WorkResult& result) {
 
 }  // namespace
 
-WorkResult run(Work work) {
+void Workbench::clear() {
+  evaluator_.reset();
+  domain_.reset();
+}
+
+WorkResult Workbench::run(Work work) {
   WorkResult result;
   result.job = work.job;
   result.epoch = work.epoch;
@@ -75,11 +80,16 @@ WorkResult run(Work work) {
     if (auto model = decoded_model(b->slice, result)) result.borrowed = Territory::of(*std::move(model));
     return result;
   }
-  Evaluator evaluator(*work.domain);
+  if (domain_ != work.domain) {
+    clear();
+    domain_ = std::move(work.domain);
+    evaluator_.emplace(*domain_);
+  }
   if (const auto* tile = std::get_if<TileWork>(&work.what)) {
-    evaluator.trace_pixels(tile->rect, result.step);
+    evaluator_->trace_pixels(tile->rect, result.step);
+    result.tile = tile->tile;
   } else {
-    evaluator.trace_rays(std::get<RayWork>(work.what).rays, result.step);
+    evaluator_->trace_rays(std::get<RayWork>(work.what).rays, result.step);
   }
   return result;
 }

@@ -34,9 +34,10 @@ struct BorrowWork {
   Rank from;
   Bytes slice;
 };
-/// Trace the primary rays of a tile.
+/// Trace the primary rays of a tile, or of a part of it.
 struct TileWork {
   PixelRect rect;
+  std::uint32_t tile = 0;
 };
 /// Trace rays received from neighbours.
 struct RayWork {
@@ -58,10 +59,22 @@ struct WorkResult {
   /// BorrowWork: whose, and what; nothing after an error.
   std::optional<Rank> borrowed_from;
   std::shared_ptr<const Territory> borrowed;
+  /// TileWork: the tile.
+  std::optional<std::uint32_t> tile;
   Step step;
 };
 
-/// Does the work. Never throws; a broken slice is an error in the result.
-WorkResult run(Work work);
+/// An evaluator thread's own: what it keeps from one piece of work to the next.
+class Workbench {
+ public:
+  /// Does the work. Never throws; a broken slice is an error in the result.
+  WorkResult run(Work work);
+  /// Gives up what it keeps of the last job.
+  void clear();
+
+ private:
+  std::shared_ptr<const Domain> domain_;
+  std::optional<Evaluator> evaluator_;
+};
 
 }  // namespace graycube

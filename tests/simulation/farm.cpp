@@ -133,7 +133,7 @@ void Farm::look_for_work(Rank rank) {
     auto work = p.node->take_work();
     if (!work) return;
     ++p.busy;
-    auto result = std::make_shared<WorkResult>(run(std::move(*work)));
+    auto result = std::make_shared<WorkResult>(Workbench{}.run(std::move(*work)));
     schedule(random(options_.work_s) * p.slowness,
              [this, rank, incarnation = p.incarnation, result] {
                Process& q = processes_[rank.value];
