@@ -105,6 +105,12 @@ void Frontal::on_contributions(const Bytes& batch) {
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
   for (const Rank rank : opened) hand_out(rank);
+  const std::vector<std::uint32_t> relief = running_->render->take_relief();
+  for (std::uint32_t rank = 0; rank < relief.size(); ++rank) {
+    if (relief[rank] == 0) continue;
+    send(nodes_[rank].peer,
+         control::Relieved{running_->render->id(), running_->render->epoch(), relief[rank]});
+  }
   running_->info.tiles_whole = static_cast<std::uint32_t>(running_->render->tiles_whole());
   finish_when_complete();
 }

@@ -15,6 +15,7 @@
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
+#include "transport/allocator.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
@@ -171,6 +172,8 @@ int run_main(int argc, char** argv) {
   }
   const int signals = signal_descriptor();
   if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // The preparation has a heap of its own.
+  keep_freed_memory(2);
   try {
     const std::string error = FrontalProcess(a, signals).run();
     if (!error.empty()) return fail("farm", error, 1);

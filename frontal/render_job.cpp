@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "proto/share_of.hpp"
 
@@ -34,8 +35,8 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
             scene_.settings.aovs),
       ledger_(rays_per_tile(*scene_.plan)),
       holder_(scene_.plan->tile_count()),
-      next_own_(nodes_, 0),
       open_(nodes_, 0),
+      relief_(nodes_, 0),
       ready_(nodes_, false),
       reported_(nodes_, false),
       batches_received_(nodes_, 0),
@@ -43,7 +44,8 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       reports_(nodes_) {
   if (is_roth()) return;
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
-    own_tiles_.push_back(scene_.plan->tiles_of(share_of(cube_, Rank{rank})));
+    const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));
+    own_tiles_.emplace_back(tiles.begin(), tiles.end());
   }
 }
 
@@ -51,6 +53,7 @@ Bytes RenderJob::take_slice(Rank rank) {
   if (is_roth()) return scene_.slices.front();
   const bool keeps = lends();
   Bytes slice = keeps ? scene_.slices[rank.value] : std::move(scene_.slices[rank.value]);
+  slice.reserve(slice.size() + scene_.horizons.size() + scene_.replica.size());
   slice.insert(slice.end(), scene_.horizons.begin(), scene_.horizons.end());
   slice.insert(slice.end(), scene_.replica.begin(), scene_.replica.end());
   return slice;
@@ -76,7 +79,7 @@ control::Load RenderJob::load() const {
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.replica_bytes = scene_.replica.size();
   m.link_credit_bytes = kLinkCreditBytes;
-  m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : kWindowTiles;
+  m.window_tiles = is_roth() ? window(0) : kWindowTiles;
   m.batch_bytes = kBatchBytes;
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
@@ -86,6 +89,13 @@ control::Load RenderJob::load() const {
         kRayBytes * std::max(1u, scene_.queue / std::max(1u, cube_.dimension()));
   }
   return m;
+}
+
+std::uint32_t RenderJob::window(std::size_t left) const {
+  if (is_roth()) return kRothTilesPerThread * threads_;
+  if (scene_.replica.empty()) return kWindowTiles;
+  const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
+  return std::clamp(part, std::min(kLeastTilesPerThread * threads_, kWindowTiles), kWindowTiles);
 }
 
 void RenderJob::set_ready(Rank rank) {
@@ -98,20 +108,47 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
   std::vector<std::uint32_t> tiles;
   std::uint32_t& open = open_[rank.value];
   if (is_roth()) {
-    while (open < kRothTilesPerThread * threads_ && next_tile_ < ledger_.tile_count()) {
+    while (open < window(0) && next_tile_ < ledger_.tile_count()) {
       tiles.push_back(next_tile_++);
       ++open;
     }
   } else {
-    std::uint32_t& next = next_own_[rank.value];
-    const auto& own = own_tiles_[rank.value];
-    while (open < kWindowTiles && next < own.size()) {
-      tiles.push_back(own[next++]);
+    auto& own = own_tiles_[rank.value];
+    while (!own.empty() && open < window(own.size())) {
+      tiles.push_back(own.front());
+      own.pop_front();
+      ++open;
+    }
+    while (own.empty()) {
+      auto* theirs = tiles_to_take_over(rank);
+      if (theirs == nullptr || theirs->empty() || open >= window(theirs->size())) break;
+      // From the far end: the owner comes from the other.
+      tiles.push_back(theirs->back());
+      theirs->pop_back();
       ++open;
     }
   }
   for (const std::uint32_t tile : tiles) holder_[tile] = rank;
   return tiles;
+}
+
+std::deque<std::uint32_t>* RenderJob::tiles_to_take_over(Rank helper) {
+  if (scene_.replica.empty()) return nullptr;
+  std::deque<std::uint32_t>* most = nullptr;
+  for (std::uint32_t bit = 0; bit < cube_.dimension(); ++bit) {
+    auto& theirs = own_tiles_[cube_.neighbour(helper, bit).value];
+    if (most == nullptr || theirs.size() > most->size()) most = &theirs;
+  }
+  return most;
+}
+
+Rank RenderJob::owner_of(std::uint32_t tile) const {
+  const std::uint32_t area = scene_.plan->area_of_tile(tile), columns = scene_.grid.columns;
+  return cube_.owner_of(area % columns, area / columns);
+}
+
+std::vector<std::uint32_t> RenderJob::take_relief() {
+  return std::exchange(relief_, std::vector<std::uint32_t>(nodes_, 0));
 }
 
 std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& opened) {
@@ -142,6 +179,7 @@ std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& 
       case CreditResult::kWhole:
         --open_[holder_[c.tile].value];
         opened.push_back(holder_[c.tile]);
+        if (!is_roth() && holder_[c.tile] != owner_of(c.tile)) ++relief_[owner_of(c.tile).value];
         break;
       case CreditResult::kOverflow:
       case CreditResult::kUnknownTile:

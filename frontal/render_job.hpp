@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ namespace graycube {
 /// until the frontal holds all their light. All rays in the machine descend from them (design section 10).
 inline constexpr std::uint32_t kWindowTiles = 64;
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
+/// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and otherwise this part
+/// of those that are left: the fewer, the more of them can still be taken over.
+inline constexpr std::uint32_t kLeastTilesPerThread = 4;
+inline constexpr std::uint32_t kPartOfTilesLeft = 4;
 /// Shadows local: what a node may use for other nodes' models.
 inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 
@@ -36,11 +41,14 @@ class RenderJob {
   void set_ready(Rank rank);
   bool all_ready() const { return ready_count_ == nodes_; }
 
-  /// Tiles to hand to a node now, as its window allows.
+  /// Tiles to hand to a node now, as its window allows: its own, and when there are none left those of the
+  /// neighbour that has most, where nodes hold replicas.
   std::vector<std::uint32_t> next_tiles(Rank rank);
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The nodes whose
   /// windows opened are appended to `opened`.
   std::string add_contributions(const Bytes& batch, std::vector<Rank>& opened);
+  /// How many of each node's tiles neighbours have traced and brought back since this was last asked.
+  std::vector<std::uint32_t> take_relief();
   std::uint64_t next_assignment_sequence(Rank rank) { return assignments_sent_[rank.value]++; }
 
   void set_terminated(const control::Terminated& verdict) { verdict_ = verdict; }
@@ -69,6 +77,11 @@ class RenderJob {
     return !is_roth() && scene_.shadows == ShadowMode::kLocal && scene_.replica.empty();
   }
   bool all_batches_in() const;
+  /// Tiles that a node may have open at a time, when so many are left of those that it takes from.
+  std::uint32_t window(std::size_t left) const;
+  Rank owner_of(std::uint32_t tile) const;
+  /// The tiles of the neighbour that has most left, where a node that has none left may help.
+  std::deque<std::uint32_t>* tiles_to_take_over(Rank helper);
 
   std::uint32_t job_;
   std::uint32_t epoch_ = 0;
@@ -78,8 +91,8 @@ class RenderJob {
   Film film_;
   TileLedger ledger_;
   std::vector<Rank> holder_;                     // of each tile handed out
-  std::vector<std::vector<std::uint32_t>> own_tiles_;  // by rank, macro
-  std::vector<std::uint32_t> next_own_, open_;         // by rank
+  std::vector<std::deque<std::uint32_t>> own_tiles_;  // by rank, macro: not handed out yet
+  std::vector<std::uint32_t> open_, relief_;          // by rank
   std::uint32_t next_tile_ = 0;                  // roth: one queue for all
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;

@@ -10,6 +10,7 @@
 #include "node/evaluator_pool.hpp"
 #include "node/node.hpp"
 #include "space/simd.hpp"
+#include "transport/allocator.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
@@ -101,6 +102,7 @@ int run_main(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A terminal's Ctrl-C is for the command, which stops its nodes in order.
   ::signal(SIGINT, SIG_IGN);
+  keep_freed_memory(a.threads);
   try {
     Mailroom(a).run();
   } catch (const TransportError& e) {

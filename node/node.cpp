@@ -53,6 +53,7 @@ void Node::on_control(const Message& message) {
   if (const auto* prepare = std::get_if<control::Prepare>(&m)) return on_prepare(*prepare);
   if (const auto* start = std::get_if<control::Start>(&m)) return on_start(*start);
   if (const auto* finish = std::get_if<control::Finish>(&m)) return on_finish(*finish);
+  if (const auto* relieved = std::get_if<control::Relieved>(&m)) return on_relieved(*relieved);
   if (const auto* lend = std::get_if<control::Lend>(&m)) return on_lend(*lend, message.payload);
   if (const auto* ping = std::get_if<control::Ping>(&m)) return on_ping(*ping);
   if (std::holds_alternative<control::Shutdown>(m)) {
@@ -195,7 +196,28 @@ void Node::on_frontal_batch(const Bytes& batch) {
     return send_control(control::NodeError{job_, "an assignment of tiles was lost"});
   }
   tiles_.insert(tiles_.end(), tiles.begin(), tiles.end());
-  unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, tiles.size());
+  for (const std::uint32_t tile : tiles) {
+    if (is_own_tile(tile)) {
+      unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, 1);
+    } else if (!domain_->replica()) {
+      return send_control(control::NodeError{job_, "a tile of another macro-region was assigned"});
+    }
+  }
+}
+
+/// In `roth` all tiles are everybody's.
+bool Node::is_own_tile(std::uint32_t tile) const {
+  if (domain_->grid() == nullptr) return true;
+  const std::uint32_t area = plan_->area_of_tile(tile), columns = domain_->grid()->columns();
+  return domain_->holds({static_cast<std::uint16_t>(area % columns),
+                         static_cast<std::uint16_t>(area / columns)});
+}
+
+void Node::on_relieved(const control::Relieved& m) {
+  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
+  unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, m.tiles);
+  ring_.work_was_taken();
+  pass_token();
 }
 
 // ---- messages from neighbours

@@ -93,6 +93,7 @@ class Node {
   void on_start(const control::Start& m);
   void on_finish(const control::Finish& m);
   void on_lend(const control::Lend& m, const Bytes& slice);
+  void on_relieved(const control::Relieved& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(const Bytes& batch);
   void on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header);
@@ -106,6 +107,7 @@ class Node {
   BatchStamp stamp(std::uint64_t sequence) const;
 
   bool is_blocking() const { return load_.flow == FlowMode::kBlocking; }
+  bool is_own_tile(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
   void absorb(Step& step, std::optional<std::uint32_t> tile);
   void forward(const RayTask& ray);

@@ -235,6 +235,12 @@ void each_field(auto& visit, Is<Lend> auto& m) {
   visit("rank", m.rank, kRankRange);
 }
 
+void each_field(auto& visit, Is<Relieved> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("tiles", m.tiles, at_least_one());
+}
+
 void each_field(auto& visit, Is<Prepare> auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);

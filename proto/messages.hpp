@@ -304,6 +304,13 @@ struct Lend {
   friend bool operator==(const Lend&, const Lend&) = default;
 };
 
+/// So many of the node's own tiles were traced by neighbours, and are whole.
+struct Relieved {
+  static constexpr std::string_view kType = "relieved";
+  std::uint32_t job = 0, epoch = 0, tiles = 1;
+  friend bool operator==(const Relieved&, const Relieved&) = default;
+};
+
 /// Drop everything of epochs before this one, and acknowledge.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
@@ -484,7 +491,7 @@ using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
                  control::Terminated, control::NodeReport, control::Pong,
                  control::NodeError, control::WaitReport, control::Borrow, control::Goodbye, control::Welcome, control::Load,
-                 control::Lend, control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::Lend, control::Relieved, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
                  control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,
                  control::JobInfo, control::Jobs, control::Progress, control::NodeList,

@@ -52,7 +52,9 @@ class SurfaceTreeBuilder {
   }
 
  private:
-  static constexpr int kBins = 16;
+  static constexpr std::size_t kBins = 16;
+  /// A few items need no more slices than there are items, by far the most groups are such.
+  static std::size_t bins_for(std::size_t items) { return std::clamp<std::size_t>(items, 2, kBins); }
   /// From here on groups are simply halved, so that no heap of items, however skewed, makes the tree deeper
   /// than the walk's stack: 32 more levels, each of which halves the largest group at least, end 2³² items.
   static constexpr std::size_t kMaxChosenDepth = 40;
@@ -129,27 +131,29 @@ class SurfaceTreeBuilder {
     return g;
   }
 
-  /// One of kBins slices of the centres' extent along each axis.
+  /// One of `bins` slices of the centres' extent along each axis.
   struct Slices {
-    explicit Slices(const Aabb& centers) : lo(centers.lo) {
+    Slices(const Aabb& centers, std::size_t bins) : lo(centers.lo), last(static_cast<double>(bins - 1)) {
       for (int a = 0; a < 3; ++a) {
         const double extent = centers.hi[a] - centers.lo[a];
-        scale[a] = extent > 0 ? kBins / extent : 0;
+        scale[a] = extent > 0 ? static_cast<double>(bins) / extent : 0;
       }
     }
     std::size_t of(const Vec3& center, int axis) const {
       const double at = (center[axis] - lo[axis]) * scale[axis];
       // Written so that NaN, which centres beyond all doubles would give, stays within the slices.
-      return at > 0 ? static_cast<std::size_t>(std::min(at, kBins - 1.0)) : std::size_t{0};
+      return at > 0 ? static_cast<std::size_t>(std::min(at, last)) : std::size_t{0};
     }
     Vec3 lo, scale;
+    double last;
   };
 
-  /// Sorts the items into two halves by the best of kBins planes a side through their centres.
+  /// Sorts the items into two halves by the best of up to kBins planes a side through their centres.
   std::size_t partition(std::span<std::uint32_t> items) const {
     Aabb centers = Aabb::nothing();
     for (const std::uint32_t i : items) centers.include(boxes_[i].center());
-    const Slices slices(centers);
+    const std::size_t bin_count = bins_for(items.size());
+    const Slices slices(centers, bin_count);
     struct Bin {
       Aabb box = Aabb::nothing();
       std::size_t count = 0;
@@ -171,14 +175,14 @@ class SurfaceTreeBuilder {
       const auto& row = bins[static_cast<std::size_t>(axis)];
       std::array<double, kBins> above_cost{};
       Bin above;
-      for (std::size_t b = kBins - 1; b > 0; --b) {
+      for (std::size_t b = bin_count - 1; b > 0; --b) {
         above.box = union_of(above.box, row[b].box);
         above.count += row[b].count;
         above_cost[b] =
             above.count == 0 ? 0 : above.box.half_area() * static_cast<double>(above.count);
       }
       Bin below;
-      for (std::size_t b = 0; b + 1 < kBins; ++b) {
+      for (std::size_t b = 0; b + 1 < bin_count; ++b) {
         below.box = union_of(below.box, row[b].box);
         below.count += row[b].count;
         if (below.count == 0 || below.count == items.size()) continue;

@@ -42,8 +42,10 @@ Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdi
       share_(share),
       territory_(Territory::of(std::move(model), subdivision)) {}
 
-RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch& scratch,
+RayPacket::Mask Domain::first_crossings(const RayTask& one, const RayPacket& packet,
+                                        CrossingScratch& scratch,
                                         std::span<Crossing, RayPacket::kSize> found) const {
+  if (uses_replica(one)) return replica_->tree->first_crossings(packet, scratch.replica, found);
   if (territory_->tree) return territory_->tree->first_crossings(packet, scratch.tree, found);
   RayPacket::Mask any = 0;
   for (std::size_t i = 0; i < packet.count; ++i) {

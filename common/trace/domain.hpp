@@ -78,9 +78,18 @@ class Domain {
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
-  /// The whole scene beside the domain's own regions: shadow rays need never leave.
+  /// The whole scene beside the domain's own regions: no ray need ever leave.
   void set_replica(std::shared_ptr<const Territory> replica);
   const std::shared_ptr<const Territory>& replica() const { return replica_; }
+  /// Primary rays of the domain's own regions stay in its own model, which is small; for all others a replica
+  /// spares the way from region to region.
+  bool uses_replica(const RayTask& task) const {
+    return replica_ && (task.kind != RayKind::kPrimary || !holds(task.region));
+  }
+  /// The model that the primitives of a ray's crossings are numbered in.
+  const Model& model_for(const RayTask& task) const {
+    return uses_replica(task) ? replica_->model : model();
+  }
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
@@ -95,7 +104,14 @@ class Domain {
   /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
   bool is_past_horizon(const RayTask& task) const;
 
-  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
+  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. `task`: the ray's, or
+  /// one that starts where it does.
+  std::optional<Crossing> first_crossing(const RayTask& task, const Ray& ray, double t0, double t1,
+                                         CrossingScratch& scratch) const {
+    if (uses_replica(task)) return replica_->tree->first_crossing(ray, t0, t1, scratch.replica);
+    return first_crossing(ray, t0, t1, scratch);
+  }
+  /// The same among the domain's own.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
                                          CrossingScratch& scratch) const {
     if (territory_->tree) return territory_->tree->first_crossing(ray, t0, t1, scratch.tree);
@@ -112,8 +128,9 @@ class Domain {
   /// As pass_light, in a region of this or another node; nothing when it is neither held nor borrowed.
   std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
                                           CrossingScratch& scratch, Rgb& light) const;
-  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
-  RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
+  /// As first_crossing for each ray of a packet, all of one kind and region: bit i of the result tells whether
+  /// found[i] holds a crossing.
+  RayPacket::Mask first_crossings(const RayTask& one, const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
   /// As pass_light for each ray of a packet, in the replica if there is one: bit i of the result tells whether
   /// light[i] arrives.
@@ -122,15 +139,15 @@ class Domain {
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   bool holds(RegionIndex region) const { return !grid_ || share_.owns(region); }
+  /// Where a ray leaves what looks after it; nothing when that has no boundaries.
+  std::optional<RegionExit> exit(const RayTask& task) const {
+    if (uses_replica(task)) return std::nullopt;
+    return exit(task.region, task.ray, task.t);
+  }
   /// Where a ray leaves the region that it is in; nothing when space has no boundaries.
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const {
     if (!grid_) return std::nullopt;
     return grid_->exit(region, ray, t);
-  }
-  /// As exit, for a shadow ray: with a replica, nothing.
-  std::optional<RegionExit> light_exit(RegionIndex region, const Ray& ray, double t) const {
-    if (replica_) return std::nullopt;
-    return exit(region, ray, t);
   }
   RegionIndex region_of_pixel(std::uint32_t x, std::uint32_t y) const {
     return grid_ ? grid_->region_of_pixel(x, y) : RegionIndex{};

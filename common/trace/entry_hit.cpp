@@ -37,13 +37,13 @@ std::optional<Crossing> entry_behind(const Domain& domain, const RayTask& task, 
   std::array<std::uint32_t, kMostBehind> seen;
   std::size_t count = 0;
   for (double t = 0; count < kMostBehind;) {
-    const auto hit = domain.first_crossing(back, t, Aabb::kInf, scratch);
+    const auto hit = domain.first_crossing(task, back, t, Aabb::kInf, scratch);
     if (!hit) return std::nullopt;
     const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
     if (std::find(seen.begin(), end, hit->object) == end) {
       // Backwards out of an object that was never entered: the start lies in it.
       if (!hit->entering) {
-        return Crossing{own_root(domain.model(), hit->primitive, task.ray, -hit->t), hit->primitive,
+        return Crossing{own_root(domain.model_for(task), hit->primitive, task.ray, -hit->t), hit->primitive,
                         hit->object, true};
       }
       seen[count++] = hit->object;

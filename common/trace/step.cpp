@@ -193,7 +193,7 @@ void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
   OpenRay next = ray;
   next.task.t = exit.t;
   next.task.region = exit.next;
-  if (domain_.holds(exit.next)) {
+  if (domain_.holds(exit.next) || domain_.uses_replica(next.task)) {
     viewing_.push_back(next);
   } else {
     step.leaving.push_back(next.task);
@@ -252,7 +252,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   std::array<Rgb, RayPacket::kSize> light;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    const auto exit = domain_.light_exit(task.region, task.ray, task.t);
+    const auto exit = domain_.exit(task);
     const bool leaves = exit && exit->t < task.t_max;
     if (leaves) {
       exits[i] = *exit;
@@ -281,7 +281,7 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket::Mask leaving = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const auto exit = domain_.exit(task);
     if (exit) {
       exits[i] = *exit;
       leaving |= RayPacket::Mask{1} << i;
@@ -289,7 +289,7 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
     packet.add(task.ray, task.t, exit ? exit->t : kInf);
   }
   std::array<Crossing, RayPacket::kSize> found;
-  const RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
+  const RayPacket::Mask hits = domain_.first_crossings(rays.front().task, packet, scratch_, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (const auto entry = entry_behind(domain_, rays[i].task, scratch_)) {
       shade(rays[i], *entry, step);
@@ -305,10 +305,10 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
 }
 
 void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
-  const Model& model = domain_.model();
+  const RayTask& task = ray.task;
+  const Model& model = domain_.model_for(task);
   const Primitive& solid = model.primitives[hit.primitive];
   const Material& m = model.materials[solid.material];
-  const RayTask& task = ray.task;
   if (task.kind == RayKind::kPrimary && model.settings.aovs.any()) {
     note_first_hit(domain_, task, hit, step);
   }
