@@ -111,7 +111,7 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
   add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
       [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
-  add(app, "--shadows", "NAME", "auto (default), horizon, forward or local: how macro finishes shadow rays",
+  add(app, "--shadows", "NAME", "horizon (default), forward or local: how macro finishes shadow rays",
       [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
   add(app, "--partition", "NAME", "regular (default), or balanced: boundaries by a coarse pre-render",
       [&o](const auto& text) { o.partition = parse_partition("--partition", text); });

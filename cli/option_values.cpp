@@ -105,8 +105,8 @@ Grain parse_grain(std::string_view option, std::string_view text) {
 }
 
 ShadowMode parse_shadows(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{ShadowMode::kAuto, ShadowMode::kHorizon,
-                                      ShadowMode::kForward, ShadowMode::kLocal};
+  static constexpr std::array choices{ShadowMode::kHorizon, ShadowMode::kForward,
+                                      ShadowMode::kLocal};
   return parse_choice<ShadowMode>(option, text, choices);
 }
 

@@ -39,6 +39,8 @@ struct FrontalOptions {
   /// A node that answers nothing for so long is taken for dead.
   double silence_s = 10;
   std::string version;
+  /// Larger models are not replicated.
+  std::uint64_t replica_bytes = kReplicaBytes;
 };
 
 class Frontal {

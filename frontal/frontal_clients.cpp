@@ -63,7 +63,8 @@ void Frontal::on_submit(const PeerId& peer, const control::Submit& m, const Byte
   job.info.nodes = options_.cube.nodes();
   job.info.submitted_s = unix_s_;
   job.submitted_at_s = now_s_;
-  job.work = {job.info.job, m.scene_name, scene, m.options, options_.cube};
+  job.work = {job.info.job,   m.scene_name,  scene,
+              m.options,      options_.cube, options_.replica_bytes};
   send(peer, control::Accepted{job.info.job});
   queue_.push_back(std::move(job));
 }

@@ -74,18 +74,10 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
   out.slices.push_back(encode_model(model));
 }
 
-/// What `--shadows` is where nothing is asked for.
-ShadowMode chosen_shadows(const PreparationWork& work, const Model& model) {
-  if (work.options.shadows != ShadowMode::kAuto) return work.options.shadows;
-  if (work.options.flow == FlowMode::kBlocking) return ShadowMode::kForward;
-  return encoded_model_bytes(model) <= kReplicaBytes ? ShadowMode::kLocal : ShadowMode::kHorizon;
-}
-
 /// Light horizons where they are wanted and there are any: on one node no ray leaves, and lights that are walled
 /// in have none.
-std::shared_ptr<const LightHorizons> chosen_horizons(const PreparationWork& work, ShadowMode shadows,
-                                                     const Model& model) {
-  if (shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return nullptr;
+std::shared_ptr<const LightHorizons> chosen_horizons(const PreparationWork& work, const Model& model) {
+  if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return nullptr;
   auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
   return horizons->is_empty() ? nullptr : horizons;
 }
@@ -112,10 +104,10 @@ void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScen
   const auto frame = CameraFrame::from(model.settings.camera, image);
   const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
   const std::uint32_t columns = work.cube.columns() * k, rows = work.cube.rows() * k;
-  out.shadows = chosen_shadows(work, model);
-  const auto horizons = chosen_horizons(work, out.shadows, model);
-  const bool is_auto = work.options.shadows == ShadowMode::kAuto;
-  if (is_auto && out.shadows == ShadowMode::kLocal && work.cube.nodes() > 1) {
+  const auto horizons = chosen_horizons(work, model);
+  out.shadows = work.options.shadows;
+  const bool is_local = out.shadows == ShadowMode::kLocal && work.options.flow == FlowMode::kCredit;
+  if (is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes) {
     out.replica = encode_model(model);
   }
   if (horizons) {

@@ -14,20 +14,21 @@
 
 namespace graycube {
 
+/// With `--shadows local`, a model of at most so many bytes is sent to every node whole, beside the node's own
+/// part: it will need nearly all of it.
+inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{32} << 20;
+
 struct PreparationWork {
   std::uint32_t job = 0;
   std::string scene_name;
   Bytes scene_text;
   control::JobOptions options;
   Hypercube cube = *Hypercube::of_size(1);
+  std::uint64_t replica_bytes = kReplicaBytes;
 };
 
 /// `roth` copies the scene to every node; `auto` picks it only when a node's copy stays below this.
 inline constexpr std::uint64_t kReplicatedModelBytes = std::uint64_t{512} << 20;
-
-/// In `macro`, a model of at most so many bytes is sent to every node whole, beside the node's own part: sharing
-/// out what is so small saves less memory than forwarding its shadow rays costs. `auto` shadows only.
-inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{4} << 20;
 
 struct PreparedScene {
   Algorithm algorithm = Algorithm::kMacro;

@@ -22,7 +22,7 @@ struct Names<Grain> {
 };
 template <>
 struct Names<ShadowMode> {
-  static constexpr std::array<std::string_view, 4> kAll{"horizon", "forward", "local", "auto"};
+  static constexpr std::array<std::string_view, 3> kAll{"horizon", "forward", "local"};
 };
 template <>
 struct Names<PartitionMode> {
