@@ -39,6 +39,7 @@ struct FrontalOptions {
   /// A node that answers nothing for so long is taken for dead.
   double silence_s = 10;
   std::string version;
+  FlowLimits limits{};
 };
 
 class Frontal {

@@ -16,19 +16,16 @@ std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
   return rays;
 }
 
-/// What may be under way on a link and in its receiver's inbox.
-constexpr std::uint64_t kLinkCreditBytes = std::uint64_t{1} << 20;
-constexpr std::uint32_t kBatchBytes = std::uint32_t{64} << 10;
-
 }  // namespace
 
 RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
-                     std::uint32_t threads)
+                     std::uint32_t threads, const FlowLimits& limits)
     : job_(job),
       scene_(std::move(scene)),
       cube_(cube),
       nodes_(cube.nodes()),
       threads_(threads),
+      limits_(limits),
       film_(scene_.settings.image.width, scene_.settings.image.height,
             scene_.settings.image.samples * scene_.settings.image.samples,
             scene_.settings.aovs),
@@ -74,9 +71,9 @@ control::Load RenderJob::load() const {
   m.queue = scene_.queue;
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
   m.borrow_bytes = scene_.shadows == ShadowMode::kLocal ? kBorrowBytes : 0;
-  m.link_credit_bytes = kLinkCreditBytes;
-  m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : kWindowTiles;
-  m.batch_bytes = kBatchBytes;
+  m.link_credit_bytes = limits_.link_credit_bytes;
+  m.window_tiles = is_roth() ? kRothTilesPerThread * threads_ : limits_.window_tiles;
+  m.batch_bytes = limits_.batch_bytes;
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
     m.threads = 1;
@@ -104,7 +101,7 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
   } else {
     std::uint32_t& next = next_own_[rank.value];
     const auto& own = own_tiles_[rank.value];
-    while (open < kWindowTiles && next < own.size()) {
+    while (open < limits_.window_tiles && next < own.size()) {
       tiles.push_back(own[next++]);
       ++open;
     }

@@ -69,6 +69,7 @@ WorkResult run(Work work) {
   } else {
     evaluator.trace_rays(std::get<RayWork>(work.what).rays, result.step);
   }
+  result.walk = evaluator.walk_counts();
   return result;
 }
 

@@ -59,6 +59,8 @@ struct WorkResult {
   std::optional<Rank> borrowed_from;
   std::shared_ptr<const Territory> borrowed;
   Step step;
+  /// What tracing it took; nothing where none was traced.
+  WalkCounts walk;
 };
 
 /// Does the work. Never throws; a broken slice is an error in the result.

@@ -17,8 +17,8 @@ control::JobOptions macro_with(ShadowMode shadows, std::uint32_t scatter) {
   return o;
 }
 
-FarmOptions farm_of(std::uint32_t nodes, std::uint64_t seed) {
-  FarmOptions options;
+RandomFarmOptions farm_of(std::uint32_t nodes, std::uint64_t seed) {
+  RandomFarmOptions options;
   options.nodes = nodes;
   options.threads = static_cast<std::uint32_t>(1 + seed % 3);
   options.seed = seed;
@@ -49,7 +49,7 @@ TEST_CASE("scattered regions, horizons and borrowed models give the serial pictu
                  << scatter);
     control::JobOptions options = macro_with(shadows, scatter);
     if (seed % 5 == 0) options.partition = PartitionMode::kBalanced;
-    Farm farm(farm_of(nodes, seed));
+    RandomFarm farm(farm_of(nodes, seed));
     check_same_picture(farm, farm.render(text, options), 1, expected);
   }
 }
@@ -57,7 +57,7 @@ TEST_CASE("scattered regions, horizons and borrowed models give the serial pictu
 TEST_CASE("with local shadows no shadow ray is forwarded, with horizons few are") {
   const std::string text = scene_text(36, 24);
   const auto forwarded = [&](ShadowMode shadows) {
-    Farm farm(farm_of(8, 2));
+    RandomFarm farm(farm_of(8, 2));
     const Outcome outcome = farm.render(text, macro_with(shadows, 1));
     REQUIRE(outcome.done);
     std::smatch found;
@@ -81,9 +81,9 @@ TEST_CASE("blocking queues give the serial picture or a deadlock, which is repor
     options.flow = FlowMode::kBlocking;
     options.queue = seed % 4 == 0 ? 4096 : static_cast<std::uint32_t>(1 + seed % 7);
     INFO("seed " << seed << ", " << nodes << " nodes, queue " << options.queue);
-    FarmOptions how = farm_of(nodes, seed);
+    RandomFarmOptions how = farm_of(nodes, seed);
     how.link_delay_s = 1e-3;  // a ray a message: on slower links a picture takes hours
-    Farm farm(how);
+    RandomFarm farm(how);
     const Outcome outcome = farm.render(text, options);
     if (!outcome.failed) {
       ++pictures;
