@@ -60,6 +60,10 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
   for (std::size_t i = 0; i < pools; ++i) {
     cores_.push_back(std::make_unique<Cores>(timeline_, count));
   }
+  for (std::uint32_t i = 0; i < options.nodes; ++i) {
+    mailrooms_.push_back(std::make_unique<Thread>(cores_of(Rank{i})));
+  }
+  mailrooms_.push_back(std::make_unique<Thread>(cores_of({})));
   FrontalOptions f{.cube = cube_,
                    .threads = options.threads,
                    .heartbeat_s = options.heartbeat_s,
@@ -102,7 +106,7 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
   for (const Frontal::Outgoing& o : *out) {
     if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
   }
-  cores_of({}).ask({[this, doings] { return take({}, doings); },
+  mailroom_of({}).ask({process_of({}), [this, doings] { return take({}, doings); },
                     [this, out] {
                       for (const Frontal::Outgoing& o : *out) deliver(o);
                     }});
@@ -147,7 +151,7 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
       frontal_->on_message(peer, message);
     });
   };
-  cores_of({}).ask({[this, transport = handling(bytes_of(message))] { return take({}, transport); },
+  mailroom_of({}).ask({process_of({}), [this, transport = handling(bytes_of(message))] { return take({}, transport); },
                     arrive});
 }
 
@@ -205,7 +209,7 @@ void Farm::in_node(Rank rank, PerUnit doings, Call&& call) {
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   watch_time(p);
   for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
-  cores_of(rank).ask({[this, rank, doings] { return take(rank, doings); },
+  mailroom_of(rank).ask({rank.value, [this, rank, doings] { return take(rank, doings); },
                       [this, rank, out, incarnation = p.incarnation] {
                         if (!is_alive(rank, incarnation)) return;
                         for (const Node::Outgoing& o : *out) deliver(rank, o);
@@ -224,7 +228,7 @@ void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const
       from ? node.on_neighbour(message.frame) : node.on_frontal(message);
     });
   };
-  cores_of(rank).ask({begin_receiving, arrive});
+  mailroom_of(rank).ask({rank.value, begin_receiving, arrive});
 }
 
 void Farm::deliver(Rank rank, const Node::Outgoing& o) {
@@ -249,7 +253,7 @@ struct Farm::Turn {
   Rank rank;
   std::uint32_t incarnation = 0;
   std::optional<WorkResult> result;
-  bool is_build = false, is_primary = false;
+  bool is_build = false, is_borrowing = false, is_primary = false;
   double seconds = 0;
 };
 
@@ -266,7 +270,7 @@ void Farm::ask_for_turn(Rank rank) {
   auto turn = std::make_shared<Turn>();
   turn->rank = rank;
   turn->incarnation = processes_[rank.value].incarnation;
-  cores_of(rank).ask({[this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
+  cores_of(rank).ask({rank.value, [this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
 }
 
 double Farm::begin(Turn& turn) {
@@ -285,6 +289,7 @@ double Farm::begin(Turn& turn) {
   if (const auto* b = std::get_if<BuildWork>(&work->what)) {
     doings[Unit::kBuildByte] = static_cast<double>(b->slice.size());
   } else if (const auto* l = std::get_if<BorrowWork>(&work->what)) {
+    turn.is_borrowing = true;
     doings[Unit::kBuildByte] = static_cast<double>(l->slice.size());
   } else if (const auto* r = std::get_if<RayWork>(&work->what)) {
     doings[Unit::kRay] = static_cast<double>(r->rays.size());
@@ -293,7 +298,7 @@ double Farm::begin(Turn& turn) {
   turn.result = run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
   const Step& step = turn.result->step;
-  doings[Unit::kPiece] = 1;
+  if (!turn.is_build && !turn.is_borrowing) doings[Unit::kPiece] = 1;
   for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
   doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
   doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);

@@ -77,6 +77,8 @@ class Farm {
   };
 
   Cores& cores_of(Place place);
+  std::uint32_t process_of(Place place) const { return place ? place->value : cube_.nodes(); }
+  Thread& mailroom_of(Place place) { return *mailrooms_[process_of(place)]; }
   double take(Place place, const PerUnit& doings);
 
   // The frontal
@@ -116,6 +118,7 @@ class Farm {
   Hypercube cube_;
   Timeline timeline_;
   std::vector<std::unique_ptr<Cores>> cores_;  // by rank, then the frontal's; or one for all
+  std::vector<std::unique_ptr<Thread>> mailrooms_;  // by rank, then the frontal's
   std::unique_ptr<JobStore> store_ = make_memory_store();
   std::unique_ptr<Frontal> frontal_;
   double frontal_cpu_s_ = 0;

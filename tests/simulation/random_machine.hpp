@@ -31,7 +31,7 @@ class RandomMachine : public Machine {
     return l.last_s;
   }
   double cpu_s(Place at, const PerUnit& doings) override {
-    if (!at || doings[Unit::kPiece] == 0) return 0;
+    if (!at || doings[Unit::kPiece] + doings[Unit::kBuildByte] == 0) return 0;
     return random(times_.work_s) * slowness_[*at];
   }
 
