@@ -23,8 +23,9 @@ using simulation::MachineFigures;
 using simulation::PerUnit;
 using simulation::Unit;
 
-/// Costs are measured on at most so many nodes, with a picture whose sides are at most so long.
-constexpr std::uint32_t kCalibrationNodes = 64, kCalibrationSide = 256;
+/// Costs are measured on at most so many nodes, with a picture whose sides are at most so long: shorter where each
+/// ray is a message.
+constexpr std::uint32_t kCalibrationNodes = 256, kCalibrationSide = 256, kBlockingSide = 128;
 /// Simulated seconds after which a job is taken for stalled.
 constexpr double kStalled_s = 1e9;
 
@@ -47,7 +48,9 @@ std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
 control::JobOptions small_job(const SimulateCommand& command, const RenderSettings& settings) {
   control::JobOptions options = command.options;
   const std::uint32_t longest = std::max(settings.image.width, settings.image.height);
-  const std::uint32_t shrink = (longest + kCalibrationSide - 1) / kCalibrationSide;
+  const std::uint32_t side =
+      command.options.flow == FlowMode::kBlocking ? kBlockingSide : kCalibrationSide;
+  const std::uint32_t shrink = (longest + side - 1) / side;
   options.width = std::max(1u, settings.image.width / shrink);
   options.height = std::max(1u, settings.image.height / shrink);
   return options;

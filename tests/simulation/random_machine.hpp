@@ -52,6 +52,7 @@ struct RandomFarmOptions {
   std::uint32_t nodes = 8, threads = 1;
   std::uint64_t seed = 1;
   double link_delay_s = 1e-3;
+  double heartbeat_s = 1, stalled_s = 600;
   FlowLimits limits{};
 };
 
@@ -59,7 +60,11 @@ class RandomFarm : private RandomMachine, public Farm {
  public:
   explicit RandomFarm(const RandomFarmOptions& o)
       : RandomMachine({.seed = o.seed, .link_delay_s = o.link_delay_s}),
-        Farm({.nodes = o.nodes, .threads = o.threads, .limits = o.limits},
+        Farm({.nodes = o.nodes,
+              .threads = o.threads,
+              .heartbeat_s = o.heartbeat_s,
+              .stalled_s = o.stalled_s,
+              .limits = o.limits},
              static_cast<RandomMachine&>(*this)) {}
 };
 
