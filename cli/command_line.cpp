@@ -291,7 +291,7 @@ class Parser {
     figure("--host-gbps", "G", "Bandwidth of the frontal's link (default: as the others)", c.host_gbps, 1e-6, 1e6);
     figure("--message-us", "T", "CPU time that a message takes each side (default: measured here)",
            c.message_us, 0, 1e9);
-    figure("--cpu-scale", "F", "How much longer than here all else takes (default 1)", c.cpu_scale, 1e-6, 1e9);
+    figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale, 1e-6, 1e9);
     add(*sub, "--cores", "C", "Cores that all processes share (default: one each)",
         [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
     add_job_options(*sub, c.options);

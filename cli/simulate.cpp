@@ -36,7 +36,8 @@ constexpr std::pair<Unit, const char*> kUnitNames[] = {
     {Unit::kRayIn, "ray_received"},    {Unit::kRayOut, "ray_sent"},
     {Unit::kReturn, "light_returned"}, {Unit::kLightByte, "byte_of_light_sent"},
     {Unit::kFrontalCall, "frontal_event"}, {Unit::kFrontalByte, "byte_of_light_added"},
-    {Unit::kMessage, "message"},       {Unit::kMessageByte, "byte_of_message"}};
+    {Unit::kMessage, "message"},       {Unit::kMessageByte, "byte_of_message"},
+    {Unit::kWakeup, "wake_up"}};
 
 std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
   std::vector<std::pair<std::string, double>> list;
@@ -62,9 +63,11 @@ PerUnit costs_here(const SimulateCommand& command, const SceneInput& scene,
                                              std::min(kCalibrationNodes, nodes));
   costs[Unit::kMessageByte] = transport[Unit::kMessageByte];
   costs[Unit::kMessage] = transport[Unit::kMessage];
+  costs[Unit::kWakeup] = transport[Unit::kWakeup];
   if (command.message_us) {
     costs[Unit::kMessage] = 1e-6 * *command.message_us;
     costs[Unit::kMessageByte] = 0;
+    costs[Unit::kWakeup] = 0;
   }
   return costs;
 }

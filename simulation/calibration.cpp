@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <ctime>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "simulation/farm.hpp"
 #include "simulation/modelled_machine.hpp"
@@ -32,15 +35,37 @@ void echo(Inbox& inbox) {
   }
 }
 
-/// CPU seconds of both sides together for each message of that size, there and back one at a time.
+/// CPU seconds of both sides together for each message of that size, there and back one at a time. So many
+/// different ones are sent that they are not in a cache.
 double seconds_per_message(Connection& connection, std::size_t bytes, int rounds) {
-  const Message message = Message::of_batch(Bytes(bytes));
+  constexpr std::size_t kMessages = 128;
+  const std::vector<Message> messages(kMessages, Message::of_batch(Bytes(bytes)));
   const double began_s = process_cpu_seconds();
   for (int i = 0; i < rounds; ++i) {
-    connection.send(message);
+    connection.send(messages[static_cast<std::size_t>(i) % kMessages]);
     while (!connection.receive(std::chrono::seconds(1))) {
     }
   }
+  return (process_cpu_seconds() - began_s) / (2.0 * rounds);
+}
+
+/// CPU seconds for each time that one of two threads wakes the other and sleeps.
+double seconds_per_wakeup(int rounds) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  int turn = 0;
+  const auto play = [&](int own) {
+    std::unique_lock lock(mutex);
+    for (int i = 0; i < rounds; ++i) {
+      changed.wait(lock, [&] { return turn == own; });
+      turn = 1 - own;
+      changed.notify_all();
+    }
+  };
+  const double began_s = process_cpu_seconds();
+  std::thread other(play, 1);
+  play(0);
+  other.join();
   return (process_cpu_seconds() - began_s) / (2.0 * rounds);
 }
 
@@ -75,6 +100,7 @@ PerUnit transport_costs() {
     const double small_s = least_s(kSmall), large_s = least_s(kLarge);
     costs[Unit::kMessageByte] = std::max(0.0, (large_s - small_s) / (2.0 * (kLarge - kSmall)));
     costs[Unit::kMessage] = small_s / 2;
+    costs[Unit::kWakeup] = seconds_per_wakeup(10 * kRounds);
     connection.send(Message::of_batch(Bytes(1)));
     far.join();
   }
@@ -90,6 +116,7 @@ PerUnit measured_costs(const std::string& scene_text, control::JobOptions option
   for (double& cost : figures.costs.value) cost = 1e-7;
   ModelledMachine machine(figures);
   Farm farm({.nodes = nodes, .threads = 1, .stalled_s = 1e6}, machine);
+  farm.render(scene_text, options);  // memory is fresh: the first time takes longer
   CostFit fit(measuring_overhead_s());
   farm.observe = [&](const PerUnit& doings, double seconds) { fit.add(doings, seconds); };
   farm.render(scene_text, options);

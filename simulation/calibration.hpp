@@ -12,7 +12,7 @@ namespace graycube::simulation {
 double measuring_overhead_s();
 
 /// CPU seconds of one side for each message, and for each byte of it, through real sockets: kMessage and
-/// kMessageByte. Throws TransportError.
+/// kMessageByte; and of waking a thread: kWakeup. Throws TransportError.
 PerUnit transport_costs();
 
 /// Renders the scene on a few simulated nodes and measures every piece of work: all costs but the transport's.

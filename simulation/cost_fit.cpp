@@ -11,7 +11,7 @@ namespace {
 constexpr int kRounds = 2000;
 
 /// Units that are measured together: evaluators, building, nodes' brains, the frontal's.
-constexpr std::array<std::size_t, kUnits> kGroupOf{0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 3, 3, 4, 4};
+constexpr std::array<std::size_t, kUnits> kGroupOf{0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 3, 3, 4, 4, 4};
 
 std::size_t group_of(const PerUnit& counts) {
   for (std::size_t i = 0; i < kUnits; ++i) {

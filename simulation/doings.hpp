@@ -22,8 +22,9 @@ enum class Unit : std::uint8_t {
   kFrontalByte,     ///< of contributions decoded and added up
   kMessage,         ///< handed to or taken from the transport
   kMessageByte,     ///< of it
+  kWakeup,          ///< of a thread by another of its process
 };
-inline constexpr std::size_t kUnits = 14;
+inline constexpr std::size_t kUnits = 15;
 
 /// A number for each unit: how often something was done, or what it costs in CPU seconds.
 struct PerUnit {

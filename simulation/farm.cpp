@@ -197,9 +197,9 @@ void Farm::on_client_message(const Message& message) {
 
 // ---- the nodes
 
-/// Calls a node's brain, sends what it has made, and lets its evaluators look for work.
+/// Calls a node's brain, has the mailroom send what it has made, and lets its evaluators look for work.
 template <typename Call>
-void Farm::in_node(Rank rank, PerUnit doings, Call&& call) {
+void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   Process& p = processes_[rank.value];
   const double began_s = observe ? thread_cpu_seconds() : 0;
   call(*p.node);
@@ -208,6 +208,7 @@ void Farm::in_node(Rank rank, PerUnit doings, Call&& call) {
   add_sending(*out, doings);
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   watch_time(p);
+  if (is_evaluator && !out->empty()) doings[Unit::kWakeup] = 1;
   for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
   mailroom_of(rank).ask({rank.value, [this, rank, doings] { return take(rank, doings); },
                       [this, rank, out, incarnation = p.incarnation] {
@@ -224,7 +225,7 @@ void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const
   const auto arrive = [this, rank, incarnation, from, message] {
     if (from) watch_batch(*from, rank, message.frame, false);
     if (!is_alive(rank, incarnation)) return;
-    in_node(rank, receiving(message), [&](Node& node) {
+    in_node(rank, false, receiving(message), [&](Node& node) {
       from ? node.on_neighbour(message.frame) : node.on_frontal(message);
     });
   };
@@ -253,7 +254,7 @@ struct Farm::Turn {
   Rank rank;
   std::uint32_t incarnation = 0;
   std::optional<WorkResult> result;
-  bool is_build = false, is_borrowing = false, is_primary = false;
+  bool is_build = false, is_borrowing = false, is_primary = false, is_woken = false;
   double seconds = 0;
 };
 
@@ -263,12 +264,13 @@ void Farm::wake(Rank rank) {
   if (!p.node->may_have_work()) return;
   const unsigned waiting = p.node->threads() - std::min(p.active, p.node->threads());
   p.active += waiting;
-  for (unsigned i = 0; i < waiting; ++i) ask_for_turn(rank);
+  for (unsigned i = 0; i < waiting; ++i) ask_for_turn(rank, true);
 }
 
-void Farm::ask_for_turn(Rank rank) {
+void Farm::ask_for_turn(Rank rank, bool is_woken) {
   auto turn = std::make_shared<Turn>();
   turn->rank = rank;
+  turn->is_woken = is_woken;
   turn->incarnation = processes_[rank.value].incarnation;
   cores_of(rank).ask({rank.value, [this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
 }
@@ -276,12 +278,15 @@ void Farm::ask_for_turn(Rank rank) {
 double Farm::begin(Turn& turn) {
   if (!is_alive(turn.rank, turn.incarnation)) return 0;
   Process& p = processes_[turn.rank.value];
+  PerUnit waking;
+  waking[Unit::kWakeup] = turn.is_woken ? 1 : 0;
+  const double waking_s = take(turn.rank, waking);
   std::optional<Work> work;
-  in_node(turn.rank, {}, [&](Node& node) {
+  in_node(turn.rank, true, {}, [&](Node& node) {
     if (p.active <= node.threads()) work = node.take_work();
     if (!work) --p.active;
   });
-  if (!work) return 0;
+  if (!work) return waking_s;
   ++p.working;
   PerUnit doings;
   turn.is_build = std::holds_alternative<BuildWork>(work->what);
@@ -304,7 +309,7 @@ double Farm::begin(Turn& turn) {
   doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);
   if (observe) observe(doings, took_s);
   turn.seconds = take(turn.rank, doings);
-  return turn.seconds;
+  return waking_s + turn.seconds;
 }
 
 void Farm::end(Turn& turn) {
@@ -316,8 +321,8 @@ void Farm::end(Turn& turn) {
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();
   PerUnit doings;
   doings[Unit::kReturn] = static_cast<double>(turn.result->step.returns.size());
-  in_node(turn.rank, doings, [&](Node& node) { node.give_result(std::move(*turn.result)); });
-  ask_for_turn(turn.rank);
+  in_node(turn.rank, true, doings, [&](Node& node) { node.give_result(std::move(*turn.result)); });
+  ask_for_turn(turn.rank, false);
 }
 
 void Farm::kill(Rank rank) {

@@ -93,11 +93,11 @@ class Farm {
 
   // The nodes
   template <typename Call>
-  void in_node(Rank rank, PerUnit doings, Call&& call);
+  void in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call);
   void node_receives(Rank rank, std::uint32_t incarnation, Place from, const Message& message);
   void deliver(Rank rank, const Node::Outgoing& o);
   void wake(Rank rank);
-  void ask_for_turn(Rank rank);
+  void ask_for_turn(Rank rank, bool is_woken);
   struct Turn;
   double begin(Turn& turn);
   void end(Turn& turn);

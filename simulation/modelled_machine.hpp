@@ -16,7 +16,7 @@ struct MachineFigures {
   double link_us = 50;
   /// Cores that all processes share; 0: one for each process.
   unsigned cores = 0;
-  /// How much longer than here any computation takes; handing messages over is not scaled.
+  /// How much longer than here evaluators take; what brains do with messages is not scaled.
   double cpu_scale = 1;
   /// CPU seconds a unit, here.
   PerUnit costs;
@@ -25,9 +25,8 @@ struct MachineFigures {
 class ModelledMachine : public Machine {
  public:
   explicit ModelledMachine(const MachineFigures& figures) : figures_(figures), costs_(figures.costs) {
-    for (std::size_t i = 0; i < kUnits; ++i) {
-      const auto unit = static_cast<Unit>(i);
-      if (unit != Unit::kMessage && unit != Unit::kMessageByte) costs_[unit] *= figures.cpu_scale;
+    for (const Unit u : {Unit::kPiece, Unit::kRay, Unit::kVisit, Unit::kTest, Unit::kBuildByte}) {
+      costs_[u] *= figures.cpu_scale;
     }
   }
 
