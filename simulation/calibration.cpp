@@ -1,8 +1,15 @@
 #include "simulation/calibration.hpp"
 
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
 #include <ctime>
 #include <mutex>
 #include <thread>
@@ -23,30 +30,80 @@ double process_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Sends back whatever comes until a message of one byte does.
-void echo(Inbox& inbox) {
+/// What evaluators do to the caches between messages.
+class Sweep {
+ public:
+  void operator()() {
+    for (std::size_t i = 0; i < memory_.size(); i += kLine) ++memory_[i];
+  }
+
+ private:
+  static constexpr std::size_t kBytes = std::size_t{1} << 20, kLine = 64;
+  std::vector<unsigned char> memory_ = std::vector<unsigned char>(kBytes);
+};
+
+constexpr std::size_t kSmall = 128, kLarge = std::size_t{64} << 10;
+constexpr int kRounds = 200, kTries = 3;
+
+/// The other process: sends back whatever comes, a message of 8 bytes with its CPU seconds so far, until one of 1
+/// byte comes.
+void echo(const std::string& endpoint) {
+  ZmqContext context;
+  Inbox inbox(context, endpoint);
+  Sweep sweep;
   for (;;) {
     void* const sockets[] = {inbox.raw()};
     wait_readable(sockets, {}, std::chrono::seconds(1));
     while (auto m = inbox.receive()) {
       if (m->message.frame.size() == 1) return;
+      sweep();
+      const double cpu_s = process_cpu_seconds();
+      if (m->message.frame.size() == sizeof cpu_s) {
+        std::memcpy(m->message.frame.data(), &cpu_s, sizeof cpu_s);
+      }
       inbox.send(m->peer, m->message);
     }
   }
 }
 
-/// CPU seconds of both sides together for each message of that size, there and back one at a time. So many
-/// different ones are sent that they are not in a cache.
-double seconds_per_message(Connection& connection, std::size_t bytes, int rounds) {
-  constexpr std::size_t kMessages = 128;
-  const std::vector<Message> messages(kMessages, Message::of_batch(Bytes(bytes)));
-  const double began_s = process_cpu_seconds();
-  for (int i = 0; i < rounds; ++i) {
-    connection.send(messages[static_cast<std::size_t>(i) % kMessages]);
-    while (!connection.receive(std::chrono::seconds(1))) {
-    }
+Message ask(Connection& connection, const Message& message) {
+  connection.send(message);
+  for (int i = 0; i < 10; ++i) {
+    if (auto answer = connection.receive(std::chrono::seconds(1))) return *std::move(answer);
   }
-  return (process_cpu_seconds() - began_s) / (2.0 * rounds);
+  throw TransportError("a message to another process of this machine got no answer");
+}
+
+/// CPU seconds of both processes so far.
+double all_cpu_seconds(Connection& connection) {
+  double there_s = 0;
+  const Message answer = ask(connection, Message::of_batch(Bytes(sizeof there_s)));
+  std::memcpy(&there_s, answer.frame.data(), sizeof there_s);
+  return there_s + process_cpu_seconds();
+}
+
+/// CPU seconds of both sides together for each message of that size, sweeps included: the least of a few tries,
+/// since others use the machine too.
+double seconds_per_message(Connection& connection, std::size_t bytes) {
+  Sweep sweep;
+  double least_s = 1;
+  for (int t = 0; t < kTries; ++t) {
+    const double began_s = all_cpu_seconds(connection);
+    for (int i = 0; i < kRounds; ++i) {
+      ask(connection, Message::of_batch(Bytes(bytes)));
+      sweep();
+    }
+    least_s = std::min(least_s, (all_cpu_seconds(connection) - began_s) / (2.0 * kRounds));
+  }
+  return least_s;
+}
+
+double seconds_per_sweep() {
+  Sweep sweep;
+  sweep();
+  const double began_s = process_cpu_seconds();
+  for (int i = 0; i < kRounds; ++i) sweep();
+  return (process_cpu_seconds() - began_s) / kRounds;
 }
 
 /// CPU seconds for each time that one of two threads wakes the other and sleeps.
@@ -69,6 +126,31 @@ double seconds_per_wakeup(int rounds) {
   return (process_cpu_seconds() - began_s) / (2.0 * rounds);
 }
 
+/// A process of its own that echoes, ended and reaped with this.
+class EchoProcess {
+ public:
+  explicit EchoProcess(const std::string& endpoint) : pid_(::fork()) {
+    if (pid_ < 0) throw TransportError("no process can be started to exchange messages with");
+    if (pid_ > 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    try {
+      echo(endpoint);
+    } catch (const TransportError&) {
+    }
+    ::_exit(0);
+  }
+  ~EchoProcess() {
+    ::kill(pid_, SIGKILL);
+    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  EchoProcess(const EchoProcess&) = delete;
+  EchoProcess& operator=(const EchoProcess&) = delete;
+
+ private:
+  pid_t pid_;
+};
+
 }  // namespace
 
 double measuring_overhead_s() {
@@ -79,31 +161,18 @@ double measuring_overhead_s() {
 }
 
 PerUnit transport_costs() {
-  constexpr int kTries = 5;
-  constexpr std::size_t kSmall = 128, kLarge = std::size_t{64} << 10;
-  constexpr int kRounds = 200;
   const TemporaryFolder folder;
-  ZmqContext here, there;
-  Inbox inbox(there, "ipc://" + (folder.path() / "echo").string());
-  std::thread far([&] { echo(inbox); });
+  const std::string endpoint = "ipc://" + (folder.path() / "echo").string();
+  const EchoProcess other(endpoint);
+  ZmqContext context;
+  Connection connection(context, endpoint);
+  const double sweep_s = seconds_per_sweep();
+  const double small_s = seconds_per_message(connection, kSmall);
+  const double large_s = seconds_per_message(connection, kLarge);
   PerUnit costs;
-  {
-    Connection connection(here, inbox.endpoint());
-    // The least of a few, since others use the machine too.
-    const auto least_s = [&](std::size_t bytes) {
-      double least = seconds_per_message(connection, bytes, kRounds);
-      for (int i = 1; i < kTries; ++i) {
-        least = std::min(least, seconds_per_message(connection, bytes, kRounds));
-      }
-      return least;
-    };
-    const double small_s = least_s(kSmall), large_s = least_s(kLarge);
-    costs[Unit::kMessageByte] = std::max(0.0, (large_s - small_s) / (2.0 * (kLarge - kSmall)));
-    costs[Unit::kMessage] = small_s / 2;
-    costs[Unit::kWakeup] = seconds_per_wakeup(10 * kRounds);
-    connection.send(Message::of_batch(Bytes(1)));
-    far.join();
-  }
+  costs[Unit::kMessage] = std::max(0.0, small_s - sweep_s) / 2;
+  costs[Unit::kMessageByte] = std::max(0.0, (large_s - small_s) / (2.0 * (kLarge - kSmall)));
+  costs[Unit::kWakeup] = seconds_per_wakeup(10 * kRounds);
   return costs;
 }
 
