@@ -16,6 +16,8 @@
 namespace graycube {
 namespace {
 
+constexpr std::uint32_t kMaxCores = 1u << 16;
+
 /// Declares an option whose text `take` turns into a value.
 void add(CLI::App& app, const std::string& names, const char* type, const std::string& help,
          std::function<void(const std::string&)> take, bool is_required = false) {
@@ -136,6 +138,7 @@ class Parser {
     declare_rendering();
     declare_client();
     declare_files();
+    declare_simulate();
   }
 
   CLI::App& app() { return app_; }
@@ -267,6 +270,35 @@ class Parser {
         *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
         [&convert](const std::string& text) { convert.out = text; }, true);
     add_choice(*sub, convert.choice);
+  }
+
+  void declare_simulate() {
+    CLI::App* sub = nullptr;
+    auto& c = declare<SimulateCommand>("simulate", "Predict how a scene renders on other machines", sub);
+    add_scene(*sub, c.scene);
+    add_choice(*sub, c.choice);
+    add(
+        *sub, "-n,--nodes", "N,N,...", "Numbers of nodes, each a power of two from 1 to 1024",
+        [&c](const std::string& text) { c.nodes = parse_node_list("--nodes", text); }, true);
+    const auto figure = [&](const char* name, const char* type, const char* help, auto& value,
+                            double least, double most) {
+      add(*sub, name, type, help, [&value, name, least, most](const std::string& text) {
+        value = parse_number(name, text, least, most);
+      });
+    };
+    figure("--link-gbps", "G", "Bandwidth of a link, 10^9 bits a second (default 10)", c.link_gbps, 1e-6, 1e6);
+    figure("--link-us", "L", "Latency of a link, microseconds (default 50)", c.link_us, 0, 1e9);
+    figure("--host-gbps", "G", "Bandwidth of the frontal's link (default: as the others)", c.host_gbps, 1e-6, 1e6);
+    figure("--message-us", "T", "CPU time that a message takes each side (default: measured here)",
+           c.message_us, 0, 1e9);
+    figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale, 1e-6, 1e9);
+    add(*sub, "--cores", "C", "Cores that all processes share (default: one each)",
+        [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
+    add_job_options(*sub, c.options);
+    sub->add_flag("--json", c.as_json, "All statistics as one line of JSON, instead of a table");
+    sub->add_flag("--quiet,-q", c.is_quiet, "Print nothing but the table and errors");
+    add(*sub, "--plot", "OUT.svg", "Also a picture of what each node did with its time",
+        [&c](const std::string& text) { c.plot = text; });
   }
 
   /// An argument that no option of the command takes.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
@@ -74,6 +76,21 @@ struct CompareCommand {
   std::filesystem::path plot;
   bool as_json = false, is_quiet = false;
 };
+struct SimulateCommand {
+  std::string scene;
+  ModelChoice choice;
+  control::JobOptions options;
+  std::vector<std::uint32_t> nodes;
+  /// See simulation::MachineFigures.
+  double link_gbps = 10, link_us = 50, cpu_scale = 1;
+  /// As the other links, where not given.
+  std::optional<double> host_gbps;
+  /// What handing a message over takes each side; measured, where not given.
+  std::optional<double> message_us;
+  std::uint32_t cores = 0;
+  std::filesystem::path plot;
+  bool as_json = false, is_quiet = false;
+};
 struct ConvertCommand {
   std::string in, out;
   ModelChoice choice;
@@ -85,7 +102,7 @@ struct PrintCommand {
 
 using Command = std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand,
                              WatchCommand, CancelCommand, FetchCommand, NodesCommand, DownCommand,
-                             CheckCommand, CompareCommand, ConvertCommand, PrintCommand>;
+                             CheckCommand, CompareCommand, SimulateCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are as main gets them, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);

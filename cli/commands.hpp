@@ -18,6 +18,7 @@ ExitStatus run(const NodesCommand& command);
 ExitStatus run(const DownCommand& command);
 ExitStatus run(const CheckCommand& command);
 ExitStatus run(const CompareCommand& command);
+ExitStatus run(const SimulateCommand& command);
 ExitStatus run(const ConvertCommand& command);
 ExitStatus run(const PrintCommand& command);
 

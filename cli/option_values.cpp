@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <span>
 #include <thread>
 
@@ -67,6 +68,29 @@ std::uint32_t parse_nodes(std::string_view option, std::string_view text) {
   const auto value = number<std::uint32_t>(text);
   if (!value || !Hypercube::of_size(*value)) {
     expected(option, "a power of two from " + range(1, kMaxNodes), text);
+  }
+  return *value;
+}
+
+std::vector<std::uint32_t> parse_node_list(std::string_view option, std::string_view text) {
+  std::vector<std::uint32_t> counts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    counts.push_back(parse_nodes(option, text.substr(from, to - from)));
+    if (counts.size() > kMaxNodeCounts) {
+      expected(option, "at most " + std::to_string(kMaxNodeCounts) + " numbers of nodes", text);
+    }
+    from = to + 1;
+  }
+  return counts;
+}
+
+double parse_number(std::string_view option, std::string_view text, double least, double most) {
+  const auto value = number<double>(text);
+  if (!value || !(*value >= least && *value <= most)) {
+    char range_text[64];
+    std::snprintf(range_text, sizeof range_text, "a number from %g to %g", least, most);
+    expected(option, range_text, text);
   }
   return *value;
 }

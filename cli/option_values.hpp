@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "proto/messages.hpp"
 
@@ -23,6 +24,11 @@ std::uint32_t parse_count(std::string_view option, std::string_view text, std::u
 std::uint32_t parse_nodes(std::string_view option, std::string_view text);
 /// "WxH" within the limits of a picture.
 PictureSize parse_size(std::string_view option, std::string_view text);
+/// Powers of two as parse_nodes takes, with commas between; at most kMaxNodeCounts.
+std::vector<std::uint32_t> parse_node_list(std::string_view option, std::string_view text);
+inline constexpr std::size_t kMaxNodeCounts = 16;
+/// A number, least … most.
+double parse_number(std::string_view option, std::string_view text, double least, double most);
 /// More than 0, at most a year.
 double parse_seconds(std::string_view option, std::string_view text);
 

@@ -41,6 +41,7 @@ struct FrontalOptions {
   std::string version;
   /// Larger models are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
+  FlowLimits limits{};
 };
 
 class Frontal {

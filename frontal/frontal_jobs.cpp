@@ -48,7 +48,8 @@ void Frontal::give_result(PreparationResult result) {
     running_->deadlocks.emplace(options_.cube);
   }
   running_->info.choices = choices_text(*result.scene);
-  running_->render.emplace(result.job, std::move(*result.scene), options_.cube, threads);
+  running_->render.emplace(result.job, std::move(*result.scene), options_.cube, threads,
+                           options_.limits);
   running_->info.algorithm = running_->render->scene().algorithm;
   running_->info.tiles = static_cast<std::uint32_t>(running_->render->tiles());
   load_when_possible();

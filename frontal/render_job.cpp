@@ -17,19 +17,16 @@ std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
   return rays;
 }
 
-/// What may be under way on a link and in its receiver's inbox.
-constexpr std::uint64_t kLinkCreditBytes = std::uint64_t{1} << 20;
-constexpr std::uint32_t kBatchBytes = std::uint32_t{64} << 10;
-
 }  // namespace
 
 RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
-                     std::uint32_t threads)
+                     std::uint32_t threads, const FlowLimits& limits)
     : job_(job),
       scene_(std::move(scene)),
       cube_(cube),
       nodes_(cube.nodes()),
       threads_(threads),
+      limits_(limits),
       film_(scene_.settings.image.width, scene_.settings.image.height,
             scene_.settings.image.samples * scene_.settings.image.samples,
             scene_.settings.aovs),
@@ -78,9 +75,9 @@ control::Load RenderJob::load() const {
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.replica_bytes = scene_.replica.size();
-  m.link_credit_bytes = kLinkCreditBytes;
-  m.window_tiles = is_roth() ? window(0) : kWindowTiles;
-  m.batch_bytes = kBatchBytes;
+  m.link_credit_bytes = limits_.link_credit_bytes;
+  m.window_tiles = is_roth() ? window(0) : limits_.window_tiles;
+  m.batch_bytes = limits_.batch_bytes;
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
     m.threads = 1;
@@ -93,9 +90,10 @@ control::Load RenderJob::load() const {
 
 std::uint32_t RenderJob::window(std::size_t left) const {
   if (is_roth()) return kRothTilesPerThread * threads_;
-  if (scene_.replica.empty()) return kWindowTiles;
+  const std::uint32_t most = limits_.window_tiles;
+  if (scene_.replica.empty()) return most;
   const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
-  return std::clamp(part, std::min(kLeastTilesPerThread * threads_, kWindowTiles), kWindowTiles);
+  return std::clamp(part, std::min(kLeastTilesPerThread * threads_, most), most);
 }
 
 void RenderJob::set_ready(Rank rank) {

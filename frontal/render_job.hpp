@@ -14,9 +14,16 @@
 
 namespace graycube {
 
-/// Own tiles that a node may have open at a time in `macro`, and tiles per evaluator thread in `roth`: open
-/// until the frontal holds all their light. All rays in the machine descend from them (design section 10).
-inline constexpr std::uint32_t kWindowTiles = 64;
+/// What bounds the rays in the machine; other values are for tests.
+struct FlowLimits {
+  /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all their light. All
+  /// rays in the machine descend from them (design section 10).
+  std::uint32_t window_tiles = 64;
+  /// What may be under way on a link and in its receiver's inbox.
+  std::uint64_t link_credit_bytes = std::uint64_t{1} << 20;
+  std::uint32_t batch_bytes = std::uint32_t{64} << 10;
+};
+/// The same per evaluator thread in `roth`.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
 /// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and otherwise this part
 /// of those that are left: the fewer, the more of them can still be taken over.
@@ -27,7 +34,8 @@ inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 
 class RenderJob {
  public:
-  RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads);
+  RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
+            const FlowLimits& limits = {});
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
@@ -88,6 +96,7 @@ class RenderJob {
   PreparedScene scene_;
   Hypercube cube_;
   std::uint32_t nodes_, threads_;
+  FlowLimits limits_;
   Film film_;
   TileLedger ledger_;
   std::vector<Rank> holder_;                     // of each tile handed out

@@ -257,7 +257,8 @@ void Node::on_neighbour(const Bytes& batch) {
     link.send_credit += bytes;
     link.received += bytes;
     if (is_blocking()) return send_stalled();
-    return send_rays(link, false);
+    // Where all evaluators wait, none will come by to send the rest.
+    return send_rays(link, working_ == 0 && wait_reason() != WaitReason::kReady);
   }
   if (header.type == BatchType::kToken) {
     TokenRecord r;

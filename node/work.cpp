@@ -85,12 +85,14 @@ WorkResult Workbench::run(Work work) {
     domain_ = std::move(work.domain);
     evaluator_.emplace(*domain_);
   }
+  const WalkCounts before = evaluator_->walk_counts();
   if (const auto* tile = std::get_if<TileWork>(&work.what)) {
     evaluator_->trace_pixels(tile->rect, result.step);
     result.tile = tile->tile;
   } else {
     evaluator_->trace_rays(std::get<RayWork>(work.what).rays, result.step);
   }
+  result.walk = evaluator_->walk_counts().since(before);
   return result;
 }
 

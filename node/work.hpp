@@ -62,6 +62,8 @@ struct WorkResult {
   /// TileWork: the tile.
   std::optional<std::uint32_t> tile;
   Step step;
+  /// What tracing it took; nothing where none was traced.
+  WalkCounts walk;
 };
 
 /// An evaluator thread's own: what it keeps from one piece of work to the next.

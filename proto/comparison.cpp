@@ -13,6 +13,7 @@ Figures figures_of(const std::string& statistics) {
   f.wall_s = j.at("wall_s");
   f.cpu_s = j.at("cpu_s");
   f.frontal_cpu_s = j.at("frontal_cpu_s");
+  f.render_s = j.at("phases").at("render_s");
   f.efficiency = j.at("balance").at("efficiency");
   f.blocked_fraction = j.at("balance").at("blocked_fraction");
   f.endgame_s = j.at("endgame_s");
@@ -22,6 +23,7 @@ Figures figures_of(const std::string& statistics) {
   f.forwarded = count("forwarded", "shadow") + count("forwarded", "secondary");
   f.messages = count("messages", "ray_batches") + count("messages", "contribution_batches");
   f.message_bytes = count("messages", "ray_bytes") + count("messages", "contribution_bytes");
+  f.light_bytes = count("messages", "contribution_bytes");
   f.rounds = count("token", "rounds");
   for (const Json& n : j.at("per_node")) {
     f.largest_memory_bytes = std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());
@@ -40,6 +42,20 @@ std::string to_string(RowOutcome outcome) {
     case RowOutcome::kFailed: return "FAILED";
   }
   return {};
+}
+
+std::string simulation_json(const std::string& scene,
+                            const std::vector<SimulatedRow>& rows) {
+  Json j{{"scene", scene}, {"rows", Json::array()}};
+  for (const SimulatedRow& r : rows) {
+    Json row{{"nodes", r.nodes}, {"time_s", r.time_s}, {"host_load", r.host_load},
+             {"predicted_over_measured", r.predicted_over_measured},
+             {"outcome", to_string(r.row.outcome)}, {"why", r.row.why}};
+    for (const auto& [name, seconds] : r.costs) row["costs"][name] = seconds;
+    row["statistics"] = r.row.statistics.empty() ? Json() : Json::parse(r.row.statistics);
+    j["rows"].push_back(std::move(row));
+  }
+  return j.dump();
 }
 
 std::string comparison_json(const std::string& scene, std::uint32_t nodes,

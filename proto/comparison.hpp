@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graycube {
@@ -13,8 +14,8 @@ struct NodeTimes {
 };
 
 struct Figures {
-  double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, efficiency = 1, blocked_fraction = 0, endgame_s = 0;
-  std::uint64_t forwarded = 0, messages = 0, message_bytes = 0;
+  double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, render_s = 0, efficiency = 1, blocked_fraction = 0, endgame_s = 0;
+  std::uint64_t forwarded = 0, messages = 0, message_bytes = 0, light_bytes = 0;
   /// Of the node that holds most; model and subdivision.
   std::uint64_t largest_memory_bytes = 0;
   std::uint64_t rounds = 0, queue_peak = 0;
@@ -38,6 +39,23 @@ struct ComparedRow {
   /// As of statistics_json; empty without a picture.
   std::string statistics;
 };
+
+/// A row of `graycube simulate`.
+struct SimulatedRow {
+  std::uint32_t nodes = 0;
+  /// Seconds from the barrier to the end, or to the deadlock.
+  double time_s = 0;
+  /// Share of that time in which the frontal's link carried light.
+  double host_load = 0;
+  /// CPU seconds as predicted, over those that the same work took here.
+  double predicted_over_measured = 0;
+  /// CPU seconds of each unit of work, by name.
+  std::vector<std::pair<std::string, double>> costs;
+  ComparedRow row;
+};
+/// One JSON object: {"scene", "rows": [{"nodes", "time_s", "host_load", "predicted_over_measured", "costs":
+/// {NAME: SECONDS}, "outcome", "why", "statistics"}]}.
+std::string simulation_json(const std::string& scene, const std::vector<SimulatedRow>& rows);
 
 /// One JSON object: {"scene", "nodes", "rows": [{"name", "arguments", "outcome", "why", "statistics"}]}.
 std::string comparison_json(const std::string& scene, std::uint32_t nodes,

@@ -20,6 +20,9 @@ struct WalkCounts {
     cells_visited += o.cells_visited;
     primitives_tested += o.primitives_tested;
   }
+  WalkCounts since(const WalkCounts& before) const {
+    return {cells_visited - before.cells_visited, primitives_tested - before.primitives_tested};
+  }
 };
 
 class Mailbox {

@@ -54,6 +54,9 @@ TEST_CASE("bars show each node's parts, and rows without a picture say why") {
   CHECK(count(svg, "<rect") == 1 + 4 + 2 * 4);
   CHECK(svg.find("&lt;two&gt;") != std::string::npos);
   CHECK(svg.find("deadlocked: node 0 &amp; node 1") != std::string::npos);
+  // A deadlock's bars, up to it, say so too.
+  CHECK(count(bars_svg("", {{"one", "", RowOutcome::kDeadlocked, "why", some_statistics()}}),
+              ">deadlocked<") == 1);
   // Three quarters of the first node's bar of 84 is blocked.
   CHECK(svg.find("height=\"63.00\" fill=\"#c92a2a\"") != std::string::npos);
 }

@@ -60,6 +60,30 @@ TEST_CASE("submit asks for the farm's own threads unless told otherwise") {
   CHECK(d.waits);
 }
 
+TEST_CASE("every option of simulate arrives") {
+  const auto c = std::get<SimulateCommand>(parsed(
+      {"simulate",     "a.json", "--nodes",   "64,256",   "--link-gbps", "0.002",    "--link-us",
+       "1000",         "--cores", "3",        "--host-gbps", "1",        "--message-us", "7",
+       "--cpu-scale",  "1e4",    "--algorithm", "macro",  "--flow",      "blocking", "--queue",
+       "9",            "--json", "--plot",    "b.svg",    "--size",      "64x32",    "-q"}));
+  CHECK(c.scene == "a.json");
+  CHECK(c.nodes == std::vector<std::uint32_t>{64, 256});
+  CHECK(c.link_gbps == 0.002);
+  CHECK(c.host_gbps == 1.0);
+  CHECK(c.link_us == 1000);
+  CHECK(c.message_us == 7.0);
+  CHECK(c.cpu_scale == 1e4);
+  CHECK(c.cores == 3);
+  CHECK(c.options.algorithm == Algorithm::kMacro);
+  CHECK(c.options.flow == FlowMode::kBlocking);
+  CHECK(c.options.queue == 9);
+  CHECK(c.options.width == 64u);
+  CHECK(c.plot == "b.svg");
+  CHECK(c.as_json);
+  CHECK(c.is_quiet);
+  CHECK(refused({"simulate", "a.json"}).find("--nodes is required") != std::string::npos);
+}
+
 TEST_CASE("clients look for the farm where they are told, then in the environment") {
   ::setenv("GRAYCUBE_FRONTAL", "tcp://127.0.0.1:7000", 1);
   CHECK(std::get<JobsCommand>(parsed({"jobs"})).connect == "tcp://127.0.0.1:7000");
@@ -114,7 +138,7 @@ TEST_CASE("a command line that means nothing is refused in one line") {
 TEST_CASE("help names every command, and a command's help its options") {
   const auto all = std::get<PrintCommand>(parsed({"--help"})).text;
   for (const char* name : {"render", "up", "submit", "jobs", "status", "watch", "cancel", "fetch",
-                           "nodes", "down", "check", "compare", "convert"}) {
+                           "nodes", "down", "check", "compare", "simulate", "convert"}) {
     CHECK(all.find(name) != std::string::npos);
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;

@@ -18,6 +18,28 @@ TEST_CASE("node counts are the powers of two from 1 to 1024") {
   }
 }
 
+TEST_CASE("node counts come one or more, with commas between") {
+  CHECK(parse_node_list("-n", "4") == std::vector<std::uint32_t>{4});
+  CHECK(parse_node_list("-n", "64,256,1024") == std::vector<std::uint32_t>{64, 256, 1024});
+  for (const char* bad : {"", ",", "4,", ",4", "4,,8", "4;8", "4, 8", "4,3"}) {
+    INFO(bad);
+    CHECK(refusal([&] { parse_node_list("-n", bad); })
+              .starts_with("graycube: usage: -n: expected a power of two from 1 to 1024"));
+  }
+  std::string many = "1";
+  for (std::size_t i = 0; i < kMaxNodeCounts; ++i) many += ",1";
+  CHECK(refusal([&] { parse_node_list("-n", many); }).find("at most 16 numbers") != std::string::npos);
+}
+
+TEST_CASE("numbers have a range") {
+  CHECK(parse_number("--link-us", "0.5", 0, 10) == 0.5);
+  for (const char* bad : {"", "-1", "10.5", "nan", "inf", "1e999", "5us"}) {
+    INFO(bad);
+    CHECK(refusal([&] { parse_number("--link-us", bad, 0, 10); }) ==
+          "graycube: usage: --link-us: expected a number from 0 to 10, found \"" + std::string(bad) + "\"");
+  }
+}
+
 TEST_CASE("the default number of nodes is a power of two that the processors can hold") {
   const std::uint32_t nodes = default_nodes();
   CHECK(std::has_single_bit(nodes));

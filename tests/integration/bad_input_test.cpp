@@ -198,6 +198,10 @@ TEST_CASE("bad usage is refused in one line") {
                               {"up", "--http", "0.0.0.0:8080"},
                               {"compare", "s.json", "--plot", "none/out.svg"},
                               {"compare", "s.json", "-n", "3"},
+                              {"simulate", "s.json", "-n", "4,5"},
+                              {"simulate", "s.json", "-n", "4", "--link-gbps", "0"},
+                              {"simulate", "s.json", "-n", "4", "--algorithm", "serial"},
+                              {"simulate", "s.json", "-n", "4", "--plot", "none/out.svg"},
                               {"convert", "s.json", "s.stl"},
                               {"convert", "s.json", "s.json"},
                               {"convert", "s.json"}}) {

@@ -81,6 +81,36 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
   CHECK(sandbox.temporary_files().empty());
 }
 
+TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {
+  Sandbox sandbox;
+  const std::vector<std::string> way{scene_file("mirrors.json").string(), "--algorithm", "macro",
+                                     "--shadows", "forward", "--size", kSize};
+  const auto with = [&](std::string command, std::vector<std::string> more) {
+    std::vector<std::string> arguments{std::move(command)};
+    arguments.insert(arguments.end(), way.begin(), way.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sandbox.run(arguments);
+  };
+  REQUIRE(with("render", {"-n", "4", "-o", "a.exr", "--stats", "a.json", "-q"}).status == 0);
+  const Outcome o = with("simulate", {"-n", "4,16", "--json", "-q", "--plot", "bars.svg"});
+  INFO(o.err);
+  REQUIRE(o.status == 0);
+  const auto simulated = nlohmann::json::parse(o.out);
+  REQUIRE(simulated["rows"].size() == 2);
+  for (const auto& row : simulated["rows"]) {
+    CHECK(row["outcome"] == "same");
+    CHECK(row["time_s"] > 0);
+  }
+  const auto real = sandbox.json("a.json"), &row = simulated["rows"][0]["statistics"];
+  CHECK(row["forwarded"] == real["forwarded"]);
+  CHECK(row["rays"] == real["rays"]);
+  CHECK(file_bytes(sandbox / "bars.svg").starts_with("<svg "));
+  const Outcome table = with("simulate", {"-n", "2", "--flow", "blocking", "--queue", "2", "-q"});
+  CHECK(table.status == 0);
+  CHECK(table.out.starts_with("NODES  TIME s"));
+  CHECK(sandbox.temporary_files().empty());
+}
+
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }
 TEST_CASE("glass looks the same whatever computes it") { check_identity("glass.json", kSmallSize); }
 TEST_CASE("AOVs are the same whatever computes them") {

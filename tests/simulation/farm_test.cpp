@@ -1,4 +1,4 @@
-#include "simulation/farm.hpp"
+#include "simulation/random_machine.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>
@@ -12,13 +12,13 @@ TEST_CASE("macro gives the serial picture on 1 to 64 nodes, whatever the links' 
   const std::string text = scene_text(36, 24);
   const Picture expected = serial_picture(text);
   for (std::uint64_t seed = 1; seed <= 240; ++seed) {
-    FarmOptions options;
+    RandomFarmOptions options;
     options.nodes = 1u << (seed % 7);
     options.threads = static_cast<std::uint32_t>(1 + seed % 3);
     options.seed = seed;
     options.link_delay_s = seed % 2 == 0 ? 1e-3 : 1e-1;
     INFO("seed " << seed << ", " << options.nodes << " nodes");
-    Farm farm(options);
+    RandomFarm farm(options);
     check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), 1, expected);
   }
 }
@@ -38,11 +38,11 @@ TEST_CASE("AOVs are the serial ones, also of rays that run along the macro-regio
       own.replace(own.find("\"height\": 32"), 12, "\"height\": 32, \"samples\": 2");
       const Picture expected = serial_picture(own, AovSet::all());
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        FarmOptions options;
+        RandomFarmOptions options;
         options.nodes = 1u << (seed % 5);
         options.seed = seed;
         INFO(offset << " " << projection << ", seed " << seed << ", " << options.nodes << " nodes");
-        Farm farm(options);
+        RandomFarm farm(options);
         control::JobOptions job = with(seed % 3 == 0 ? Algorithm::kRoth : Algorithm::kMacro);
         job.aov = "depth,normal,albedo,object";
         check_same_picture(farm, farm.render(own, job), 1, expected);
@@ -52,7 +52,7 @@ TEST_CASE("AOVs are the serial ones, also of rays that run along the macro-regio
 }
 
 TEST_CASE("a job that asks for unknown AOVs is refused") {
-  Farm farm({.nodes = 2, .seed = 3});
+  RandomFarm farm({.nodes = 2, .seed = 3});
   control::JobOptions job = with(Algorithm::kMacro);
   job.aov = "depth,colour";
   const Outcome outcome = farm.render(scene_text(16, 16), job);
@@ -67,14 +67,14 @@ TEST_CASE("roth gives the serial picture for every grain") {
   for (const Grain grain : {Grain::kPixel, Grain::kLine, Grain::kTile}) {
     for (const std::uint32_t nodes : {1u, 2u, 8u, 16u}) {
       INFO("seed " << seed << ", " << nodes << " nodes");
-      Farm farm({.nodes = nodes, .threads = 2, .seed = seed++});
+      RandomFarm farm({.nodes = nodes, .threads = 2, .seed = seed++});
       check_same_picture(farm, farm.render(text, with(Algorithm::kRoth, grain)), 1, expected);
     }
   }
 }
 
 TEST_CASE("a farm renders one job after another") {
-  Farm farm({.nodes = 8, .seed = 5});
+  RandomFarm farm({.nodes = 8, .seed = 5});
   std::uint32_t job = 0;
   for (const unsigned width : {16u, 40u, 24u}) {
     const std::string text = scene_text(width, 16);
@@ -90,7 +90,7 @@ TEST_CASE("a node's death fails the running job with its name, and the next job 
   int failed = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     INFO("seed " << seed);
-    Farm farm({.nodes = 8, .seed = seed});
+    RandomFarm farm({.nodes = 8, .seed = seed});
     const Rank victim{static_cast<std::uint32_t>(seed % 8)};
     farm.kill_node_at(victim, 2e-3 * static_cast<double>(seed));
     const Outcome outcome = farm.render(text, with(Algorithm::kMacro));
@@ -122,7 +122,7 @@ TEST_CASE("a farm whose nodes can't be started gives up, and says why") {
 }
 
 TEST_CASE("a scene with mistakes fails with all of them") {
-  Farm farm({.nodes = 2, .seed = 9});
+  RandomFarm farm({.nodes = 2, .seed = 9});
   const Outcome outcome = farm.render(R"({"graycube": 1, "objects": 3})", with(Algorithm::kMacro));
   REQUIRE(outcome.failed);
   CHECK(outcome.failed->code == FailureCode::kBadInput);

@@ -17,8 +17,8 @@ control::JobOptions macro_with(ShadowMode shadows, std::uint32_t scatter) {
   return o;
 }
 
-FarmOptions farm_of(std::uint32_t nodes, std::uint64_t seed) {
-  FarmOptions options;
+RandomFarmOptions farm_of(std::uint32_t nodes, std::uint64_t seed) {
+  RandomFarmOptions options;
   options.nodes = nodes;
   options.threads = static_cast<std::uint32_t>(1 + seed % 3);
   options.seed = seed;
@@ -49,7 +49,9 @@ TEST_CASE("scattered regions, horizons and borrowed models give the serial pictu
                  << scatter);
     control::JobOptions options = macro_with(shadows, scatter);
     if (seed % 5 == 0) options.partition = PartitionMode::kBalanced;
-    Farm farm(farm_of(nodes, seed));
+    RandomFarmOptions how = farm_of(nodes, seed);
+    if (seed % 2 == 0) how.replica_bytes = 0;  // then models are borrowed
+    RandomFarm farm(how);
     check_same_picture(farm, farm.render(text, options), 1, expected);
   }
 }
@@ -57,7 +59,7 @@ TEST_CASE("scattered regions, horizons and borrowed models give the serial pictu
 TEST_CASE("with local shadows no shadow ray is forwarded, with horizons few are") {
   const std::string text = scene_text(36, 24);
   const auto forwarded = [&](ShadowMode shadows) {
-    Farm farm(farm_of(8, 2));
+    RandomFarm farm(farm_of(8, 2));
     const Outcome outcome = farm.render(text, macro_with(shadows, 1));
     REQUIRE(outcome.done);
     std::smatch found;
@@ -81,9 +83,9 @@ TEST_CASE("blocking queues give the serial picture or a deadlock, which is repor
     options.flow = FlowMode::kBlocking;
     options.queue = seed % 4 == 0 ? 4096 : static_cast<std::uint32_t>(1 + seed % 7);
     INFO("seed " << seed << ", " << nodes << " nodes, queue " << options.queue);
-    FarmOptions how = farm_of(nodes, seed);
+    RandomFarmOptions how = farm_of(nodes, seed);
     how.link_delay_s = 1e-3;  // a ray a message: on slower links a picture takes hours
-    Farm farm(how);
+    RandomFarm farm(how);
     const Outcome outcome = farm.render(text, options);
     if (!outcome.failed) {
       ++pictures;
@@ -106,4 +108,28 @@ TEST_CASE("blocking queues give the serial picture or a deadlock, which is repor
   }
   CHECK(deadlocks > 5);
   CHECK(pictures > 15);
+}
+
+TEST_CASE("with replicas nothing is forwarded, and neighbours trace the tiles of slow nodes") {
+  const std::string text = scene_text(144, 96);
+  const Picture expected = serial_picture(text);
+  unsigned helped = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    RandomFarmOptions how = farm_of(1u << (1 + seed % 4), seed);
+    how.limits.window_tiles = 1 + static_cast<std::uint32_t>(seed % 3);
+    INFO("seed " << seed << ", " << how.nodes << " nodes");
+    RandomFarm farm(how);
+    const Outcome outcome = farm.render(text, macro_with(ShadowMode::kLocal, 1));
+    check_same_picture(farm, outcome, 1, expected);
+    CHECK(outcome.rounds <= 4);
+    std::uint64_t primary = 0;
+    for (const control::NodeStats& n : outcome.reports) {
+      CHECK(n.forwarded_shadow + n.forwarded_secondary == 0);
+      CHECK(n.replica_primitives > 0);
+      primary += n.primary;
+      helped += n.primary * how.nodes > 144 * 96;
+    }
+    CHECK(primary == 144 * 96);
+  }
+  CHECK(helped > 24);
 }

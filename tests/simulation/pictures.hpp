@@ -6,7 +6,7 @@
 
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
-#include "simulation/farm.hpp"
+#include "simulation/random_machine.hpp"
 #include "trace/render_serial.hpp"
 
 namespace graycube::simulation {

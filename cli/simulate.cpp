@@ -1,0 +1,252 @@
+// graycube simulate: a scene rendered by the real brains on a machine that isn't there.
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/bars_svg.hpp"
+#include "cli/commands.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/render_here.hpp"
+#include "cli/table.hpp"
+#include "proto/comparison.hpp"
+#include "proto/statistics.hpp"
+#include "simulation/calibration.hpp"
+#include "simulation/farm.hpp"
+#include "simulation/modelled_machine.hpp"
+#include "transport/zmq_sockets.hpp"
+#include "version.hpp"
+
+namespace graycube {
+namespace {
+
+using simulation::CostFit;
+using simulation::MachineFigures;
+using simulation::PerUnit;
+using simulation::Unit;
+
+/// Costs are measured on at most so many nodes, with a picture whose sides are at most so long: shorter where each
+/// ray is a message.
+constexpr std::uint32_t kCalibrationNodes = 256, kCalibrationSide = 256, kBlockingSide = 128;
+/// Simulated seconds after which a job is taken for stalled.
+constexpr double kStalled_s = 1e9;
+
+constexpr std::pair<Unit, const char*> kUnitNames[] = {
+    {Unit::kPiece, "piece_of_work"},   {Unit::kRay, "ray_traced"},
+    {Unit::kVisit, "node_visited"},    {Unit::kTest, "primitive_tested"},
+    {Unit::kBuildByte, "byte_built"},  {Unit::kNodeCall, "node_event"},
+    {Unit::kRayIn, "ray_received"},    {Unit::kRayOut, "ray_sent"},
+    {Unit::kReturn, "light_returned"}, {Unit::kLightByte, "byte_of_light_sent"},
+    {Unit::kFrontalCall, "frontal_event"}, {Unit::kFrontalByte, "byte_of_light_added"},
+    {Unit::kMessage, "message"},       {Unit::kMessageByte, "byte_of_message"},
+    {Unit::kWakeup, "wake_up"}};
+
+std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
+  std::vector<std::pair<std::string, double>> list;
+  for (const auto& [unit, name] : kUnitNames) list.emplace_back(name, costs[unit]);
+  return list;
+}
+
+/// The job as it is measured: its picture made small.
+control::JobOptions small_job(const SimulateCommand& command, const RenderSettings& settings) {
+  control::JobOptions options = command.options;
+  const std::uint32_t longest = std::max(settings.image.width, settings.image.height);
+  const std::uint32_t side =
+      command.options.flow == FlowMode::kBlocking ? kBlockingSide : kCalibrationSide;
+  const std::uint32_t shrink = (longest + side - 1) / side;
+  options.width = std::max(1u, settings.image.width / shrink);
+  options.height = std::max(1u, settings.image.height / shrink);
+  return options;
+}
+
+PerUnit costs_here(const SimulateCommand& command, const SceneInput& scene,
+                   const RenderSettings& settings, const PerUnit& transport, std::uint32_t nodes) {
+  PerUnit costs = simulation::measured_costs(scene.text, small_job(command, settings),
+                                             std::min(kCalibrationNodes, nodes));
+  costs[Unit::kMessageByte] = transport[Unit::kMessageByte];
+  costs[Unit::kMessage] = transport[Unit::kMessage];
+  costs[Unit::kWakeup] = transport[Unit::kWakeup];
+  if (command.message_us) {
+    costs[Unit::kMessage] = 1e-6 * *command.message_us;
+    costs[Unit::kMessageByte] = 0;
+    costs[Unit::kWakeup] = 0;
+  }
+  return costs;
+}
+
+PerUnit transport_here() {
+  PerUnit costs;
+  {
+    const InterruptsHeld held;  // there is a folder with a socket to remove
+    costs = simulation::transport_costs();
+  }
+  throw_if_interrupted();
+  return costs;
+}
+
+MachineFigures machine_of(const SimulateCommand& command, const PerUnit& costs) {
+  MachineFigures figures;
+  figures.link_gbps = command.link_gbps;
+  figures.host_gbps = command.host_gbps.value_or(command.link_gbps);
+  figures.link_us = command.link_us;
+  figures.cores = command.cores;
+  figures.cpu_scale = command.cpu_scale;
+  figures.costs = costs;
+  return figures;
+}
+
+/// What the nodes of a job that failed did until then.
+std::string statistics_until_failure(const simulation::Outcome& outcome, const SceneInput& scene,
+                                     const SimulateCommand& command,
+                                     const RenderSettings& settings, std::uint32_t nodes) {
+  Statistics s;
+  s.version = kVersion;
+  s.scene = scene.name;
+  s.algorithm = command.options.algorithm;
+  s.nodes = nodes;
+  s.scatter = std::max(1u, command.options.scatter);
+  s.shadows = command.options.shadows;
+  s.partition = command.options.partition;
+  s.flow = command.options.flow;
+  s.image = settings.image;
+  s.render_s = outcome.render_s;
+  s.token_rounds = outcome.rounds;
+  s.per_node = outcome.reports;
+  for (const control::NodeStats& n : s.per_node) s.cpu_s += n.cpu_s;
+  return statistics_json(s);
+}
+
+SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
+                       const RenderSettings& settings, const PerUnit& transport,
+                       const Picture& reference, std::uint32_t nodes) {
+  const PerUnit costs = costs_here(command, scene, settings, transport, nodes);
+  const MachineFigures figures = machine_of(command, costs);
+  simulation::ModelledMachine machine(figures);
+  // Slow machines are asked less often how they are.
+  const double heartbeat_s = std::max(1.0, command.cpu_scale / 1000);
+  simulation::Farm farm(
+      {.nodes = nodes, .threads = 1, .heartbeat_s = heartbeat_s, .stalled_s = kStalled_s}, machine);
+  CostFit measured(simulation::measuring_overhead_s());
+  farm.observe = [&](const PerUnit& doings, double seconds) { measured.add(doings, seconds); };
+  control::JobOptions options = command.options;
+  options.timeout_s = 0;
+  const simulation::Outcome outcome = farm.render(scene.text, options);
+  SimulatedRow row;
+  row.nodes = nodes;
+  row.costs = named(costs);
+  row.row.name = std::to_string(nodes) + (nodes == 1 ? " node" : " nodes");
+  const double here_s = measured.seconds();
+  row.predicted_over_measured =
+      here_s > 0 ? simulation::cost_of(measured.counts(), costs) / here_s : 1;
+  for (const std::string& v : outcome.violations) row.row.why += v + "; ";
+  if (outcome.failed) {
+    if (!outcome.failed->errors.empty()) row.row.why += outcome.failed->errors.front().why;
+    const bool deadlocked = row.row.why.starts_with("deadlock: ");
+    row.row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    row.time_s = outcome.render_s;
+    if (!outcome.reports.empty()) {
+      row.row.statistics = statistics_until_failure(outcome, scene, command, settings, nodes);
+    }
+  } else if (outcome.done) {
+    row.row.statistics = outcome.done->stats.text;
+    const Picture* picture = farm.store().picture(1);
+    const bool same = picture != nullptr && *picture == reference;
+    row.row.outcome = same ? RowOutcome::kSame : RowOutcome::kDifferent;
+  }
+  if (!outcome.violations.empty() || !outcome.ended) row.row.outcome = RowOutcome::kFailed;
+  if (row.row.statistics.empty()) return row;
+  const Figures f = figures_of(row.row.statistics);
+  if (outcome.done) row.time_s = f.render_s;
+  const double light_s = 8e-9 * static_cast<double>(f.light_bytes) / figures.host_gbps;
+  row.host_load = row.time_s > 0 ? light_s / row.time_s : 0;
+  return row;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
+  std::vector<std::vector<std::string>> cells{
+      {"NODES", "TIME s", "SPEED-UP", "EFFICIENCY", "BLOCKED %", "HOST LINK %", "CPU s", "MESSAGES",
+       "MB", "ROUNDS", "QUEUE PEAK", "PICTURE", "COSTS"}};
+  for (const SimulatedRow& r : rows) {
+    auto& line = cells.emplace_back(std::vector<std::string>{std::to_string(r.nodes)});
+    if (r.row.statistics.empty()) {
+      line.resize(cells.front().size() - 2, "-");
+    } else {
+      const Figures f = figures_of(r.row.statistics);
+      const bool ended = r.row.outcome == RowOutcome::kSame || r.row.outcome == RowOutcome::kDifferent;
+      line.insert(line.end(),
+                  {number("%.4g", r.time_s),
+                   ended ? number("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
+                   number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
+                   number("%.1f", 100 * r.host_load), number("%.4g", f.cpu_s),
+                   std::to_string(f.messages),
+                   number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
+                   std::to_string(f.rounds), std::to_string(f.queue_peak)});
+    }
+    line.push_back(to_string(r.row.outcome));
+    line.push_back(number("%.2f", r.predicted_over_measured));
+  }
+  std::string text = table_text(cells);
+  for (const SimulatedRow& r : rows) {
+    if (!r.row.why.empty()) text += r.row.name + ": " + r.row.why + "\n";
+  }
+  return text;
+}
+
+void say(const SimulateCommand& command, const std::string& what) {
+  if (!command.is_quiet) std::fprintf(stderr, "%s\n", what.c_str());
+}
+
+void write_plot(const SimulateCommand& command, const SceneInput& scene,
+                const std::vector<SimulatedRow>& rows) {
+  std::vector<ComparedRow> bars;
+  for (const SimulatedRow& r : rows) bars.push_back(r.row);
+  write_text_file(command.plot,
+                  bars_svg(scene.name + ", simulated: what evaluators did with their time", bars));
+}
+
+}  // namespace
+
+ExitStatus run(const SimulateCommand& command) {
+  catch_interrupts("simulate", command.options.timeout_s);
+  if (command.options.algorithm == Algorithm::kSerial) {
+    throw usage_failure("--algorithm", "serial runs on no farm; expected auto, roth or macro");
+  }
+  if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
+  SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
+  check_is_built(command.scene, scene.scene);
+  if (!command.is_quiet) {
+    for (const Problem& warning : scene.warnings) print(warning);
+  }
+  RenderSettings settings = scene.scene.settings;
+  apply_overrides(command.options, settings);
+  check_farm_limits(scene, settings);
+  ProgressDisplay display(stderr, command.is_quiet);
+  const Rendered serial = render_here(scene, command.options, 1, display);
+  const double serial_s = figures_of(serial.stats).nodes.front().busy_s * command.cpu_scale;
+  scene.scene = {};
+  const PerUnit transport = transport_here();
+  std::vector<SimulatedRow> rows;
+  for (const std::uint32_t nodes : command.nodes) {
+    say(command, "simulating " + std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"));
+    rows.push_back(simulated(command, scene, settings, transport, serial.picture, nodes));
+  }
+  const std::string text = command.as_json
+                               ? simulation_json(scene.name, rows) + "\n"
+                               : table_of(rows, serial_s);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!command.plot.empty()) write_plot(command, scene, rows);
+  for (const SimulatedRow& r : rows) {
+    if (r.row.outcome == RowOutcome::kDifferent || r.row.outcome == RowOutcome::kFailed) {
+      throw Failure(ExitStatus::kFailed,
+                    Problem{"simulate", r.row.name,
+                            r.row.why.empty() ? "its picture is not serial's" : r.row.why});
+    }
+  }
+  return ExitStatus::kDone;
+}
+
+}  // namespace graycube

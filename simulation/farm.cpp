@@ -1,0 +1,367 @@
+#include "simulation/farm.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "proto/batch.hpp"
+#include "simulation/thread_clock.hpp"
+
+namespace graycube::simulation {
+namespace {
+
+const PeerId kClient = "client";
+
+PeerId peer_of(Rank rank, std::uint32_t incarnation) {
+  return "node-" + std::to_string(rank.value) + "." + std::to_string(incarnation);
+}
+
+std::size_t bytes_of(const Message& m) { return m.frame.size() + m.payload.size(); }
+
+PerUnit handling(std::size_t bytes) {
+  PerUnit doings;
+  doings[Unit::kMessage] = 1;
+  doings[Unit::kMessageByte] = static_cast<double>(bytes);
+  return doings;
+}
+
+/// What receiving a message gives a node's brain to do.
+PerUnit receiving(const Message& message) {
+  PerUnit doings;
+  doings[Unit::kNodeCall] = 1;
+  const auto header = peek_header(message.frame);
+  const auto* h = std::get_if<BatchHeader>(&header);
+  if (h != nullptr && h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
+  return doings;
+}
+
+/// What making these messages gave it to do.
+void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& doings) {
+  for (const Node::Outgoing& o : messages) {
+    const auto header = peek_header(o.message.frame);
+    const auto* h = std::get_if<BatchHeader>(&header);
+    if (h == nullptr) continue;
+    if (h->type == BatchType::kRays) doings[Unit::kRayOut] += h->count;
+    if (h->type == BatchType::kContributions) {
+      doings[Unit::kLightByte] += static_cast<double>(o.message.frame.size());
+    }
+  }
+}
+
+}  // namespace
+
+Farm::Farm(const FarmOptions& options, Machine& machine)
+    : options_(options),
+      machine_(machine),
+      cube_(*Hypercube::of_size(options.nodes)),
+      processes_(options.nodes) {
+  const std::size_t pools = machine.shared_cores() > 0 ? 1 : options.nodes + 1;
+  const unsigned count = machine.shared_cores() > 0 ? machine.shared_cores() : machine.own_cores();
+  for (std::size_t i = 0; i < pools; ++i) {
+    cores_.push_back(std::make_unique<Cores>(timeline_, count));
+  }
+  for (std::uint32_t i = 0; i < options.nodes; ++i) {
+    mailrooms_.push_back(std::make_unique<Thread>(cores_of(Rank{i})));
+  }
+  mailrooms_.push_back(std::make_unique<Thread>(cores_of({})));
+  FrontalOptions f{.cube = cube_,
+                   .threads = options.threads,
+                   .heartbeat_s = options.heartbeat_s,
+                   .silence_s = 1e12,
+                   .version = "simulated",
+                   .replica_bytes = options.replica_bytes,
+                   .limits = options.limits};
+  frontal_ = std::make_unique<Frontal>(f, *store_);
+  frontal_->cpu_seconds = [this] { return frontal_cpu_s_; };
+  in_frontal({}, [] {});
+}
+
+Cores& Farm::cores_of(Place place) {
+  if (machine_.shared_cores() > 0) return *cores_.front();
+  return *cores_[place ? place->value : processes_.size()];
+}
+
+/// The core seconds of what a place does, which are put to its account.
+double Farm::take(Place place, const PerUnit& doings) {
+  const double seconds = machine_.cpu_s(place, doings);
+  (place ? processes_[place->value].cpu_s : frontal_cpu_s_) += seconds;
+  return seconds;
+}
+
+bool Farm::is_alive(Rank rank, std::uint32_t incarnation) const {
+  const Process& p = processes_[rank.value];
+  return p.node && p.incarnation == incarnation;
+}
+
+// ---- the frontal
+
+/// Calls the frontal's brain and sends what it has made; this takes a core as long as it should.
+template <typename Call>
+void Farm::in_frontal(PerUnit doings, Call&& call) {
+  const double began_s = observe ? thread_cpu_seconds() : 0;
+  call();
+  auto out = std::make_shared<std::vector<Frontal::Outgoing>>(frontal_->take_outgoing());
+  if (observe) observe(doings, thread_cpu_seconds() - began_s);
+  for (const Frontal::Spawn& s : frontal_->take_spawns()) start(s);
+  if (auto work = frontal_->take_work()) prepare(*work);
+  for (const Frontal::Outgoing& o : *out) {
+    if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
+  }
+  mailroom_of({}).ask({process_of({}), [this, doings] { return take({}, doings); },
+                    [this, out] {
+                      for (const Frontal::Outgoing& o : *out) deliver(o);
+                    }});
+}
+
+void Farm::start(const Frontal::Spawn& spawn) {
+  Process& p = processes_[spawn.rank.value];
+  NodeIdentity id{spawn.rank, spawn.incarnation, 1000 + spawn.incarnation,
+                  "ipc:///simulated/" + std::to_string(spawn.rank.value), options_.threads,
+                  "simulated"};
+  p = {};
+  p.node = std::make_unique<Node>(std::move(id));
+  p.node->measure = [this, rank = spawn.rank](control::NodeStats& stats) {
+    fill_in(processes_[rank.value], stats);
+  };
+  p.incarnation = spawn.incarnation;
+  p.unreturned.assign(cube_.dimension(), 0);
+  machine_.on_start(spawn.rank);
+  const PeerId peer = peer_of(spawn.rank, spawn.incarnation);
+  peers_[peer] = spawn.rank;
+  const Message hello = p.node->hello();
+  timeline_.at(machine_.arrival_s(spawn.rank, {}, bytes_of(hello), timeline_.now_s()),
+               [this, peer, hello] { frontal_receives(peer, hello); });
+}
+
+/// Time passes for the frontal also when no message comes.
+void Farm::tick(unsigned render) {
+  if (render != renders_) return;
+  in_frontal({}, [this] { frontal_->on_time(timeline_.now_s(), timeline_.now_s()); });
+  timeline_.after(options_.heartbeat_s, [this, render] { tick(render); });
+}
+
+void Farm::frontal_receives(const PeerId& peer, const Message& message) {
+  const auto arrive = [this, peer, message] {
+    PerUnit doings;
+    doings[Unit::kFrontalCall] = 1;
+    if (looks_like_batch(message.frame)) {
+      doings[Unit::kFrontalByte] = static_cast<double>(message.frame.size());
+    }
+    in_frontal(doings, [&] {
+      frontal_->on_time(timeline_.now_s(), timeline_.now_s());
+      frontal_->on_message(peer, message);
+    });
+  };
+  mailroom_of({}).ask({process_of({}), [this, transport = handling(bytes_of(message))] { return take({}, transport); },
+                    arrive});
+}
+
+void Farm::prepare(const PreparationWork& work) {
+  const double began_s = thread_cpu_seconds();
+  auto result = std::make_shared<PreparationResult>(run(work));
+  outcome_.preparation_cpu_s += thread_cpu_seconds() - began_s;
+  timeline_.after(0, [this, result] {
+    in_frontal({}, [&] { frontal_->give_result(std::move(*result)); });
+  });
+}
+
+void Farm::deliver(const Frontal::Outgoing& o) {
+  if (o.to == kClient) return on_client_message(o.message);
+  const auto found = peers_.find(o.to);
+  if (found == peers_.end()) return;
+  const Rank rank = found->second;
+  const std::uint32_t incarnation = processes_[rank.value].incarnation;
+  if (o.to != peer_of(rank, incarnation)) return;
+  if (rank.value == 0) watch_to_node(o.message);
+  timeline_.at(machine_.arrival_s({}, rank, bytes_of(o.message), timeline_.now_s()),
+               [this, rank, incarnation, message = o.message] {
+                 node_receives(rank, incarnation, {}, message);
+               });
+}
+
+void Farm::on_client_message(const Message& message) {
+  const auto decoded = decode(message.text());
+  const auto& m = std::get<ControlMessage>(decoded);
+  if (const auto* accepted = std::get_if<control::Accepted>(&m)) {
+    const Message watch = Message::of_text(encode(control::Watch{accepted->job}));
+    in_frontal({}, [&] { frontal_->on_message(kClient, watch); });
+  } else if (const auto* done = std::get_if<control::Done>(&m)) {
+    outcome_.done = *done;
+    outcome_.ended = true;
+  } else if (const auto* failed = std::get_if<control::Failed>(&m)) {
+    outcome_.failed = *failed;
+    outcome_.ended = true;
+  } else if (const auto* progress = std::get_if<control::Progress>(&m)) {
+    outcome_.rounds = progress->rounds;
+  }
+}
+
+// ---- the nodes
+
+/// Calls a node's brain, has the mailroom send what it has made, and lets its evaluators look for work.
+template <typename Call>
+void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
+  Process& p = processes_[rank.value];
+  const double began_s = observe ? thread_cpu_seconds() : 0;
+  call(*p.node);
+  auto out = std::make_shared<std::vector<Node::Outgoing>>(p.node->take_outgoing());
+  doings[Unit::kNodeCall] = 1;
+  add_sending(*out, doings);
+  if (observe) observe(doings, thread_cpu_seconds() - began_s);
+  watch_time(p);
+  if (is_evaluator && !out->empty()) doings[Unit::kWakeup] = 1;
+  for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
+  mailroom_of(rank).ask({rank.value, [this, rank, doings] { return take(rank, doings); },
+                      [this, rank, out, incarnation = p.incarnation] {
+                        if (!is_alive(rank, incarnation)) return;
+                        for (const Node::Outgoing& o : *out) deliver(rank, o);
+                      }});
+  wake(rank);
+}
+
+void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const Message& message) {
+  const auto begin_receiving = [this, rank, incarnation, transport = handling(bytes_of(message))] {
+    return is_alive(rank, incarnation) ? take(rank, transport) : 0;
+  };
+  const auto arrive = [this, rank, incarnation, from, message] {
+    if (from) watch_batch(*from, rank, message.frame, false);
+    if (!is_alive(rank, incarnation)) return;
+    in_node(rank, false, receiving(message), [&](Node& node) {
+      from ? node.on_neighbour(message.frame) : node.on_frontal(message);
+    });
+  };
+  mailroom_of(rank).ask({rank.value, begin_receiving, arrive});
+}
+
+void Farm::deliver(Rank rank, const Node::Outgoing& o) {
+  const std::uint32_t incarnation = processes_[rank.value].incarnation;
+  const Place to = o.to;
+  if (to) {
+    watch_batch(rank, *to, o.message.frame, true);
+  } else {
+    watch_to_frontal(o.message);
+  }
+  const double at_s = machine_.arrival_s(rank, to, bytes_of(o.message), timeline_.now_s());
+  timeline_.at(at_s, [this, rank, incarnation, to, message = o.message] {
+    if (!to) return frontal_receives(peer_of(rank, incarnation), message);
+    node_receives(*to, processes_[to->value].incarnation, rank, message);
+  });
+}
+
+// ---- evaluators
+
+/// What an evaluator does with a core: look for a piece of work and do it.
+struct Farm::Turn {
+  Rank rank;
+  std::uint32_t incarnation = 0;
+  std::optional<WorkResult> result;
+  bool is_build = false, is_borrowing = false, is_primary = false, is_woken = false;
+  double seconds = 0;
+};
+
+/// All evaluators that wait are told that there may be work, as those of a process are.
+void Farm::wake(Rank rank) {
+  Process& p = processes_[rank.value];
+  if (!p.node->may_have_work()) return;
+  const unsigned waiting = p.node->threads() - std::min(p.active, p.node->threads());
+  p.active += waiting;
+  for (unsigned i = 0; i < waiting; ++i) ask_for_turn(rank, true);
+}
+
+void Farm::ask_for_turn(Rank rank, bool is_woken) {
+  auto turn = std::make_shared<Turn>();
+  turn->rank = rank;
+  turn->is_woken = is_woken;
+  turn->incarnation = processes_[rank.value].incarnation;
+  cores_of(rank).ask({rank.value, [this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
+}
+
+double Farm::begin(Turn& turn) {
+  if (!is_alive(turn.rank, turn.incarnation)) return 0;
+  Process& p = processes_[turn.rank.value];
+  PerUnit waking;
+  waking[Unit::kWakeup] = turn.is_woken ? 1 : 0;
+  const double waking_s = take(turn.rank, waking);
+  std::optional<Work> work;
+  in_node(turn.rank, true, {}, [&](Node& node) {
+    if (p.active <= node.threads()) work = node.take_work();
+    if (!work) --p.active;
+  });
+  if (!work) return waking_s;
+  ++p.working;
+  PerUnit doings;
+  turn.is_build = std::holds_alternative<BuildWork>(work->what);
+  turn.is_primary = std::holds_alternative<TileWork>(work->what);
+  if (const auto* b = std::get_if<BuildWork>(&work->what)) {
+    doings[Unit::kBuildByte] = static_cast<double>(b->slice.size());
+  } else if (const auto* l = std::get_if<BorrowWork>(&work->what)) {
+    turn.is_borrowing = true;
+    doings[Unit::kBuildByte] = static_cast<double>(l->slice.size());
+  } else if (const auto* r = std::get_if<RayWork>(&work->what)) {
+    doings[Unit::kRay] = static_cast<double>(r->rays.size());
+  }
+  const double began_s = observe ? thread_cpu_seconds() : 0;
+  turn.result = processes_[turn.rank.value].bench.run(std::move(*work));
+  const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
+  const Step& step = turn.result->step;
+  if (!turn.is_build && !turn.is_borrowing) doings[Unit::kPiece] = 1;
+  for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
+  doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
+  doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);
+  if (observe) observe(doings, took_s);
+  turn.seconds = take(turn.rank, doings);
+  return waking_s + turn.seconds;
+}
+
+void Farm::end(Turn& turn) {
+  if (!turn.result || !is_alive(turn.rank, turn.incarnation)) return;
+  Process& p = processes_[turn.rank.value];
+  --p.working;
+  last_change_s_ = timeline_.now_s();
+  if (!turn.is_build) p.busy_s += turn.seconds;
+  if (turn.is_primary) p.last_primary_s = timeline_.now_s();
+  PerUnit doings;
+  doings[Unit::kReturn] = static_cast<double>(turn.result->step.returns.size());
+  in_node(turn.rank, true, doings, [&](Node& node) { node.give_result(std::move(*turn.result)); });
+  ask_for_turn(turn.rank, false);
+}
+
+void Farm::kill(Rank rank) {
+  Process& p = processes_[rank.value];
+  const std::uint32_t incarnation = p.incarnation;
+  p.node.reset();
+  in_frontal({}, [&] { frontal_->on_node_exit(rank, incarnation, "killed by signal 9"); });
+}
+
+/// The nodes of a job that failed report what they did, those that still can.
+void Farm::collect_reports() {
+  constexpr double kPatience = 100;
+  const double until_s = timeline_.now_s() + kPatience * options_.heartbeat_s;
+  while (reports_ < cube_.nodes() && timeline_.now_s() < until_s && timeline_.run_one()) {
+  }
+}
+
+Outcome Farm::render(const std::string& scene_text, const control::JobOptions& options) {
+  outcome_ = {};
+  reports_ = 0;
+  is_over_ = false;
+  render_began_s_ = -1;
+  const double began_s = timeline_.now_s();
+  const auto text = std::as_bytes(std::span(scene_text.data(), scene_text.size()));
+  const Message submit = Message::of_text(encode(control::Submit{"simulated", options}),
+                                          Bytes(text.begin(), text.end()));
+  in_frontal({}, [&] { frontal_->on_message(kClient, submit); });
+  if (kill_) {
+    timeline_.after(kill_->second, [this, rank = kill_->first] { kill(rank); });
+    kill_.reset();
+  }
+  tick(renders_);
+  while (!outcome_.ended && timeline_.now_s() - began_s < options_.stalled_s) timeline_.run_one();
+  if (!outcome_.ended) outcome_.violations.push_back("the job has stalled");
+  outcome_.render_s = render_began_s_ < 0 ? 0 : last_change_s_ - render_began_s_;
+  ++renders_;
+  if (outcome_.failed) collect_reports();
+  return outcome_;
+}
+
+}  // namespace graycube::simulation

@@ -1,0 +1,141 @@
+// A farm in one process: the real brains of frontal and nodes, wired on a simulated machine. The machine alone
+// says how long anything takes, so that a run replays exactly: from a seed in the tests, from costs per unit
+// in `graycube simulate`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frontal/frontal.hpp"
+#include "node/node.hpp"
+#include "node/wait_clock.hpp"
+#include "proto/control.hpp"
+#include "simulation/cores.hpp"
+#include "simulation/machine.hpp"
+#include "simulation/timeline.hpp"
+
+namespace graycube::simulation {
+
+struct FarmOptions {
+  std::uint32_t nodes = 8;
+  std::uint32_t threads = 1;
+  double heartbeat_s = 1;
+  /// A job that takes longer than this in simulated time has stalled.
+  double stalled_s = 600;
+  FlowLimits limits{};
+  /// Larger models are not replicated.
+  std::uint64_t replica_bytes = kReplicaBytes;
+};
+
+/// What a job came to, and what was seen on the way.
+struct Outcome {
+  bool ended = false;
+  std::optional<control::Done> done;
+  std::optional<control::Failed> failed;
+  std::uint32_t rounds = 0;
+  /// Broken promises, in words; empty when all held.
+  std::vector<std::string> violations;
+  /// By rank, also of a job that failed; empty when the nodes were not asked.
+  std::vector<control::NodeStats> reports;
+  /// Simulated seconds from the barrier to the end, or to the last thing that anybody did before a failure.
+  double render_s = 0;
+  /// CPU seconds that reading and cutting the scene took here; it takes no simulated time.
+  double preparation_cpu_s = 0;
+};
+
+class Farm {
+ public:
+  /// The machine must outlive the farm.
+  Farm(const FarmOptions& options, Machine& machine);
+
+  /// Renders a scene; the picture is then in store().
+  Outcome render(const std::string& scene_text, const control::JobOptions& options);
+  JobStore& store() { return *store_; }
+  /// The node stops answering and its links go dead at that simulated time after the next render begins.
+  void kill_node_at(Rank rank, double after_s) { kill_ = {rank, after_s}; }
+
+  /// Called with what a brain or evaluator did and the CPU seconds that it took here. Without it nothing is
+  /// measured.
+  std::function<void(const PerUnit&, double)> observe;
+
+ private:
+  struct Process {
+    std::unique_ptr<Node> node;
+    Workbench bench;
+    std::uint32_t incarnation = 0;
+    /// Evaluators that wait for a core or work, and pieces of work under way.
+    unsigned active = 0, working = 0;
+    double cpu_s = 0, busy_s = 0, last_primary_s = 0;
+    WaitClock clock;
+    WaitReason reason = WaitReason::kIdle;
+    unsigned waiting = 0;
+    bool is_rendering = false;
+    /// By bit: bytes of rays sent across that link for which no credit has come back.
+    std::vector<std::uint64_t> unreturned;
+  };
+
+  Cores& cores_of(Place place);
+  std::uint32_t process_of(Place place) const { return place ? place->value : cube_.nodes(); }
+  Thread& mailroom_of(Place place) { return *mailrooms_[process_of(place)]; }
+  double take(Place place, const PerUnit& doings);
+
+  // The frontal
+  void start(const Frontal::Spawn& spawn);
+  void tick(unsigned render);
+  template <typename Call>
+  void in_frontal(PerUnit doings, Call&& call);
+  void frontal_receives(const PeerId& peer, const Message& message);
+  void prepare(const PreparationWork& work);
+  void deliver(const Frontal::Outgoing& o);
+  void on_client_message(const Message& message);
+
+  // The nodes
+  template <typename Call>
+  void in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call);
+  void node_receives(Rank rank, std::uint32_t incarnation, Place from, const Message& message);
+  void deliver(Rank rank, const Node::Outgoing& o);
+  void wake(Rank rank);
+  void ask_for_turn(Rank rank, bool is_woken);
+  struct Turn;
+  double begin(Turn& turn);
+  void end(Turn& turn);
+  void kill(Rank rank);
+  void collect_reports();
+
+  // What is watched
+  void watch_time(Process& p);
+  void fill_in(Process& p, control::NodeStats& stats);
+  void watch_to_node(const Message& message);
+  void watch_to_frontal(const Message& message);
+  void watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent);
+  void check_quiet();
+  bool is_alive(Rank rank, std::uint32_t incarnation) const;
+
+  FarmOptions options_;
+  Machine& machine_;
+  Hypercube cube_;
+  Timeline timeline_;
+  std::vector<std::unique_ptr<Cores>> cores_;  // by rank, then the frontal's; or one for all
+  std::vector<std::unique_ptr<Thread>> mailrooms_;  // by rank, then the frontal's
+  std::unique_ptr<JobStore> store_ = make_memory_store();
+  std::unique_ptr<Frontal> frontal_;
+  double frontal_cpu_s_ = 0;
+  std::vector<Process> processes_;
+  std::map<PeerId, Rank> peers_;
+  std::int64_t rays_under_way_ = 0;
+  bool is_over_ = false;
+  std::optional<std::pair<Rank, double>> kill_;
+  double render_began_s_ = 0, last_change_s_ = 0;
+  /// What the running job was loaded with.
+  control::Load load_;
+  unsigned renders_ = 0;
+  std::uint32_t reports_ = 0;
+  Outcome outcome_;
+};
+
+}  // namespace graycube::simulation

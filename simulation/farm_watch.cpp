@@ -1,0 +1,112 @@
+// What a simulated farm sees of its brains' doings: their time, and promises that they break.
+#include <algorithm>
+#include <utility>
+
+#include "proto/batch.hpp"
+#include "simulation/farm.hpp"
+
+namespace graycube::simulation {
+namespace {
+
+WaitClock::Time moment(double seconds) {
+  return WaitClock::Time(std::chrono::duration_cast<WaitClock::Time::duration>(
+      std::chrono::duration<double>(seconds)));
+}
+
+std::uint32_t bit_between(const Hypercube& cube, Rank a, Rank b) {
+  return *cube.link_between(a, b);
+}
+
+}  // namespace
+
+/// Only changes are told to the clock: after a deadlock there are none, and its time counts for nobody.
+void Farm::watch_time(Process& p) {
+  const WaitReason reason = p.node->wait_reason();
+  const bool is_rendering = p.node->is_rendering();
+  const unsigned waiting = p.node->threads() - std::min(p.active, p.node->threads());
+  if (reason == p.reason && is_rendering == p.is_rendering && waiting == p.waiting) return;
+  if (!outcome_.failed) last_change_s_ = timeline_.now_s();
+  if (is_rendering && !p.is_rendering && render_began_s_ < 0) render_began_s_ = last_change_s_;
+  p.reason = reason;
+  p.is_rendering = is_rendering;
+  p.waiting = waiting;
+  p.clock.update(moment(last_change_s_), reason, waiting, is_rendering);
+}
+
+void Farm::fill_in(Process& p, control::NodeStats& stats) {
+  const double end_s = outcome_.failed ? last_change_s_ : timeline_.now_s();
+  p.clock.update(moment(end_s), p.reason, p.waiting, false);
+  p.is_rendering = false;
+  stats.cpu_s = std::exchange(p.cpu_s, 0);
+  stats.busy_s = std::exchange(p.busy_s, 0);
+  stats.endgame_s = std::max(0.0, end_s - p.last_primary_s);
+  stats.idle_s = p.clock.seconds(WaitReason::kIdle);
+  stats.blocked_s = p.clock.seconds(WaitReason::kBlocked);
+  stats.window_s = p.clock.seconds(WaitReason::kWindow);
+  p.clock.reset();
+}
+
+void Farm::watch_to_node(const Message& message) {
+  if (looks_like_batch(message.frame)) return;
+  const auto decoded = decode(message.text());
+  const auto* m = std::get_if<ControlMessage>(&decoded);
+  if (m == nullptr) return;
+  if (const auto* load = std::get_if<control::Load>(m)) {
+    load_ = *load;
+    for (Process& p : processes_) std::ranges::fill(p.unreturned, 0);
+  }
+}
+
+void Farm::watch_to_frontal(const Message& message) {
+  if (looks_like_batch(message.frame)) return;
+  const auto decoded = decode(message.text());
+  const auto* m = std::get_if<ControlMessage>(&decoded);
+  if (m == nullptr) return;
+  if (std::holds_alternative<control::Terminated>(*m)) {
+    is_over_ = true;
+    check_quiet();
+  }
+  const auto* report = std::get_if<control::NodeReport>(m);
+  if (report == nullptr) return;
+  ++reports_;
+  outcome_.reports.resize(cube_.nodes());
+  outcome_.reports[report->stats.rank] = report->stats;
+}
+
+void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
+  const auto header = peek_header(batch);
+  const auto* h = std::get_if<BatchHeader>(&header);
+  if (h == nullptr) return;
+  if (h->type == BatchType::kRays) rays_under_way_ += is_sent ? 1 : -1;
+  if (h->stamp.job != load_.job) return;
+  if (h->type == BatchType::kRays) {
+    if (!is_sent) return;
+    if (is_over_) outcome_.violations.push_back("rays were sent after the token's end");
+    std::uint64_t& unreturned = processes_[from.value].unreturned[bit_between(cube_, from, to)];
+    unreturned += h->count * kRayBytes;
+    if (unreturned > load_.link_credit_bytes) {
+      outcome_.violations.push_back("more rays were sent than the link's credit allows");
+    }
+  } else if (h->type == BatchType::kLinkCredit && !is_sent) {
+    std::uint64_t bytes = 0;
+    BatchLimits limits;
+    limits.nodes = cube_.nodes();
+    if (std::holds_alternative<BatchError>(decode_link_credit(batch, limits, bytes))) return;
+    std::uint64_t& unreturned = processes_[to.value].unreturned[bit_between(cube_, from, to)];
+    if (bytes > unreturned) outcome_.violations.push_back("a link got more credit than it gave");
+    unreturned -= std::min(unreturned, bytes);
+  }
+}
+
+/// The token has spoken: nothing may be left anywhere.
+void Farm::check_quiet() {
+  if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
+  for (const Process& p : processes_) {
+    if (p.working != 0) outcome_.violations.push_back("the token ended with an evaluator at work");
+    if (p.node && p.node->wait_reason() != WaitReason::kIdle) {
+      outcome_.violations.push_back("the token ended with a node that has work");
+    }
+  }
+}
+
+}  // namespace graycube::simulation

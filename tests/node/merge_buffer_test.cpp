@@ -1,0 +1,101 @@
+// What a node sends home: light summed per pixel, credit per tile, nothing lost, whatever comes in which order.
+#include "node/merge_buffer.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+
+using namespace graycube;
+
+namespace {
+
+const TilePlan kPlan(ImageSize{256, 256, 1}, TileShape{});
+
+struct Totals {
+  std::map<std::uint32_t, FixedRgb> light;
+  std::map<std::uint32_t, Credit> credit;
+
+  void add(const PixelReturn& r) {
+    if (r.pixel < kPlan.pixel_count()) credit[kPlan.tile_of_pixel(r.pixel)].add(r.credit);
+    if (r.merged > 0) light[r.pixel].add(r.light);
+  }
+  void add(const MergeBuffer::Merged& m) {
+    for (const TileCredit& c : m.credits) credit[c.tile].add(c.credit);
+    for (const Contribution& c : m.contributions) light[c.pixel].add(c.light);
+  }
+  friend bool operator==(const Totals&, const Totals&) = default;
+};
+
+PixelReturn some_return(std::mt19937_64& random, std::uint32_t pixels) {
+  PixelReturn r;
+  r.pixel = static_cast<std::uint32_t>(random() % pixels);
+  r.merged = static_cast<std::uint32_t>(random() % 4);
+  if (r.merged > 0) r.light = {random() >> 30, random() >> 30, random() >> 30};
+  r.credit.add_power(static_cast<int>(random() % 200));
+  return r;
+}
+
+void feed(MergeBuffer& buffer, std::span<const PixelReturn> returns, Totals& sent) {
+  while (!returns.empty()) {
+    returns = returns.subspan(buffer.add(returns, kPlan));
+    if (buffer.is_full()) sent.add(buffer.take());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what is merged sums up to what came in, through many fillings") {
+  std::mt19937_64 random(1);
+  for (const std::uint32_t pixels : {1u, 7u, 300u, 65536u, 5u * 65536u}) {
+    INFO(pixels << " pixels, those beyond 65536 for AOVs");
+    MergeBuffer buffer;
+    Totals came, sent;
+    for (int step = 0; step < 40; ++step) {
+      std::vector<PixelReturn> returns;
+      for (std::size_t i = random() % 3000; i > 0; --i) returns.push_back(some_return(random, pixels));
+      for (const PixelReturn& r : returns) came.add(r);
+      feed(buffer, returns, sent);
+    }
+    sent.add(buffer.take());
+    CHECK(buffer.is_empty());
+    CHECK(sent == came);
+  }
+}
+
+TEST_CASE("a pixel that comes again is one contribution, until it would hold too many") {
+  MergeBuffer buffer;
+  const PixelReturn half{9, kMaxMergedContributions / 2, {1, 2, 3}, Credit{}};
+  const std::vector<PixelReturn> returns(5, half);
+  REQUIRE(buffer.add(returns, kPlan) == 5);
+  const MergeBuffer::Merged merged = buffer.take();
+  REQUIRE(merged.contributions.size() == 3);
+  CHECK(merged.contributions[0].light.b == 6);
+  CHECK(merged.contributions[2].light.b == 3);
+}
+
+TEST_CASE("a tile's light comes with exactly its credit, also when the buffer fills within the tile") {
+  std::mt19937_64 random(2);
+  MergeBuffer buffer;
+  Totals came, sent;
+  const auto first_pixel = kPlan.rect(5).x0;
+  for (int step = 0; step < 100; ++step) {
+    std::vector<PixelReturn> returns;
+    for (std::uint32_t i = 0; i < 250; ++i) {
+      PixelReturn r = some_return(random, 1);
+      r.pixel = first_pixel + i / 16 * 256 + i % 16;
+      came.add(r);
+      returns.push_back(r);
+    }
+    std::span<const PixelReturn> rest = returns;
+    while (!rest.empty()) {
+      rest = rest.subspan(buffer.add_tile(rest, 5, kPlan));
+      if (!buffer.is_full()) continue;
+      const MergeBuffer::Merged merged = buffer.take();
+      CHECK(merged.contributions.size() <= MergeBuffer::kFullPixels);
+      CHECK(merged.credits.size() == 1);
+      sent.add(merged);
+    }
+  }
+  sent.add(buffer.take());
+  CHECK(sent == came);
+}
