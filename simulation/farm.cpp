@@ -301,7 +301,7 @@ double Farm::begin(Turn& turn) {
     doings[Unit::kRay] = static_cast<double>(r->rays.size());
   }
   const double began_s = observe ? thread_cpu_seconds() : 0;
-  turn.result = processes_[turn.rank.value].bench.run(std::move(*work));
+  turn.result = processes_[turn.rank.value].bench->run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
   const Step& step = turn.result->step;
   if (!turn.is_build && !turn.is_borrowing) doings[Unit::kPiece] = 1;

@@ -66,7 +66,7 @@ class Farm {
  private:
   struct Process {
     std::unique_ptr<Node> node;
-    Workbench bench;
+    std::unique_ptr<Workbench> bench = std::make_unique<Workbench>();
     std::uint32_t incarnation = 0;
     /// Evaluators that wait for a core or work, and pieces of work under way.
     unsigned active = 0, working = 0;

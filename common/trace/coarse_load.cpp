@@ -3,63 +3,94 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "trace/step.hpp"
 
 namespace graycube {
 namespace {
 
+/// Side of the blocks of pixels that are traced together: neighbours share most of the way.
+constexpr std::uint32_t kCoarseBlock = 2;
+
 /// All regions of the grid, seen one at a time: what leaves one goes on in the next.
 class CoarseTrace {
  public:
   CoarseTrace(const Domain& whole, const MacroGrid& grid,
               std::shared_ptr<const LightHorizons> horizons, double crossing_cost)
-      : grid_(grid), crossing_cost_(crossing_cost), map_(grid.columns(), grid.rows()) {
+      : grid_(grid),
+        crossing_cost_(crossing_cost),
+        map_(grid.columns(), grid.rows()),
+        evaluators_(std::size_t{grid.columns()} * grid.rows()),
+        waiting_(evaluators_.size()) {
     for (std::uint32_t row = 0; row < grid.rows(); ++row) {
       for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-        regions_.push_back(std::make_unique<Domain>(
+        domains_.push_back(std::make_unique<Domain>(
             whole.restricted_to(grid, {grid.columns(), grid.rows(), column, row})));
-        regions_.back()->set_horizons(horizons);
+        domains_.back()->set_horizons(horizons);
       }
     }
   }
 
-  void trace_pixel(std::uint32_t x, std::uint32_t y) {
-    const RegionIndex at = grid_.region_of_pixel(x, y);
-    Evaluator evaluator(domain(at));
-    evaluator.trace_pixels({x, y, x + 1, y + 1}, step_);
-    take(at, evaluator.walk_counts());
-    while (!waiting_.empty()) {
-      const RayTask task = waiting_.back();
-      waiting_.pop_back();
-      map_.at(task.region.column, task.region.row) += crossing_cost_;
-      Evaluator next(domain(task.region));
-      next.trace_rays({&task, 1}, step_);
-      take(task.region, next.walk_counts());
+  /// The pixels' primary rays; they may belong to several regions.
+  void trace_block(const PixelRect& block) {
+    for (std::uint32_t y = block.y0; y < block.y1; ++y) {
+      for (std::uint32_t x = block.x0; x < block.x1; ++x) {
+        const RegionIndex at = grid_.region_of_pixel(x, y);
+        PixelRect part{x, y, x + 1, y + 1};
+        const bool is_whole = x == block.x0 && y == block.y0 &&
+                              grid_.region_of_pixel(block.x1 - 1, block.y1 - 1) == at;
+        if (is_whole) part = block;
+        trace(at, [&](Evaluator& e) { e.trace_pixels(part, step_); });
+        if (is_whole) return;
+      }
+    }
+  }
+
+  /// Traces what has left its region, until nothing is left.
+  void finish() {
+    for (;;) {
+      const auto most = std::max_element(
+          waiting_.begin(), waiting_.end(),
+          [](const auto& a, const auto& b) { return a.size() < b.size(); });
+      if (most->empty()) return;
+      const std::vector<RayTask> rays = std::exchange(*most, {});
+      const RegionIndex at = rays.front().region;
+      map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(rays.size());
+      trace(at, [&](Evaluator& e) { e.trace_rays(rays, step_); });
     }
   }
 
   const LoadMap& map() const { return map_; }
 
  private:
-  const Domain& domain(RegionIndex r) const {
-    return *regions_[std::size_t{r.row} * grid_.columns() + r.column];
+  std::size_t index_of(RegionIndex r) const {
+    return std::size_t{r.row} * grid_.columns() + r.column;
   }
-  void take(RegionIndex at, const WalkCounts& walk) {
+
+  template <typename Trace>
+  void trace(RegionIndex at, Trace&& work) {
+    auto& evaluator = evaluators_[index_of(at)];
+    if (!evaluator) evaluator = std::make_unique<Evaluator>(*domains_[index_of(at)]);
+    const WalkCounts before = evaluator->walk_counts();
+    work(*evaluator);
+    const WalkCounts walk = evaluator->walk_counts().since(before);
     const auto& created = step_.rays.created;
     map_.at(at.column, at.row) +=
         static_cast<double>(std::accumulate(created.begin(), created.end(), std::uint64_t{0}) +
                             walk.primitives_tested);
-    waiting_.insert(waiting_.end(), step_.leaving.begin(), step_.leaving.end());
+    for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
     step_.clear();
   }
 
   const MacroGrid& grid_;
   double crossing_cost_;
   LoadMap map_;
-  std::vector<std::unique_ptr<Domain>> regions_;
+  /// By region.
+  std::vector<std::unique_ptr<Domain>> domains_;
+  std::vector<std::unique_ptr<Evaluator>> evaluators_;
+  std::vector<std::vector<RayTask>> waiting_;
   Step step_;
-  std::vector<RayTask> waiting_;
 };
 
 }  // namespace
@@ -72,9 +103,16 @@ LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
   const double wanted =
       std::clamp(kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
                  static_cast<double>(kMostCoarsePixels));
-  const auto step = std::max(1u, static_cast<std::uint32_t>(std::sqrt(pixels / wanted)));
-  for (std::uint32_t y = step / 2; y < image.height; y += step) {
-    for (std::uint32_t x = step / 2; x < image.width; x += step) trace.trace_pixel(x, y);
+  const auto step = std::max(
+      kCoarseBlock, static_cast<std::uint32_t>(kCoarseBlock * std::sqrt(pixels / wanted)));
+  const std::uint32_t first = (step - kCoarseBlock) / 2;
+  for (std::uint32_t y = first; y < image.height; y += step) {
+    for (std::uint32_t x = first; x < image.width; x += step) {
+      trace.trace_block({x, y, std::min(x + kCoarseBlock, image.width),
+                         std::min(y + kCoarseBlock, image.height)});
+    }
+    // Row by row: what is under way stays little.
+    trace.finish();
   }
   return trace.map();
 }

@@ -30,7 +30,8 @@ PixelReturn some_return(std::mt19937_64& random, std::uint32_t pixels) {
   PixelReturn r;
   r.pixel = static_cast<std::uint32_t>(random() % pixels);
   r.merged = static_cast<std::uint32_t>(random() % 4);
-  if (r.merged > 0) r.light = {random() >> 30, random() >> 30, random() >> 30};
+  const auto light = [&] { return static_cast<std::int64_t>(random() >> 30); };
+  if (r.merged > 0) r.light = {light(), light(), light()};
   r.credit.add_power(static_cast<int>(random() % 200));
   return r;
 }

@@ -29,6 +29,7 @@ inline control::NodeStats example_stats() {
   s.outbox_peak = 12345;
   s.memory_bytes = 1ull << 33;
   s.models_borrowed = 3;
+  s.replica_primitives = 10000;
   s.endgame_s = 0.125;
   return s;
 }
@@ -91,8 +92,9 @@ inline std::vector<ControlMessage> example_messages() {
       Goodbye{},
       Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
       Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
-           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28},
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28, 4096},
       Lend{9, 1, 3},
+      Relieved{9, 1, 12},
       Prepare{9, 2},
       Start{9, 2, {77, 4294967295u}},
       Finish{9},
