@@ -114,16 +114,35 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   return statistics_json(s);
 }
 
+RowOutcome outcome_of(const simulation::Outcome& outcome, simulation::Farm& farm,
+                      const Picture& reference, const std::string& why) {
+  if (!outcome.violations.empty() || !outcome.ended) return RowOutcome::kFailed;
+  if (outcome.failed) {
+    return why.starts_with("deadlock: ") ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+  }
+  const Picture* picture = farm.store().picture(1);
+  return picture != nullptr && *picture == reference ? RowOutcome::kSame : RowOutcome::kDifferent;
+}
+
+std::string why_of(const simulation::Outcome& outcome) {
+  std::string why;
+  for (const std::string& v : outcome.violations) why += v + "; ";
+  if (outcome.failed && !outcome.failed->errors.empty()) why += outcome.failed->errors.front().why;
+  return why;
+}
+
 SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
                        const RenderSettings& settings, const PerUnit& transport,
                        const Picture& reference, std::uint32_t nodes) {
   const PerUnit costs = costs_here(command, scene, settings, transport, nodes);
   const MachineFigures figures = machine_of(command, costs);
   simulation::ModelledMachine machine(figures);
-  // Slow machines are asked less often how they are.
-  const double heartbeat_s = std::max(1.0, command.cpu_scale / 1000);
-  simulation::Farm farm(
-      {.nodes = nodes, .threads = 1, .heartbeat_s = heartbeat_s, .stalled_s = kStalled_s}, machine);
+  simulation::Farm farm({.nodes = nodes,
+                         .threads = 1,
+                         // Slow machines are asked less often how they are.
+                         .heartbeat_s = std::max(1.0, command.cpu_scale / 1000),
+                         .stalled_s = kStalled_s},
+                        machine);
   CostFit measured(simulation::measuring_overhead_s());
   farm.observe = [&](const PerUnit& doings, double seconds) { measured.add(doings, seconds); };
   control::JobOptions options = command.options;
@@ -133,28 +152,19 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
   row.nodes = nodes;
   row.costs = named(costs);
   row.row.name = std::to_string(nodes) + (nodes == 1 ? " node" : " nodes");
-  const double here_s = measured.seconds();
-  row.predicted_over_measured =
-      here_s > 0 ? simulation::cost_of(measured.counts(), costs) / here_s : 1;
-  for (const std::string& v : outcome.violations) row.row.why += v + "; ";
-  if (outcome.failed) {
-    if (!outcome.failed->errors.empty()) row.row.why += outcome.failed->errors.front().why;
-    const bool deadlocked = row.row.why.starts_with("deadlock: ");
-    row.row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
-    row.time_s = outcome.render_s;
-    if (!outcome.reports.empty()) {
-      row.row.statistics = statistics_until_failure(outcome, scene, command, settings, nodes);
-    }
-  } else if (outcome.done) {
-    row.row.statistics = outcome.done->stats.text;
-    const Picture* picture = farm.store().picture(1);
-    const bool same = picture != nullptr && *picture == reference;
-    row.row.outcome = same ? RowOutcome::kSame : RowOutcome::kDifferent;
+  row.row.why = why_of(outcome);
+  row.row.outcome = outcome_of(outcome, farm, reference, row.row.why);
+  if (measured.seconds() > 0) {
+    row.predicted_over_measured = simulation::cost_of(measured.counts(), costs) / measured.seconds();
   }
-  if (!outcome.violations.empty() || !outcome.ended) row.row.outcome = RowOutcome::kFailed;
+  if (outcome.done) {
+    row.row.statistics = outcome.done->stats.text;
+  } else if (!outcome.reports.empty()) {
+    row.row.statistics = statistics_until_failure(outcome, scene, command, settings, nodes);
+  }
   if (row.row.statistics.empty()) return row;
   const Figures f = figures_of(row.row.statistics);
-  if (outcome.done) row.time_s = f.render_s;
+  row.time_s = f.render_s;
   const double light_s = 8e-9 * static_cast<double>(f.light_bytes) / figures.host_gbps;
   row.host_load = row.time_s > 0 ? light_s / row.time_s : 0;
   return row;

@@ -22,6 +22,8 @@ class Cores {
     /// Called when a core is free; returns the seconds that the task takes from then on.
     std::function<double()> begin;
     std::function<void()> end;
+    /// Short, of a thread that mostly sleeps: such tasks go first.
+    bool is_short = false;
   };
 
   /// `count` 0: as many as are asked for.
@@ -49,8 +51,9 @@ class Cores {
     task.end();
     --busy_;
     if (waiting_.empty()) return;
-    auto next = waiting_.begin();
-    if (used_s < kTimeSlice_s) {
+    auto next = std::ranges::find(waiting_, true, &Task::is_short);
+    if (next == waiting_.end()) next = waiting_.begin();
+    if (!next->is_short && used_s < kTimeSlice_s) {
       const auto own = std::ranges::find(waiting_, task.process, &Task::process);
       if (own != waiting_.end()) next = own;
     }
@@ -66,7 +69,7 @@ class Cores {
   std::deque<Task> waiting_;
 };
 
-/// A thread: its tasks take a core one after the other.
+/// A thread that mostly sleeps, as a mailroom: its tasks take a core one after the other, and before long ones.
 class Thread {
  public:
   explicit Thread(Cores& cores) : cores_(cores) {}
@@ -85,7 +88,8 @@ class Thread {
                   end();
                   is_busy_ = false;
                   if (!waiting_.empty()) start();
-                }});
+                },
+                true});
   }
 
   Cores& cores_;

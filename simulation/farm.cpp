@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "proto/batch.hpp"
+#include "simulation/message_doings.hpp"
 #include "simulation/thread_clock.hpp"
 
 namespace graycube::simulation {
@@ -14,38 +14,6 @@ const PeerId kClient = "client";
 
 PeerId peer_of(Rank rank, std::uint32_t incarnation) {
   return "node-" + std::to_string(rank.value) + "." + std::to_string(incarnation);
-}
-
-std::size_t bytes_of(const Message& m) { return m.frame.size() + m.payload.size(); }
-
-PerUnit handling(std::size_t bytes) {
-  PerUnit doings;
-  doings[Unit::kMessage] = 1;
-  doings[Unit::kMessageByte] = static_cast<double>(bytes);
-  return doings;
-}
-
-/// What receiving a message gives a node's brain to do.
-PerUnit receiving(const Message& message) {
-  PerUnit doings;
-  doings[Unit::kNodeCall] = 1;
-  const auto header = peek_header(message.frame);
-  const auto* h = std::get_if<BatchHeader>(&header);
-  if (h != nullptr && h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
-  return doings;
-}
-
-/// What making these messages gave it to do.
-void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& doings) {
-  for (const Node::Outgoing& o : messages) {
-    const auto header = peek_header(o.message.frame);
-    const auto* h = std::get_if<BatchHeader>(&header);
-    if (h == nullptr) continue;
-    if (h->type == BatchType::kRays) doings[Unit::kRayOut] += h->count;
-    if (h->type == BatchType::kContributions) {
-      doings[Unit::kLightByte] += static_cast<double>(o.message.frame.size());
-    }
-  }
 }
 
 }  // namespace
@@ -152,8 +120,8 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
       frontal_->on_message(peer, message);
     });
   };
-  mailroom_of({}).ask({process_of({}), [this, transport = handling(bytes_of(message))] { return take({}, transport); },
-                    arrive});
+  const PerUnit transport = handling(bytes_of(message));
+  mailroom_of({}).ask({process_of({}), [this, transport] { return take({}, transport); }, arrive});
 }
 
 void Farm::prepare(const PreparationWork& work) {

@@ -109,6 +109,23 @@ TEST_CASE("tasks wait for a core, those of the process that has it go first unti
   CHECK(ended.back().second == Approx(5e-3));
 }
 
+TEST_CASE("a mailroom's tasks go before the long ones of any process") {
+  Timeline timeline;
+  Cores cores(timeline, 1);
+  Thread mailroom(cores);
+  std::vector<int> order;
+  const auto task = [&](std::uint32_t process, int name) {
+    return Cores::Task{process, [] { return 1e-3; }, [&order, name] { order.push_back(name); }};
+  };
+  cores.ask(task(1, 1));
+  cores.ask(task(1, 2));
+  mailroom.ask(task(2, 3));
+  mailroom.ask(task(2, 4));
+  while (timeline.run_one()) {
+  }
+  CHECK(order == std::vector{1, 3, 4, 2});
+}
+
 TEST_CASE("two cores do twice as much, and a thread's tasks stay in order on them") {
   Timeline timeline;
   Cores cores(timeline, 2);

@@ -1,0 +1,47 @@
+// What messages give a place to do.
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "node/node.hpp"
+#include "proto/batch.hpp"
+#include "simulation/doings.hpp"
+
+namespace graycube::simulation {
+
+inline std::size_t bytes_of(const Message& m) { return m.frame.size() + m.payload.size(); }
+
+/// One side's part in passing a message on.
+inline PerUnit handling(std::size_t bytes) {
+  PerUnit doings;
+  doings[Unit::kMessage] = 1;
+  doings[Unit::kMessageByte] = static_cast<double>(bytes);
+  return doings;
+}
+
+/// What receiving a message gives a node's brain to do.
+inline PerUnit receiving(const Message& message) {
+  PerUnit doings;
+  doings[Unit::kNodeCall] = 1;
+  const auto header = peek_header(message.frame);
+  const auto* h = std::get_if<BatchHeader>(&header);
+  if (h != nullptr && h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
+  return doings;
+}
+
+/// What making these messages gave it to do.
+inline void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& doings) {
+  for (const Node::Outgoing& o : messages) {
+    const auto header = peek_header(o.message.frame);
+    const auto* h = std::get_if<BatchHeader>(&header);
+    if (h == nullptr) continue;
+    if (h->type == BatchType::kRays) doings[Unit::kRayOut] += h->count;
+    if (h->type == BatchType::kContributions) {
+      doings[Unit::kLightByte] += static_cast<double>(o.message.frame.size());
+    }
+  }
+}
+
+}  // namespace graycube::simulation
