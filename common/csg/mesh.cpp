@@ -25,6 +25,25 @@ void sort_by_parameter(std::vector<MeshCut>& cuts) {
   std::sort(cuts.begin(), cuts.end(), [](const MeshCut& a, const MeshCut& b) { return a.t < b.t; });
 }
 
+/// Of sorted cuts, before which the winding number is as given.
+Spans spans_of(const std::vector<MeshCut>& cuts, std::int32_t winding) {
+  Spans spans;
+  double entered = -csg::kInf;
+  for (std::size_t i = 0; i < cuts.size();) {
+    const double t = cuts[i].t;
+    const bool was_inside = winding != 0;
+    for (; i < cuts.size() && cuts[i].t == t; ++i) winding += cuts[i].count;
+    if ((winding != 0) == was_inside) continue;
+    if (was_inside) {
+      spans.add(entered, t);
+    } else {
+      entered = t;
+    }
+  }
+  if (winding != 0) spans.add(entered, csg::kInf);  // only of an open mesh
+  return spans;
+}
+
 bool is_before(const Vec3& a, const Vec3& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
@@ -57,22 +76,14 @@ Spans Mesh::spans(const Ray& ray) const {
   add_cuts(data_->tree, line, ray, -csg::kInf, 0, cuts);
   add_cuts(data_->tree, line, ray, 0, csg::kInf, cuts);
   sort_by_parameter(cuts);
-  Spans spans;
+  return spans_of(cuts, 0);
+}
+
+Spans Mesh::spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const {
+  cuts_ahead(ray, 0, cuts);
   std::int32_t winding = 0;
-  double entered = -csg::kInf;
-  for (std::size_t i = 0; i < cuts.size();) {
-    const double t = cuts[i].t;
-    const bool was_inside = winding != 0;
-    for (; i < cuts.size() && cuts[i].t == t; ++i) winding += cuts[i].count;
-    if ((winding != 0) == was_inside) continue;
-    if (was_inside) {
-      spans.add(entered, t);
-    } else {
-      entered = t;
-    }
-  }
-  if (winding != 0) spans.add(entered, csg::kInf);  // only of an open mesh
-  return spans;
+  for (const MeshCut& c : cuts) winding -= c.count;
+  return spans_of(cuts, winding);
 }
 
 bool Mesh::contains(const Vec3& point) const {

@@ -39,6 +39,9 @@ class Mesh {
   /// number at `from` is what they lack.
   void cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) const;
 
+  /// As spans, but from t = 0 on: a span that the ray starts in enters at −infinity. `cuts` is scratch space.
+  Spans spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const;
+
   /// Calls visit(t, entering) where the line crosses the surface in [t0, t1), 0 ≤ t0, in order, until it returns false;
   /// false then. `cuts` is scratch space.
   template <typename Visit>

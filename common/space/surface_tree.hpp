@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,14 +23,16 @@ struct SurfaceTreeOptions {
   std::uint32_t whole_object_literals = 8;
 };
 
-/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks for them in each cell.
+/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks for them in each cell, and
+/// a packet's rays ask in turn.
 class MeshMemo {
  public:
+  /// From t = 0 on, which is all that walks look at.
   const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
-    Entry& e = entries_[primitive % kEntries];
     const Mesh& mesh = model.meshes[model.primitives[primitive].mesh];
+    Entry& e = entries_[slot_of(primitive, ray)];
     if (!e.mesh.is_same_as(mesh) || !(e.ray == ray)) {
-      e.spans = mesh.spans(ray);
+      e.spans = mesh.spans_ahead(ray, cuts_);
       e.mesh = mesh;
       e.ray = ray;
     }
@@ -37,13 +40,24 @@ class MeshMemo {
   }
 
  private:
-  static constexpr std::size_t kEntries = 8;
+  static constexpr std::size_t kEntries = 64;
   struct Entry {
     /// Held, so that no other takes its place in memory.
     Mesh mesh;
     Ray ray;
     Spans spans;
   };
+
+  static std::size_t slot_of(std::uint32_t primitive, const Ray& ray) {
+    std::uint64_t h = primitive;
+    for (const double v : {ray.direction.x, ray.direction.y, ray.origin.x}) {
+      h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 32;
+    }
+    return static_cast<std::size_t>(h % kEntries);
+  }
+
+  std::vector<MeshCut> cuts_;
   std::array<Entry, kEntries> entries_;
 };
 

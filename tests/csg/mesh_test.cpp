@@ -182,6 +182,17 @@ TEST_CASE("what lies ahead of a ray is what its whole line crosses there") {
         return true;
       });
       REQUIRE(ahead == whole);
+      // The same from t = 0 on, where the ray may start inside.
+      std::vector<double> kept;
+      const Spans later = mesh.spans_ahead(ray, cuts);
+      for (int k = 0; k < later.count; ++k) {
+        const auto [enter, leave] = later.interval[static_cast<std::size_t>(k)];
+        REQUIRE((k == 0 || enter >= 0));
+        for (const double t : {enter, leave}) {
+          if (t >= t0 && t < 4) kept.push_back(t);
+        }
+      }
+      REQUIRE(kept == whole);
     }
   }
 }
