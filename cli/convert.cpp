@@ -5,6 +5,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/write_pov.hpp"
 #include "scene/write_scene.hpp"
 
@@ -50,12 +51,12 @@ ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
-  const bool is_scene = from == ".json" || from == ".csg" || is_brlcad(in);
+  const bool is_scene = from == ".json" || from == ".csg" || is_brlcad(in) || is_mesh_file(in);
   const bool is_known =
       (is_scene && (to == ".json" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json, .csg, .g or .asc to .json or .pov, or .exr to .png; found " +
+                        "expected .json, .csg, .g, .asc, .stl or .off to .json or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);

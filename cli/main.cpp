@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "cli/commands.hpp"
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 
 namespace graycube {
 namespace {

@@ -11,6 +11,8 @@
 #include "cli/failure.hpp"
 #include "scene/brlcad.hpp"
 #include "scene/brlcad_database.hpp"
+#include "scene/mesh_file.hpp"
+#include "scene/mesh_scene.hpp"
 #include "scene/openscad.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
@@ -72,7 +74,7 @@ std::string pointer_word(const std::string& name) {
 
 void read_json(const fs::path& path, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
-  ReadResult read = read_scene_text(text);
+  ReadResult read = read_scene_text(text, mesh_files_beside(path));
   if (!read.scene) {
     std::vector<Problem> problems;
     for (const SceneError& e : read.errors) {
@@ -82,7 +84,8 @@ void read_json(const fs::path& path, SceneInput& input) {
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   input.scene = std::move(*read.scene);
-  input.text = std::move(text).take();
+  // A farm opens no files: it gets the meshes in the text.
+  input.text = read.used_files ? write_scene_text(input.scene) : std::move(text).take();
 }
 
 void import_openscad(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
@@ -103,6 +106,21 @@ void import_openscad(const fs::path& path, const control::JobOptions& options, S
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   input.scene = std::move(*read.scene);
+  input.text = write_scene_text(input.scene);
+}
+
+void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
+  auto read = read_mesh_file(path);
+  if (const auto* fault = std::get_if<MeshFault>(&read)) {
+    // The file's name is in front already.
+    const std::string name = path.string() + ": ";
+    throw bad_scene(path, fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
+  }
+  OpenscadOptions how;
+  how.image.width = options.width.value_or(how.image.width);
+  how.image.height = options.height.value_or(how.image.height);
+  how.max_depth = options.max_depth.value_or(how.max_depth);
+  input.scene = scene_of_mesh(std::move(std::get<TriangleMesh>(read)), how);
   input.text = write_scene_text(input.scene);
 }
 
@@ -163,10 +181,12 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     import_brlcad(path, options, choice, input);
   } else if (path.extension() == ".json") {
     read_json(path, input);
+  } else if (is_mesh_file(path)) {
+    import_mesh(path, options, input);
   } else if (path.extension() == ".scad") {
     throw bad_scene(path, "OpenSCAD must evaluate it first: openscad -o MODEL.csg MODEL.scad");
   } else {
-    throw bad_scene(path, "expected a name ending in .json, .csg, .g or .asc");
+    throw bad_scene(path, "expected a name ending in .json, .csg, .g, .asc, .stl or .off");
   }
   return input;
 }

@@ -9,7 +9,7 @@
 
 #include "node/evaluator_pool.hpp"
 #include "node/node.hpp"
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 #include "transport/allocator.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"

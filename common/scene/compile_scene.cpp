@@ -14,6 +14,9 @@ template <typename... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+// clang doesn't deduce it before version 17.
+template <typename... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 class Compiler {
  public:
@@ -127,6 +130,8 @@ class Compiler {
     for (const HalfSpaceShape& f : s.planes) faces.push_back({f.normal, f.offset});
     return build_polyhedron(m, faces, model_.planes);
   }
+
+  Primitive build(const Affine& m, const MeshShape& s) { return build_mesh(m, s.mesh, model_.meshes); }
 
   double delta() const {
     double largest = max_abs(scene_.settings.camera.eye);

@@ -41,6 +41,11 @@ constexpr std::array kRules{
     rules_of(NodeType::kEllipticTorus, "elliptic_torus", "an elliptic_torus", "center", "axis", "radius",
              "outward", "upward", "across"),
     rules_of(NodeType::kQuadric, "quadric", "a quadric", "coefficients", "min", "max"),
+    NodeRules{"mesh",
+              "a mesh",
+              NodeType::kMesh,
+              kOwn + 3,
+              {{{"type", true}, {"transform"}, {"material"}, {"points"}, {"faces"}, {"file"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another word.

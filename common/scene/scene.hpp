@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "csg/triangle_mesh.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 #include "scene/sparse_optional.hpp"
@@ -89,6 +90,12 @@ struct QuadricShape {
   friend bool operator==(const QuadricShape&, const QuadricShape&) = default;
 };
 
+/// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals outward.
+struct MeshShape {
+  TriangleMesh mesh;
+  friend bool operator==(const MeshShape&, const MeshShape&) = default;
+};
+
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
 struct OperationNode {
@@ -105,7 +112,7 @@ struct ReferenceNode {
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
                TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape>
+               EllipticTorusShape, QuadricShape, MeshShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "space/ray_packet.hpp"
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 #include "space/surface_tree.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,5 +1,5 @@
 // Single rays through the surface tree.
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 #include "space/surface_tree.hpp"
 
 #undef HWY_TARGET_INCLUDE

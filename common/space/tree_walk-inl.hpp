@@ -14,6 +14,8 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/culling_ray.hpp"
+#include "geometry/wide_node-inl.hpp"
 #include "space/surface_tree.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,78 +23,6 @@ namespace graycube {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Relative error of a float plane parameter: the direction, its reciprocal and the slack itself, a
-/// difference and a product, each rounded once, with room to spare.
-constexpr float kSlack = 1e-6f;
-/// Directions flatter than this count as this: such a ray doesn't move sideways within any scene.
-constexpr float kFlattest = 1e-30f;
-
-/// One coordinate of a ray in floats, made so that no box which the exact ray meets is missed: distances
-/// are taken from a little before the origin to the near planes, from a little behind it to the far ones,
-/// and the reciprocals carry the slack.
-struct CullingAxis {
-  CullingAxis(double origin, double direction) {
-    const auto f = static_cast<float>(origin);
-    const float error = std::fabs(f) * 1.2e-7f + 1e-37f;
-    auto d = static_cast<float>(direction);
-    if (std::fabs(d) < kFlattest) d = std::signbit(d) ? -kFlattest : kFlattest;
-    is_downward = d < 0;
-    const float inverse = 1 / d;
-    near_inverse = inverse * (1 - kSlack);
-    far_inverse = inverse * (1 + kSlack);
-    near_origin = is_downward ? f - error : f + error;
-    far_origin = is_downward ? f + error : f - error;
-  }
-  float near_inverse, far_inverse, near_origin, far_origin;
-  bool is_downward;
-};
-
-struct CullingRay {
-  CullingRay() = default;
-  explicit CullingRay(const Ray& ray) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      set(a, CullingAxis(ray.origin[static_cast<int>(a)], ray.direction[static_cast<int>(a)]));
-    }
-  }
-  void set(std::size_t a, const CullingAxis& axis) {
-    near_inverse[a] = axis.near_inverse;
-    far_inverse[a] = axis.far_inverse;
-    near_origin[a] = axis.near_origin;
-    far_origin[a] = axis.far_origin;
-    near_side[a] = axis.is_downward ? 1 : 0;
-  }
-  std::array<float, 3> near_inverse, far_inverse, near_origin, far_origin;
-  /// Index into WideNode::planes of the side that the ray meets first.
-  std::array<std::size_t, 3> near_side;
-};
-
-/// Tests the eight boxes of a node against [t0, t1]; bit i of the result: child i may be met, from near[i] on.
-HWY_INLINE std::uint32_t meet(const WideNode& node, const CullingRay& ray, float t0, float t1,
-                              float* HWY_RESTRICT near) {
-  const hn::CappedTag<float, WideNode::kWidth> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::uint32_t mask = 0;
-  for (std::size_t i = 0; i < WideNode::kWidth; i += lanes) {
-    auto from = hn::Set(d, t0);
-    auto to = hn::Set(d, t1);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto near_plane = hn::Load(d, node.planes[ray.near_side[a]][a].data() + i);
-      const auto far_plane = hn::Load(d, node.planes[1 - ray.near_side[a]][a].data() + i);
-      const auto enter = hn::Mul(hn::Sub(near_plane, hn::Set(d, ray.near_origin[a])),
-                                 hn::Set(d, ray.near_inverse[a]));
-      const auto leave = hn::Mul(hn::Sub(far_plane, hn::Set(d, ray.far_origin[a])),
-                                 hn::Set(d, ray.far_inverse[a]));
-      from = hn::Max(from, enter);
-      to = hn::Min(to, leave);
-    }
-    hn::StoreU(from, d, near + i);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Le(from, to), bits);
-    mask |= static_cast<std::uint32_t>(bits[0] & ((1u << lanes) - 1)) << i;
-  }
-  return mask;
-}
 
 HWY_INLINE float float_up(double t) {
   const auto f = static_cast<float>(t);

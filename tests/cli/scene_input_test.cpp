@@ -35,6 +35,43 @@ TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for") {
   CHECK(*again.scene == input.scene);
 }
 
+constexpr const char* kTetrahedron = "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+TEST_CASE("a mesh file becomes a framed scene of one mesh") {
+  const TemporaryFolder folder;
+  control::JobOptions options;
+  options.width = 30;
+  options.height = 20;
+  const SceneInput input = read_scene_input(write_file(folder / "part.off", kTetrahedron), options);
+  CHECK(input.scene.settings.image == ImageSize{30, 20, 1});
+  REQUIRE(input.scene.objects.size() == 1);
+  CHECK(std::get<MeshShape>(input.scene.objects[0].csg.value).mesh.triangles.size() == 4);
+  const ReadResult again = read_scene_text(input.text);
+  REQUIRE(again.scene);
+  CHECK(*again.scene == input.scene);
+}
+
+TEST_CASE("what goes to the farm of a scene with a mesh file holds the mesh") {
+  const TemporaryFolder folder;
+  write_file(folder / "part.off", kTetrahedron);
+  std::string text = kBall;
+  const std::string ball = R"({"type": "sphere", "center": [0,0,0], "radius": 1})";
+  text.replace(text.find(ball), ball.size(), R"({"type": "mesh", "file": "part.off"})");
+  const SceneInput input = read_scene_input(write_file(folder / "scene.json", text));
+  CHECK(input.text.find("part.off") == std::string::npos);
+  const ReadResult again = read_scene_text(input.text);
+  REQUIRE(again.scene);
+  CHECK(*again.scene == input.scene);
+}
+
+TEST_CASE("a mesh file's faults have the file and the line once") {
+  const TemporaryFolder folder;
+  const auto path = write_file(folder / "open.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  CHECK(refusal([&] {
+          read_scene_input(path);
+        }).starts_with("graycube: scene: " + path.string() + ": not closed: the edge from (0, 0, 0) to (1, 0, 0)"));
+}
+
 TEST_CASE("every error of a scene has the file and the place") {
   const TemporaryFolder folder;
   std::string text = kBall;
@@ -67,7 +104,7 @@ TEST_CASE("what is no scene file is told apart") {
         }).ends_with("No such file or directory"));
   CHECK(refusal([&] {
           read_scene_input(folder.path());
-        }).ends_with("expected a name ending in .json, .csg, .g or .asc"));
+        }).ends_with("expected a name ending in .json, .csg, .g, .asc, .stl or .off"));
   CHECK(refusal([&] {
           read_scene_input(write_file(folder / "a.scad", ""));
         }).ends_with("openscad -o MODEL.csg MODEL.scad"));

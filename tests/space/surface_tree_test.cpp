@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "against_whole_trees.hpp"
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -1,4 +1,4 @@
-#include "space/simd.hpp"
+#include "geometry/simd.hpp"
 
 #include <hwy/targets.h>
 
