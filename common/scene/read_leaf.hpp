@@ -28,6 +28,7 @@ enum class NodeType : std::uint8_t {
   kEllipticCone,
   kEllipticTorus,
   kQuadric,
+  kPrism,
 };
 
 /// Every node's first keys; those of its type follow.

@@ -11,6 +11,7 @@
 
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
+#include "scene/flat_polygon.hpp"
 #include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"
@@ -89,6 +90,15 @@ struct QuadricShape {
   friend bool operator==(const QuadricShape&, const QuadricShape&) = default;
 };
 
+/// A polygon × [base, base + height] along z. Each path goes round by its corners, numbers of points; without
+/// paths all points are one. A point is inside when an odd number of paths goes round it.
+struct PrismShape {
+  std::vector<FlatPoint> points;
+  std::vector<std::vector<std::uint32_t>> paths;
+  double height = 0, base = 0;
+  friend bool operator==(const PrismShape&, const PrismShape&) = default;
+};
+
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
 struct OperationNode {
@@ -105,7 +115,7 @@ struct ReferenceNode {
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
                TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape>
+               EllipticTorusShape, QuadricShape, PrismShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

@@ -5,6 +5,7 @@
 
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
+#include "scene/flat_solids.hpp"
 
 namespace graycube {
 namespace {
@@ -98,6 +99,9 @@ bool value_holds(const Scene&, const QuadricShape& s, const Vec3& p) {
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),
                      [&](const HalfSpaceShape& plane) { return value_holds(scene, plane, p); });
+}
+bool value_holds(const Scene&, const PrismShape& s, const Vec3& p) {
+  return p.z >= s.base && p.z <= s.base + s.height && is_within(loops_of(s), {p.x, p.y});
 }
 
 bool holds(const Scene& scene, const CsgNode& node, Vec3 p) {
