@@ -72,7 +72,7 @@ std::string pointer_word(const std::string& name) {
 
 void read_json(const fs::path& path, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
-  ReadResult read = read_scene_text(text);
+  ReadResult read = read_scene_text(text, mesh_files_beside(path));
   if (!read.scene) {
     std::vector<Problem> problems;
     for (const SceneError& e : read.errors) {
@@ -82,7 +82,8 @@ void read_json(const fs::path& path, SceneInput& input) {
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   input.scene = std::move(*read.scene);
-  input.text = std::move(text).take();
+  // A farm opens no files: it gets the meshes in the text.
+  input.text = read.used_files ? write_scene_text(input.scene) : std::move(text).take();
 }
 
 void import_openscad(const fs::path& path, const control::JobOptions& options, SceneInput& input) {

@@ -136,6 +136,11 @@ class Compiler {
     return build_polyhedron(m, faces, model_.planes);
   }
 
+  static Primitive build(const Affine&, const MeshShape&) {
+    GRAYCUBE_CHECK(false, "a mesh, which callers refuse");
+    return {};
+  }
+
   double delta() const {
     double largest = max_abs(scene_.settings.camera.eye);
     for (const PointLight& l : scene_.settings.lights) {

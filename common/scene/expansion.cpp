@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "csg/triangle_mesh.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/spelling.hpp"
 
@@ -98,16 +99,18 @@ class Expander {
     const Expanded e = expand(summary, [&](const ShapeUse& use) { report_bare(use); });
     leaves_ = saturating_sum(leaves_, e.leaves);
     nodes_ = saturating_sum(nodes_, e.nodes);
+    triangles_ = saturating_sum(triangles_, e.triangles);
   }
 
   void check_totals(JsonIndex at) {
     check_total(at, leaves_, kMaxLeaves, "leaves");
     check_total(at, nodes_, kMaxExpandedNodes, "nodes");
+    check_total(at, triangles_, kMaxMeshTriangles, "triangles of meshes");
   }
 
  private:
   struct Expanded {
-    std::uint64_t leaves = 0, nodes = 0;
+    std::uint64_t leaves = 0, nodes = 0, triangles = 0;
     std::uint32_t depth = 0;
     JsonIndex bare_leaf = 0;
   };
@@ -116,11 +119,12 @@ class Expander {
   /// material.
   template <typename OnBare>
   Expanded expand(const TreeSummary& summary, const OnBare& on_bare) {
-    Expanded e{summary.leaves, summary.nodes, summary.depth, summary.bare_leaf};
+    Expanded e{summary.leaves, summary.nodes, summary.triangles, summary.depth, summary.bare_leaf};
     for (const ShapeUse& use : summary.uses) {
       const Expanded& shape = expanded_[use.shape];
       e.leaves = saturating_sum(e.leaves, shape.leaves);
       e.nodes = saturating_sum(e.nodes, shape.nodes);
+      e.triangles = saturating_sum(e.triangles, shape.triangles);
       if (use.depth + shape.depth > kMaxTreeDepth)
         errors_.add(use.at, "the tree is deeper than " + std::to_string(kMaxTreeDepth) +
                                 " levels when its refs are expanded");
@@ -152,7 +156,7 @@ class Expander {
   ErrorReport& errors_;
   const NameTable& names_;
   std::vector<Expanded> expanded_;
-  std::uint64_t leaves_ = 0, nodes_ = 0;
+  std::uint64_t leaves_ = 0, nodes_ = 0, triangles_ = 0;
 };
 
 }  // namespace

@@ -26,14 +26,15 @@ struct ShapeUse {
 struct TreeSummary {
   std::uint64_t leaves = 0;
   std::uint64_t nodes = 0;
+  std::uint64_t triangles = 0;
   std::uint32_t depth = 0;
   /// The first leaf without a material of its own or above it; 0 if there is none.
   JsonIndex bare_leaf = 0;
   std::vector<ShapeUse> uses;
 };
 
-/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves or nodes than kMaxLeaves
-/// and kMaxExpandedNodes, and uses of shapes whose leaves stay without a material. Bare leaves of
+/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves, nodes or triangles of meshes than
+/// kMaxLeaves, kMaxExpandedNodes and kMaxMeshTriangles, and uses of shapes whose leaves stay without a material. Bare leaves of
 /// the objects' own trees are the caller's to report. `objects_at` is where the number of leaves is
 /// complained of.
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,

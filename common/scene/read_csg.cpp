@@ -113,6 +113,9 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     case NodeType::kRef:
       if (body != 0) out.value = read_reference(body, at, has_material, depth, context);
       return;
+    case NodeType::kMesh:
+      read_leaf(at, has_material, rules->owner, context);
+      return read_mesh_leaf(at, member, out, context);
     default:
       read_leaf(at, has_material, rules->owner, context);
       read_leaf_value(json_, rules->type, member, out);
@@ -132,6 +135,19 @@ void CsgReader::read_leaf(JsonIndex at, bool has_material, std::string_view owne
   if (context.reports_bare_leaves)
     json_.errors.add(
         at, std::string(owner) + " without a material: neither it nor anything above it names one");
+}
+
+void CsgReader::read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                               CsgNode& out, Context& context) {
+  auto& shape = out.value.emplace<MeshShape>();
+  read_mesh(json_, at, members, load_mesh_, shape);
+  mesh_points_read_ += shape.mesh.points.size();
+  triangles_read_ += shape.mesh.triangles.size();
+  context.summary.triangles += shape.mesh.triangles.size();
+  if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) return;
+  json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) + " points or " +
+                           std::to_string(kMaxMeshTriangles) + " triangles together");
+  shape = {};
 }
 
 void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_material,

@@ -5,7 +5,9 @@
 
 #include "scene/expansion.hpp"
 #include "scene/json_access.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/name_table.hpp"
+#include "scene/read_leaf.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -13,8 +15,9 @@ namespace graycube {
 /// Reads trees; names are looked up in tables that must be complete.
 class CsgReader {
  public:
-  CsgReader(JsonAccess& json, const NameTable& materials, const NameTable& shapes)
-      : json_(json), materials_(materials), shapes_(shapes) {}
+  CsgReader(JsonAccess& json, const NameTable& materials, const NameTable& shapes,
+            const MeshLoader& load_mesh)
+      : json_(json), materials_(materials), shapes_(shapes), load_mesh_(load_mesh) {}
 
   /// The tree of a shape: leaves may wait for a material from where the shape is used.
   TreeSummary read_shape(JsonIndex at, CsgNode& out);
@@ -34,14 +37,19 @@ class CsgReader {
   void read_leaf(JsonIndex at, bool has_material, std::string_view owner, Context& context);
   void read_children(JsonIndex at, OperationNode& out, bool has_material, std::uint32_t depth,
                      Context& context);
+  void read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out,
+                      Context& context);
   ReferenceNode read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
                                Context& context);
 
   JsonAccess& json_;
   const NameTable& materials_;
   const NameTable& shapes_;
+  const MeshLoader& load_mesh_;
   /// Nodes written in the file so far, all trees together; bounds the memory taken.
   std::uint64_t nodes_read_ = 0;
+  /// The same of the points and triangles of meshes.
+  std::uint64_t mesh_points_read_ = 0, triangles_read_ = 0;
 };
 
 }  // namespace graycube

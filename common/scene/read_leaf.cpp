@@ -53,6 +53,11 @@ constexpr std::array kRules{
                 {"height", true},
                 {"paths"},
                 {"base"}}}},
+    NodeRules{"mesh",
+              "a mesh",
+              NodeType::kMesh,
+              kOwn + 3,
+              {{{"type", true}, {"transform"}, {"material"}, {"points"}, {"faces"}, {"file"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another word.

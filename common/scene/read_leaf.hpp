@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scene/json_access.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -29,6 +30,7 @@ enum class NodeType : std::uint8_t {
   kEllipticTorus,
   kQuadric,
   kPrism,
+  kMesh,
 };
 
 /// Every node's first keys; those of its type follow.
@@ -51,5 +53,9 @@ std::span<const NodeRules> node_rules();
 /// Reads a leaf's own members (0 where absent, reported already) into `out`.
 void read_leaf_value(JsonAccess& json, NodeType type,
                      const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out);
+
+/// Reads a mesh (`at`) into `out`. `load` opens mesh files; null refuses them.
+void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+               const MeshLoader& load, MeshShape& out);
 
 }  // namespace graycube

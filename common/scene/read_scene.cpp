@@ -49,15 +49,21 @@ constexpr std::array<KeyRule, kRootKeys> kRootRules{{{"graycube", true},
 
 class SceneReader {
  public:
-  explicit SceneReader(const PaddedText& text)
-      : text_(text.view()), tree_(text), errors_(tree_), json_(tree_, errors_) {}
+  SceneReader(const PaddedText& text, const MeshLoader& load)
+      : text_(text.view()), tree_(text), errors_(tree_), json_(tree_, errors_) {
+    if (!load) return;
+    load_mesh_ = [this, &load](std::string_view file) {
+      used_files_ = true;
+      return load(file);
+    };
+  }
 
   ReadResult read() {
-    if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}};
+    if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}, false};
     json_.members(0, "a scene", kRootRules, root_);
     if (tree_.kind(0) == JsonKind::kObject) read_root();
-    if (!errors_.empty()) return {std::nullopt, errors_.take(text_)};
-    return {std::move(scene_), {}};
+    if (!errors_.empty()) return {std::nullopt, errors_.take(text_), used_files_};
+    return {std::move(scene_), {}, used_files_};
   }
 
  private:
@@ -115,7 +121,7 @@ class SceneReader {
   }
 
   void read_trees(const std::vector<JsonIndex>& shapes_at) {
-    CsgReader csg(json_, material_names_, shape_names_);
+    CsgReader csg(json_, material_names_, shape_names_, load_mesh_);
     std::vector<TreeSummary> shapes, objects;
     scene_.shapes.resize(shapes_at.size());
     for (std::size_t i = 0; i < shapes_at.size(); ++i) {
@@ -164,10 +170,12 @@ class SceneReader {
   JsonAccess json_;
   std::array<JsonIndex, kRootKeys> root_{};
   NameTable material_names_, shape_names_;
+  MeshLoader load_mesh_;
+  bool used_files_ = false;
   Scene scene_;
 };
 
-ReadResult failure(std::string message) { return {std::nullopt, {{"", std::move(message)}}}; }
+ReadResult failure(std::string message) { return {std::nullopt, {{"", std::move(message)}}, false}; }
 
 std::string too_large() {
   return "the file is larger than " + std::to_string(kMaxSceneBytes) + " bytes";
@@ -175,9 +183,9 @@ std::string too_large() {
 
 }  // namespace
 
-ReadResult read_scene_text(const PaddedText& json) {
+ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load) {
   if (json.view().size() > kMaxSceneBytes) return failure(too_large());
-  return SceneReader(json).read();
+  return SceneReader(json, load).read();
 }
 
 ReadResult read_scene_text(std::string_view json) {
@@ -209,7 +217,7 @@ ReadResult read_scene_file(const std::filesystem::path& path) {
     text.resize(before + static_cast<std::size_t>(file.gcount()));
   }
   if (file.bad()) return failure("reading the file failed");
-  return read_scene_text(PaddedText(std::move(text)));
+  return read_scene_text(PaddedText(std::move(text)), mesh_files_beside(path));
 }
 
 }  // namespace graycube

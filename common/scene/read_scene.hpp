@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/mesh_file.hpp"
 #include "scene/padded_text.hpp"
 #include "scene/scene.hpp"
 
@@ -42,13 +43,16 @@ struct ReadResult {
   /// Set exactly when there is no error.
   std::optional<Scene> scene;
   std::vector<SceneError> errors;
+  /// A mesh came from a file of its own: the text alone isn't the scene.
+  bool used_files = false;
 };
 
-/// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds.
-ReadResult read_scene_text(const PaddedText& json);
+/// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds. `load` opens the files that
+/// meshes name; without one such a mesh is an error.
+ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load = nullptr);
 /// As above, copying the text. Large ones are best padded where they are read.
 ReadResult read_scene_text(std::string_view json);
-/// As above; that the file can't be read is an error with an empty pointer.
+/// As the first, with mesh files relative to the scene file's folder; that the file can't be read is an error with an empty pointer.
 ReadResult read_scene_file(const std::filesystem::path& path);
 
 }  // namespace graycube

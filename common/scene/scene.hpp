@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "csg/triangle_mesh.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 #include "scene/flat_polygon.hpp"
@@ -98,6 +99,11 @@ struct PrismShape {
   double height = 0, base = 0;
   friend bool operator==(const PrismShape&, const PrismShape&) = default;
 };
+/// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals outward.
+struct MeshShape {
+  TriangleMesh mesh;
+  friend bool operator==(const MeshShape&, const MeshShape&) = default;
+};
 
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
@@ -115,7 +121,7 @@ struct ReferenceNode {
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
                TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape, PrismShape>
+               EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

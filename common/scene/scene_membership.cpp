@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "csg/mesh_line.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 #include "scene/flat_solids.hpp"
@@ -95,6 +96,17 @@ bool value_holds(const Scene&, const QuadricShape& s, const Vec3& p) {
   const auto& q = s.coefficients;
   return Aabb{s.min, s.max}.contains(p) &&
          p.x * p.x + q[0] * p.y * p.y + (q[1] * p.z + q[2]) * p.z + q[3] <= 0;
+}
+bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
+  const csg::MeshLine line({p, {0.36, 0.48, 0.8}});
+  const auto& points = m.mesh.points;
+  int winding = 0;
+  for (const auto& [a, b, c] : m.mesh.triangles) {
+    const csg::LinePoint u = line.see(points[a]), v = line.see(points[b]), w = line.see(points[c]);
+    const int count = csg::triangle_count(u, v, w);
+    if (count != 0 && csg::parameter_within(u, v, w) < 0) winding += count;
+  }
+  return winding != 0;
 }
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),

@@ -294,6 +294,19 @@ class PovWriter {
       std::visit([&](const auto& value) { write_value(value); }, solid->value);
     }
   }
+  /// POV-Ray counts crossings along inside_vector: an odd number is inside. Where shells overlap that differs.
+  void write_value(const MeshShape& m) {
+    text_ += "mesh2 { vertex_vectors { " + std::to_string(m.mesh.points.size());
+    for (const Vec3& p : m.mesh.points) {
+      text_ += ", ";
+      vector(p);
+    }
+    text_ += " } face_indices { " + std::to_string(m.mesh.triangles.size());
+    for (const auto& [a, b, c] : m.mesh.triangles) {
+      text_ += ", <" + std::to_string(a) + ',' + std::to_string(b) + ',' + std::to_string(c) + '>';
+    }
+    text_ += " } inside_vector <0.7236, 0.3819, 0.5749>";
+  }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());
     text_ += "intersection {";

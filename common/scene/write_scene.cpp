@@ -335,6 +335,23 @@ class SceneWriter {
     member("height", p.height);
     if (p.base != 0) member("base", p.base);
   }
+  void write_value(const MeshShape& m) {
+    text_ += "\"mesh\", \"points\": ";
+    char before = '[';
+    for (const Vec3& p : m.mesh.points) {
+      text_ += before;
+      write(p);
+      before = ',';
+    }
+    text_ += "], \"faces\": ";
+    before = '[';
+    for (const auto& [a, b, c] : m.mesh.triangles) {
+      text_ += before;
+      text_ += '[' + std::to_string(a) + ',' + std::to_string(b) + ',' + std::to_string(c) + ']';
+      before = ',';
+    }
+    text_ += ']';
+  }
   void write_value(const PolyhedronShape& p) {
     text_ += "\"polyhedron\", \"planes\": ";
     char before = '[';

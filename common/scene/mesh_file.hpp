@@ -1,0 +1,33 @@
+// Files that hold one mesh: STL, binary and ASCII, and OFF.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string_view>
+#include <variant>
+
+#include "csg/close_mesh.hpp"
+
+namespace graycube {
+
+inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
+
+/// The mesh in a file as a mesh leaf of a scene names it, or why there is none.
+using MeshLoader = std::function<std::variant<TriangleMesh, MeshFault>(std::string_view file)>;
+
+/// Opens files relative to the folder of `scene_file`.
+MeshLoader mesh_files_beside(const std::filesystem::path& scene_file);
+
+/// Whether the name ends in .stl or .off, in either case.
+bool is_mesh_file(const std::filesystem::path& path);
+
+/// Reads the file, by its name's ending.
+std::variant<TriangleMesh, MeshFault> read_mesh_file(const std::filesystem::path& path);
+
+/// STL: facets' normals are ignored, the order of their corners counts. Faults of ASCII files begin with "line N: ".
+std::variant<PolygonMesh, MeshFault> read_stl(std::string_view bytes);
+/// OFF with `OFF` at its start; comments and colours of faces are skipped. Faults begin with "line N: ".
+std::variant<PolygonMesh, MeshFault> read_off(std::string_view text);
+
+}  // namespace graycube
