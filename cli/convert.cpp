@@ -50,12 +50,12 @@ ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
-  const bool is_scene = from == ".json" || from == ".csg" || is_brlcad(in);
+  const bool is_scene = from == ".json" || is_openscad(in) || is_brlcad(in);
   const bool is_known =
       (is_scene && (to == ".json" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json, .csg, .g or .asc to .json or .pov, or .exr to .png; found " +
+                        "expected .json, .scad, .csg, .g or .asc to .json or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);
