@@ -94,7 +94,7 @@ std::vector<Segment> shadow_rays(const Domain& domain, std::span<const Segment> 
     const auto hit = domain.first_crossing(s.ray, s.t0, s.t1, scratch);
     if (!hit) continue;
     const Vec3 p = s.ray.at(hit->t);
-    const Vec3 n = outward_normal(model.primitives[hit->primitive], model.planes, s.ray, hit->t);
+    const Vec3 n = outward_normal(model.primitives[hit->primitive], model.data(), s.ray, hit->t);
     for (const PointLight& light : domain.settings().lights) {
       const Vec3 to_light = light.position - p;
       if (!(dot(n, to_light) > 0)) continue;

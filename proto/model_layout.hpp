@@ -10,11 +10,15 @@
 
 namespace graycube::model_layout {
 
-inline constexpr std::size_t kHeaderBytes = 32;
+inline constexpr std::size_t kHeaderBytes = 36;
 inline constexpr std::size_t kSettingsBytes = 188;
 inline constexpr std::size_t kLightBytes = 49;
 inline constexpr std::size_t kMaterialBytes = 81;
 inline constexpr std::size_t kPlaneBytes = 32;
+/// The two counts; at least one point and one triangle follow.
+inline constexpr std::size_t kMeshBytes = 8;
+inline constexpr std::size_t kPointBytes = 24;
+inline constexpr std::size_t kTriangleBytes = 12;
 inline constexpr std::size_t kNodeBytes = 5;
 inline constexpr std::size_t kObjectBytes = 60;
 /// Kind, flags and material; what the flags name follows.
@@ -24,7 +28,8 @@ inline constexpr std::size_t kPrimitiveBytes = 7;
 inline constexpr unsigned kHasMap = 1u << 6;
 inline constexpr unsigned kHasBounds = 1u << 7;
 inline constexpr unsigned kHasPlanes = 1u << 8;
-inline constexpr unsigned kAllFlags = (1u << 9) - 1;
+inline constexpr unsigned kHasMesh = 1u << 9;
+inline constexpr unsigned kAllFlags = (1u << 10) - 1;
 
 /// Equality of bits: −0 is not +0.
 inline bool same_bits(double a, double b) {
@@ -50,13 +55,18 @@ inline unsigned flags_of(const Primitive& p) {
     flags |= kHasBounds;
   }
   if (p.first_plane != 0 || p.plane_count != 0) flags |= kHasPlanes;
+  if (p.mesh != 0) flags |= kHasMesh;
   return flags;
+}
+
+inline std::size_t mesh_bytes(const TriangleMesh& mesh) {
+  return kMeshBytes + mesh.points.size() * kPointBytes + mesh.triangles.size() * kTriangleBytes;
 }
 
 constexpr std::size_t primitive_bytes(unsigned flags) {
   return kPrimitiveBytes + 8 * static_cast<std::size_t>(std::popcount(flags & 0x3Fu)) +
          ((flags & kHasMap) != 0 ? 96 : 0) + ((flags & kHasBounds) != 0 ? 48 : 0) +
-         ((flags & kHasPlanes) != 0 ? 8 : 0);
+         ((flags & kHasPlanes) != 0 ? 8 : 0) + ((flags & kHasMesh) != 0 ? 4 : 0);
 }
 
 inline bool is_inner(TreeNode::Kind kind) {

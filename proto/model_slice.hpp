@@ -16,12 +16,15 @@ namespace graycube {
 
 /// "GCM1", read as a little-endian integer.
 inline constexpr std::uint32_t kModelMagic = 0x314D4347;
-inline constexpr std::uint16_t kModelVersion = 2;
+inline constexpr std::uint16_t kModelVersion = 3;
 
 inline constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
 inline constexpr std::uint32_t kMaxModelMaterials = 1u << 20;
 inline constexpr std::uint32_t kMaxModelPrimitives = 1u << 24;
 inline constexpr std::uint32_t kMaxModelPlanes = 1u << 25;
+/// Of all meshes together; no more than 3 a triangle are used.
+inline constexpr std::uint32_t kMaxModelPoints = 3 * kMaxMeshTriangles;
+inline constexpr std::uint32_t kMaxModelMeshes = 1u << 20;
 inline constexpr std::uint32_t kMaxModelNodes = 1u << 26;
 inline constexpr std::uint32_t kMaxModelObjects = 1u << 24;
 /// Most nodes on the way from an object's root to a leaf: whoever walks the tree may recurse.
@@ -45,7 +48,8 @@ bool fits_model_limits(const Model& model);
 std::vector<std::byte> encode_model(const Model& model);
 
 /// Takes no more memory than the counts that the bytes can hold, and checks every index: nodes of a
-/// decoded model nest properly, and every material, plane and primitive that they name exists.
+/// decoded model nest properly, and every material, plane, point, mesh and primitive that
+/// they name exists.
 [[nodiscard]] std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes);
 
 }  // namespace graycube

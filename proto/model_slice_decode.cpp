@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
@@ -12,7 +13,7 @@ namespace {
 using namespace model_layout;
 
 struct Counts {
-  std::uint32_t lights, materials, planes, primitives, nodes, objects;
+  std::uint32_t lights, materials, planes, primitives, nodes, objects, meshes;
 };
 
 Vec3 get_vec(ByteReader& r) {
@@ -53,6 +54,7 @@ class ModelReader {
     section("light", counts.lights, model_.settings.lights, &ModelReader::light);
     section("material", counts.materials, model_.materials, &ModelReader::material);
     section("plane", counts.planes, model_.planes, &ModelReader::plane);
+    section("mesh", counts.meshes, model_.meshes, &ModelReader::mesh);
     section("primitive", counts.primitives, model_.primitives, &ModelReader::primitive);
     section("node", counts.nodes, model_.nodes, &ModelReader::node);
     section("object", counts.objects, model_.objects, &ModelReader::object);
@@ -74,19 +76,19 @@ class ModelReader {
     if (r_.get<std::uint16_t>() != kModelVersion) fail("header", "unknown version");
     if (r_.get<std::uint16_t>() != 0) fail("header", "reserved field is not 0");
     for (std::uint32_t* count :
-         {&c.lights, &c.materials, &c.planes, &c.primitives, &c.nodes, &c.objects}) {
+         {&c.lights, &c.materials, &c.planes, &c.primitives, &c.nodes, &c.objects, &c.meshes}) {
       *count = r_.get<std::uint32_t>();
     }
     if (c.lights > kMaxLights || c.materials > kMaxModelMaterials || c.planes > kMaxModelPlanes ||
         c.primitives > kMaxModelPrimitives || c.nodes > kMaxModelNodes ||
-        c.objects > kMaxModelObjects) {
+        c.objects > kMaxModelObjects || c.meshes > kMaxModelMeshes) {
       fail("header", "a count beyond its limit");
     }
     const std::uint64_t least =
         kSettingsBytes + std::uint64_t{c.lights} * kLightBytes +
         std::uint64_t{c.materials} * kMaterialBytes + std::uint64_t{c.planes} * kPlaneBytes +
         std::uint64_t{c.primitives} * kPrimitiveBytes + std::uint64_t{c.nodes} * kNodeBytes +
-        std::uint64_t{c.objects} * kObjectBytes;
+        std::uint64_t{c.objects} * kObjectBytes + std::uint64_t{c.meshes} * (kMeshBytes + kPointBytes + kTriangleBytes);
     if (!r_.ok() || least > r_.remaining()) fail("header", "fewer bytes than the counts need");
     return c;
   }
@@ -198,6 +200,30 @@ class ModelReader {
     return is_finite(plane.normal) && std::isfinite(plane.offset) ? nullptr : "not finite";
   }
 
+  const char* mesh(Mesh& out) {
+    const std::uint64_t points = r_.get<std::uint32_t>(), triangles = r_.get<std::uint32_t>();
+    mesh_points_ += points;
+    mesh_triangles_ += triangles;
+    if (points == 0 || triangles == 0) return "empty";
+    if (mesh_points_ > kMaxModelPoints || mesh_triangles_ > kMaxMeshTriangles) return "a count beyond its limit";
+    if (points * kPointBytes + triangles * kTriangleBytes > r_.remaining()) return "too short";
+    TriangleMesh surface;
+    surface.points.resize(points);
+    surface.triangles.resize(triangles);
+    for (Vec3& p : surface.points) {
+      p = get_vec(r_);
+      if (!is_finite(p)) return "not finite";
+    }
+    for (Triangle& t : surface.triangles) {
+      for (std::uint32_t& i : t) {
+        i = r_.get<std::uint32_t>();
+        if (i >= points) return "no such point";
+      }
+    }
+    out = Mesh(std::move(surface));
+    return nullptr;
+  }
+
   const char* primitive(Primitive& p) {
     const auto kind = r_.get<std::uint8_t>();
     const unsigned flags = r_.get<std::uint16_t>();
@@ -226,6 +252,8 @@ class ModelReader {
       if (std::uint64_t{p.first_plane} + p.plane_count > model_.planes.size())
         return "no such plane";
     }
+    if ((flags & kHasMesh) != 0) p.mesh = r_.get<std::uint32_t>();
+    if (p.kind == PrimitiveKind::kMesh ? p.mesh >= model_.meshes.size() : p.mesh != 0) return "no such mesh";
     return finite && is_box(p.bounds) ? nullptr : "not finite";
   }
 
@@ -285,6 +313,7 @@ class ModelReader {
 
   ByteReader r_;
   std::size_t size_;
+  std::uint64_t mesh_points_ = 0, mesh_triangles_ = 0;
   Model model_;
   std::optional<ModelError> error_;
 };

@@ -81,6 +81,16 @@ void put_primitive(ByteWriter& w, const Primitive& p) {
     w.put(p.first_plane);
     w.put(p.plane_count);
   }
+  if ((flags & kHasMesh) != 0) w.put(p.mesh);
+}
+
+void put_mesh(ByteWriter& w, const TriangleMesh& mesh) {
+  w.put(static_cast<std::uint32_t>(mesh.points.size()));
+  w.put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const Vec3& p : mesh.points) put_vec(w, p);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t i : t) w.put(i);
+  }
 }
 
 /// A leaf's size is 1 and an inner node names no primitive, so one number is enough.
@@ -116,15 +126,29 @@ std::size_t encoded_model_bytes(const Model& model) {
   std::size_t bytes = kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
                       model.materials.size() * kMaterialBytes + model.planes.size() * kPlaneBytes +
                       model.nodes.size() * kNodeBytes + model.objects.size() * kObjectBytes;
+  for (const Mesh& m : model.meshes) bytes += mesh_bytes(m.surface());
   for (const Primitive& p : model.primitives) bytes += primitive_bytes(flags_of(p));
   return bytes;
 }
+
+namespace {
+
+bool meshes_fit(const Model& model) {
+  std::size_t points = 0, triangles = 0;
+  for (const Mesh& m : model.meshes) {
+    points += m.surface().points.size();
+    triangles += m.surface().triangles.size();
+  }
+  return model.meshes.size() <= kMaxModelMeshes && points <= kMaxModelPoints && triangles <= kMaxMeshTriangles;
+}
+
+}  // namespace
 
 bool fits_model_limits(const Model& model) {
   return model.settings.lights.size() <= kMaxLights &&
          model.materials.size() <= kMaxModelMaterials &&
          model.primitives.size() <= kMaxModelPrimitives && model.planes.size() <= kMaxModelPlanes &&
-         model.nodes.size() <= kMaxModelNodes && model.objects.size() <= kMaxModelObjects &&
+         meshes_fit(model) && model.nodes.size() <= kMaxModelNodes && model.objects.size() <= kMaxModelObjects &&
          depth_of(model.nodes) <= kMaxModelTreeDepth &&
          encoded_model_bytes(model) <= kMaxModelBytes;
 }
@@ -139,7 +163,7 @@ std::vector<std::byte> encode_model(const Model& model) {
   w.put(std::uint16_t{0});
   for (const std::size_t count :
        {model.settings.lights.size(), model.materials.size(), model.planes.size(),
-        model.primitives.size(), model.nodes.size(), model.objects.size()}) {
+        model.primitives.size(), model.nodes.size(), model.objects.size(), model.meshes.size()}) {
     w.put(static_cast<std::uint32_t>(count));
   }
   put_settings(w, model.settings, model.delta);
@@ -149,6 +173,7 @@ std::vector<std::byte> encode_model(const Model& model) {
     put_vec(w, plane.normal);
     w.put(plane.offset);
   }
+  for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
   for (const Primitive& primitive : model.primitives) put_primitive(w, primitive);
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "csg/close_mesh.hpp"
 #include "csg/half_space.hpp"
 #include "geometry/check.hpp"
 
@@ -316,6 +318,18 @@ Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, 
     slices = union_of(slices, slice_bounds(to_world, q, lo, hi, z0, z1));
   }
   p.bounds = intersection_of(corners, slices.is_empty() ? corners : slices.grown(1e-12 * length(corners.hi - corners.lo)));
+  return p;
+}
+
+Primitive build_mesh(const Affine& to_world, const TriangleMesh& mesh, std::vector<Mesh>& meshes) {
+  TriangleMesh surface = mesh;
+  for (Vec3& p : surface.points) p = to_world.point(p) + Vec3{0, 0, 0};
+  if (to_world.determinant() < 0) turn_inside_out(surface);
+  meshes.emplace_back(std::move(surface));
+  Primitive p;
+  p.kind = PrimitiveKind::kMesh;
+  p.mesh = static_cast<std::uint32_t>(meshes.size() - 1);
+  p.bounds = meshes.back().bounds();
   return p;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "csg/mesh.hpp"
 #include "csg/primitive.hpp"
 
 namespace graycube {
@@ -41,5 +42,7 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
 /// `planes`.
 Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, const Vec3& lo,
                         const Vec3& hi, std::vector<Plane>& planes);
+/// Appends the mesh, in world coordinates and turned over where the map mirrors, to `meshes`. It must be closed.
+Primitive build_mesh(const Affine& to_world, const TriangleMesh& mesh, std::vector<Mesh>& meshes);
 
 }  // namespace graycube

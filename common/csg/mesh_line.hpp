@@ -13,36 +13,43 @@
 
 namespace graycube::csg {
 
-/// A point as the line sees it: across the line, and its parameter along it.
+/// A point as the line sees it, across the line.
 struct LinePoint {
-  double x, y, t;
+  double x, y;
 };
 
 class MeshLine {
  public:
   explicit MeshLine(const Ray& ray) : origin_(ray.origin) {
     const Vec3& d = ray.direction;
+    int along = 0;
     for (int a = 1; a < 3; ++a) {
-      if (std::fabs(d[a]) > std::fabs(d[along_])) along_ = a;
+      if (std::fabs(d[a]) > std::fabs(d[along])) along = a;
     }
-    // Right-handed seen against the line: counterclockwise triangles are those whose outside faces its origin.
-    const bool forward = d[along_] > 0;
-    x_ = (along_ + (forward ? 2 : 1)) % 3;
-    y_ = (along_ + (forward ? 1 : 2)) % 3;
-    inverse_ = 1.0 / d[along_];
-    slope_x_ = d[x_] * inverse_;
-    slope_y_ = d[y_] * inverse_;
+    // The same plane for both senses of a line: reversed, it passes through the same triangles.
+    const int x = (along + 1) % 3, y = (along + 2) % 3;
+    turn_ = d[along] > 0 ? -1 : 1;
+    const double inverse = 1.0 / d[along];
+    x_[x] = 1;
+    x_[along] = -(d[x] * inverse);
+    y_[y] = 1;
+    y_[along] = -(d[y] * inverse);
+    t_[along] = inverse;
   }
 
   LinePoint see(const Vec3& p) const {
-    const double ahead = p[along_] - origin_[along_];
-    return {(p[x_] - origin_[x_]) - slope_x_ * ahead, (p[y_] - origin_[y_]) - slope_y_ * ahead, ahead * inverse_};
+    const Vec3 q = p - origin_;
+    return {dot(x_, q), dot(y_, q)};
   }
+  /// What turns a triangle's winding in the plane into what the line adds on its way: −1 when it looks along the plane's
+  /// normal.
+  int turn() const { return turn_; }
+  /// The parameter at which the line passes the point.
+  double parameter(const Vec3& p) const { return dot(t_, p - origin_); }
 
  private:
-  Vec3 origin_;
-  int along_ = 0, x_ = 0, y_ = 0;
-  double inverse_ = 0, slope_x_ = 0, slope_y_ = 0;
+  Vec3 origin_, x_, y_, t_;
+  int turn_ = 1;
 };
 
 /// The sign of a.x b.y − a.y b.x, exact but for underflow. Rounded products that differ are in the order of the exact
@@ -64,19 +71,16 @@ inline int edge_count(const LinePoint& a, const LinePoint& b) {
 }
 
 /// +1 where the line enters through the triangle's outside, −1 where it leaves through it, 0 where it passes by.
-inline int triangle_count(const LinePoint& a, const LinePoint& b, const LinePoint& c) {
+inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const LinePoint a = line.see(p), b = line.see(q), c = line.see(r);
   const bool a_above = a.y >= 0, b_above = b.y >= 0;
   if (a_above == b_above && b_above == (c.y >= 0)) return 0;
-  return edge_count(a, b) + edge_count(b, c) + edge_count(c, a);
+  return line.turn() * (edge_count(a, b) + edge_count(b, c) + edge_count(c, a));
 }
 
-/// Where the line meets the triangle that it passes through: the corners' parameters, weighted by where it does.
-inline double parameter_within(const LinePoint& a, const LinePoint& b, const LinePoint& c) {
-  const double u = b.x * c.y - b.y * c.x, v = c.x * a.y - c.y * a.x, w = a.x * b.y - a.y * b.x;
-  const double t = (u * a.t + v * b.t + w * c.t) / (u + v + w);
-  const double least = std::fmin(a.t, std::fmin(b.t, c.t)), most = std::fmax(a.t, std::fmax(b.t, c.t));
-  // A triangle seen edge on has no weights worth the name.
-  return t >= least ? (t <= most ? t : most) : least;
-}
+/// Where the line meets the triangle's plane, kept between the corners' parameters. The expression is that of all planes
+/// (roots.hpp), so that faces along the axes tie with boxes'. A triangle seen edge on, or without an area, has no plane
+/// worth the name: then it is the corners' parameters weighted by where the line passes.
+double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace graycube::csg

@@ -44,9 +44,11 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Primitive> primitives;
   std::vector<Plane> planes;
+  std::vector<Mesh> meshes;
   std::vector<TreeNode> nodes;
   std::vector<Object> objects;
 
+  PrimitiveData data() const { return {planes, meshes}; }
   friend bool operator==(const Model&, const Model&) = default;
 };
 

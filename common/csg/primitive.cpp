@@ -5,6 +5,7 @@
 #include "csg/elliptic_cone.hpp"
 #include "csg/elliptic_torus.hpp"
 #include "csg/half_space.hpp"
+#include "csg/mesh.hpp"
 #include "csg/quadric.hpp"
 #include "csg/sphere.hpp"
 #include "csg/torus.hpp"
@@ -13,7 +14,7 @@ namespace graycube {
 
 using namespace csg;
 
-Spans spans_along(const Primitive& p, std::span<const Plane> planes, const Ray& ray) {
+Spans spans_along(const Primitive& p, const PrimitiveData& data, const Ray& ray) {
   switch (p.kind) {
     case PrimitiveKind::kSphere: return sphere_spans(p, ray);
     case PrimitiveKind::kEllipsoid: return ellipsoid_spans(p, ray);
@@ -23,15 +24,16 @@ Spans spans_along(const Primitive& p, std::span<const Plane> planes, const Ray& 
     case PrimitiveKind::kCone: return cone_spans(p, ray);
     case PrimitiveKind::kTorus: return torus_spans(p, ray);
     case PrimitiveKind::kHalfSpace: return half_space_spans(p, ray);
-    case PrimitiveKind::kPolyhedron: return polyhedron_spans(faces_of(p, planes), ray);
+    case PrimitiveKind::kPolyhedron: return polyhedron_spans(faces_of(p, data.planes), ray);
     case PrimitiveKind::kEllipticCone: return elliptic_cone_spans(p, ray);
     case PrimitiveKind::kEllipticTorus: return elliptic_torus_spans(p, ray);
-    case PrimitiveKind::kQuadric: return quadric_spans(p, faces_of(p, planes), ray);
+    case PrimitiveKind::kQuadric: return quadric_spans(p, faces_of(p, data.planes), ray);
+    case PrimitiveKind::kMesh: return data.meshes[p.mesh].spans(ray);
   }
   return {};
 }
 
-bool contains(const Primitive& p, std::span<const Plane> planes, const Vec3& point) {
+bool contains(const Primitive& p, const PrimitiveData& data, const Vec3& point) {
   switch (p.kind) {
     case PrimitiveKind::kSphere: return sphere_contains(p, point);
     case PrimitiveKind::kEllipsoid: return ellipsoid_contains(p, point);
@@ -41,15 +43,16 @@ bool contains(const Primitive& p, std::span<const Plane> planes, const Vec3& poi
     case PrimitiveKind::kCone: return cone_contains(p, point);
     case PrimitiveKind::kTorus: return torus_contains(p, point);
     case PrimitiveKind::kHalfSpace: return half_space_contains(p, point);
-    case PrimitiveKind::kPolyhedron: return polyhedron_contains(faces_of(p, planes), point);
+    case PrimitiveKind::kPolyhedron: return polyhedron_contains(faces_of(p, data.planes), point);
     case PrimitiveKind::kEllipticCone: return elliptic_cone_contains(p, point);
     case PrimitiveKind::kEllipticTorus: return elliptic_torus_contains(p, point);
-    case PrimitiveKind::kQuadric: return quadric_contains(p, faces_of(p, planes), point);
+    case PrimitiveKind::kQuadric: return quadric_contains(p, faces_of(p, data.planes), point);
+    case PrimitiveKind::kMesh: return data.meshes[p.mesh].contains(point);
   }
   return false;
 }
 
-Vec3 outward_normal(const Primitive& p, std::span<const Plane> planes, const Ray& ray, double t) {
+Vec3 outward_normal(const Primitive& p, const PrimitiveData& data, const Ray& ray, double t) {
   switch (p.kind) {
     case PrimitiveKind::kSphere: return sphere_normal(p, ray.at(t));
     case PrimitiveKind::kEllipsoid: return ellipsoid_normal(p, ray.at(t));
@@ -59,15 +62,16 @@ Vec3 outward_normal(const Primitive& p, std::span<const Plane> planes, const Ray
     case PrimitiveKind::kCone: return cone_normal(p, ray, t);
     case PrimitiveKind::kTorus: return torus_normal(p, ray.at(t));
     case PrimitiveKind::kHalfSpace: return half_space_plane(p).normal;
-    case PrimitiveKind::kPolyhedron: return polyhedron_normal(faces_of(p, planes), ray, t);
+    case PrimitiveKind::kPolyhedron: return polyhedron_normal(faces_of(p, data.planes), ray, t);
     case PrimitiveKind::kEllipticCone: return elliptic_cone_normal(p, ray, t);
     case PrimitiveKind::kEllipticTorus: return elliptic_torus_normal(p, ray.at(t));
-    case PrimitiveKind::kQuadric: return quadric_normal(p, faces_of(p, planes), ray, t);
+    case PrimitiveKind::kQuadric: return quadric_normal(p, faces_of(p, data.planes), ray, t);
+    case PrimitiveKind::kMesh: return data.meshes[p.mesh].outward_normal(ray, t);
   }
   return {};
 }
 
-CellSide classify(const Primitive& p, std::span<const Plane> planes, const Aabb& cell) {
+CellSide classify(const Primitive& p, const PrimitiveData& data, const Aabb& cell) {
   switch (p.kind) {
     case PrimitiveKind::kSphere: return classify_sphere(p, cell);
     case PrimitiveKind::kEllipsoid: return classify_ellipsoid(p, cell);
@@ -77,10 +81,11 @@ CellSide classify(const Primitive& p, std::span<const Plane> planes, const Aabb&
     case PrimitiveKind::kCone: return classify_cone(p, cell);
     case PrimitiveKind::kTorus: return classify_torus(p, cell);
     case PrimitiveKind::kHalfSpace: return classify_plane(half_space_plane(p), cell);
-    case PrimitiveKind::kPolyhedron: return classify_polyhedron(p, faces_of(p, planes), cell);
+    case PrimitiveKind::kPolyhedron: return classify_polyhedron(p, faces_of(p, data.planes), cell);
     case PrimitiveKind::kEllipticCone: return classify_elliptic_cone(p, cell);
     case PrimitiveKind::kEllipticTorus: return classify_elliptic_torus(p, cell);
-    case PrimitiveKind::kQuadric: return classify_quadric(p, faces_of(p, planes), cell);
+    case PrimitiveKind::kQuadric: return classify_quadric(p, faces_of(p, data.planes), cell);
+    case PrimitiveKind::kMesh: return data.meshes[p.mesh].classify(cell);
   }
   return CellSide::kCrosses;
 }

@@ -5,7 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "csg/mesh.hpp"
+#include "csg/spans.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/ray.hpp"
@@ -25,8 +28,9 @@ enum class PrimitiveKind : std::uint8_t {
   kEllipticCone,    // caps as kCone; to_local: x² / (1 − z)² + y² / (1 − v[5] z)² ≤ 1 between them
   kEllipticTorus,   // to_local, ρ² = x² + y²: v[0] (ρ−1)² + 2 v[1] (ρ−1) z + v[2] z² ≤ 1; reaches v[3] and v[4] far
   kQuadric,         // to_local: x² + v[0] y² + v[1] z² + v[2] z + v[3] ≤ 0; and planes as kPolyhedron
+  kMesh,            // meshes[mesh]
 };
-inline constexpr int kPrimitiveKinds = 12;
+inline constexpr int kPrimitiveKinds = 13;
 
 struct Plane {
   Vec3 normal;
@@ -40,6 +44,7 @@ struct Primitive {
   std::uint32_t material = 0;
   std::uint32_t first_plane = 0;
   std::uint32_t plane_count = 0;
+  std::uint32_t mesh = 0;
   std::array<double, 6> v{};
   /// World → local; unused by kinds that work in world coordinates.
   Affine to_local;
@@ -49,36 +54,30 @@ struct Primitive {
   friend bool operator==(const Primitive&, const Primitive&) = default;
 };
 
-/// Where a line is inside a primitive: disjoint intervals [enter, leave] in order, ends included,
-/// ±infinity where the primitive is unbounded. Tangency gives an interval of length zero or none.
-struct Spans {
-  static constexpr int kMax = 2;
-  struct Interval {
-    double enter, leave;
-  };
-  int count = 0;
-  std::array<Interval, kMax> interval;
+/// What primitives keep elsewhere.
+struct PrimitiveData {
+  PrimitiveData(std::span<const Plane> all_planes, std::span<const Mesh> all_meshes)
+      : planes(all_planes), meshes(all_meshes) {}
+  /// For primitives other than meshes.
+  PrimitiveData(const std::vector<Plane>& all_planes) : planes(all_planes) {}  // NOLINT: implicit
 
-  void add(double enter, double leave) {
-    interval[static_cast<std::size_t>(count++)] = {enter, leave};
-  }
+  std::span<const Plane> planes;
+  std::span<const Mesh> meshes;
 };
 
 /// The whole line's intervals, negative parameters too, never clipped. −0 is given as +0.
-Spans spans_along(const Primitive& primitive, std::span<const Plane> planes, const Ray& ray);
+Spans spans_along(const Primitive& primitive, const PrimitiveData& data, const Ray& ray);
 
 /// Closed-set membership of a point, up to rounding.
-bool contains(const Primitive& primitive, std::span<const Plane> planes, const Vec3& point);
+bool contains(const Primitive& primitive, const PrimitiveData& data, const Vec3& point);
 
 /// The unit normal pointing out of the primitive at parameter `t` of `ray`, where t is one of the ends that
 /// spans_along gave for the same ray: the face is the one whose root is t.
-Vec3 outward_normal(const Primitive& primitive, std::span<const Plane> planes, const Ray& ray, double t);
-
-enum class CellSide : std::uint8_t { kOutside, kInside, kCrosses };
+Vec3 outward_normal(const Primitive& primitive, const PrimitiveData& data, const Ray& ray, double t);
 
 /// Where a cell lies: wholly outside the primitive, wholly inside, or perhaps crossed by its surface.
 /// Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ already; touching
 /// counts as crossing. Cells may be unbounded.
-CellSide classify(const Primitive& primitive, std::span<const Plane> planes, const Aabb& cell);
+CellSide classify(const Primitive& primitive, const PrimitiveData& data, const Aabb& cell);
 
 }  // namespace graycube

@@ -136,10 +136,7 @@ class Compiler {
     return build_polyhedron(m, faces, model_.planes);
   }
 
-  static Primitive build(const Affine&, const MeshShape&) {
-    GRAYCUBE_CHECK(false, "a mesh, which callers refuse");
-    return {};
-  }
+  Primitive build(const Affine& m, const MeshShape& s) { return build_mesh(m, s.mesh, model_.meshes); }
 
   double delta() const {
     double largest = max_abs(scene_.settings.camera.eye);

@@ -98,13 +98,13 @@ bool value_holds(const Scene&, const QuadricShape& s, const Vec3& p) {
          p.x * p.x + q[0] * p.y * p.y + (q[1] * p.z + q[2]) * p.z + q[3] <= 0;
 }
 bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
-  const csg::MeshLine line({p, {0.36, 0.48, 0.8}});
+  const Ray ray{p, {0.36, 0.48, 0.8}};
+  const csg::MeshLine line(ray);
   const auto& points = m.mesh.points;
   int winding = 0;
   for (const auto& [a, b, c] : m.mesh.triangles) {
-    const csg::LinePoint u = line.see(points[a]), v = line.see(points[b]), w = line.see(points[c]);
-    const int count = csg::triangle_count(u, v, w);
-    if (count != 0 && csg::parameter_within(u, v, w) < 0) winding += count;
+    const int count = csg::triangle_count(line, points[a], points[b], points[c]);
+    if (count != 0 && csg::triangle_parameter(line, ray, points[a], points[b], points[c]) < 0) winding += count;
   }
   return winding != 0;
 }

@@ -67,7 +67,7 @@ class BspBuilder {
                      CellContent& out) const {
     const auto first = static_cast<std::uint32_t>(out.nodes.size());
     const auto side = [&](std::uint32_t primitive) {
-      return classify(model_.primitives[primitive], model_.planes, grown);
+      return classify(model_.primitives[primitive], model_.data(), grown);
     };
     if (prune(tree, side, out.nodes) != Pruned::kVaries) return;
     out.items.push_back({object, first, static_cast<std::uint32_t>(out.nodes.size()) - first});

@@ -138,18 +138,16 @@ inline void gather(const Spans& spans, std::uint32_t literal, double t0, double 
 template <typename Visit>
 bool single(const TreeNode& node, std::uint32_t object, const Spans& spans, double t0, double t1,
             Visit&& visit) {
-  std::array<double, 2 * Spans::kMax> ends;
-  int n = 0;
-  for (int i = 0; i < spans.count; ++i) {
-    const auto& interval = spans.interval[static_cast<std::size_t>(i)];
-    ends[static_cast<std::size_t>(n++)] = interval.enter;
-    ends[static_cast<std::size_t>(n++)] = interval.leave;
-  }
+  const auto end = [&](int i) {
+    const auto& interval = spans.interval[static_cast<std::size_t>(i / 2)];
+    return i % 2 == 0 ? interval.enter : interval.leave;
+  };
+  const int n = 2 * spans.count;
   const bool upright = node.kind == TreeNode::Kind::kLeaf;
   for (int i = 0; i < n;) {
-    const double t = ends[static_cast<std::size_t>(i)];
+    const double t = end(i);
     int group = i;
-    while (group < n && ends[static_cast<std::size_t>(group)] == t) ++group;
+    while (group < n && end(group) == t) ++group;
     const bool changes = (group - i) % 2 == 1;
     const bool enters = i % 2 == 0;
     i = group;

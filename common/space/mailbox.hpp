@@ -38,7 +38,7 @@ class Mailbox {
     if (e.ray != ray_ || e.primitive != primitive) {
       e.ray = ray_;
       e.primitive = primitive;
-      e.spans = spans_along(model.primitives[primitive], model.planes, ray);
+      e.spans = spans_along(model.primitives[primitive], model.data(), ray);
       ++counts.primitives_tested;
     }
     return e.spans;

@@ -90,8 +90,9 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
       csg::clip_to_caps(i, p, ray.ray);
       break;
     }
+    case PrimitiveKind::kMesh: return false;
     default: {
-      const Spans s = spans_along(model.primitives[literal.primitive], model.planes, ray.ray);
+      const Spans s = spans_along(model.primitives[literal.primitive], model.data(), ray.ray);
       if (s.count > 1) return false;
       if (s.count == 0) {
         i.make_empty();

@@ -39,6 +39,10 @@ class ModelExtract {
     p.first_plane = static_cast<std::uint32_t>(to_.planes.size());
     if (p.plane_count == 0) p.first_plane = 0;
     to_.planes.insert(to_.planes.end(), first, first + p.plane_count);
+    if (p.kind == PrimitiveKind::kMesh) {
+      to_.meshes.push_back(from_.meshes[p.mesh]);
+      p.mesh = static_cast<std::uint32_t>(to_.meshes.size() - 1);
+    }
     to_.primitives.push_back(p);
     return static_cast<std::uint32_t>(to_.primitives.size() - 1);
   }

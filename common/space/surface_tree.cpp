@@ -5,22 +5,13 @@
 #include <numeric>
 
 #include "csg/tree.hpp"
+#include "geometry/culling_ray.hpp"
 #include "space/bsp.hpp"
 
 namespace graycube {
 namespace {
 
 constexpr float kFloatInf = std::numeric_limits<float>::infinity();
-
-/// The nearest float not above (not below) a double.
-float float_below(double v) {
-  const auto f = static_cast<float>(v);
-  return static_cast<double>(f) > v ? std::nextafterf(f, -kFloatInf) : f;
-}
-float float_above(double v) {
-  const auto f = static_cast<float>(v);
-  return static_cast<double>(f) < v ? std::nextafterf(f, kFloatInf) : f;
-}
 
 bool is_leaf(const TreeNode& n) { return n.size == 1; }
 

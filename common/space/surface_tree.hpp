@@ -32,6 +32,31 @@ struct SurfaceTreeOptions {
   std::uint32_t whole_object_literals = 8;
 };
 
+/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks for them in each cell.
+class MeshMemo {
+ public:
+  const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
+    Entry& e = entries_[primitive % kEntries];
+    const Mesh& mesh = model.meshes[model.primitives[primitive].mesh];
+    if (!e.mesh.is_same_as(mesh) || !(e.ray == ray)) {
+      e.spans = mesh.spans(ray);
+      e.mesh = mesh;
+      e.ray = ray;
+    }
+    return e.spans;
+  }
+
+ private:
+  static constexpr std::size_t kEntries = 8;
+  struct Entry {
+    /// Held, so that no other takes its place in memory.
+    Mesh mesh;
+    Ray ray;
+    Spans spans;
+  };
+  std::array<Entry, kEntries> entries_;
+};
+
 /// Scratch and counts of one evaluator.
 struct TreeScratch {
   /// A transparent surface that a shadow ray crosses, and which ray of a packet it is.
@@ -45,6 +70,8 @@ struct TreeScratch {
 
   std::vector<Mailbox::Event> events;
   std::vector<std::uint64_t> flags_before, flags_after;
+  std::vector<MeshCut> cuts;
+  MeshMemo meshes;
   WalkCounts counts;
   /// The item that ended the last shadow ray in each octant of directions; tried first.
   std::array<std::uint32_t, 8> last_occluder{};
@@ -100,6 +127,10 @@ class SurfaceTree {
 
  private:
   friend class SurfaceTreeBuilder;
+  /// Of an item that is one mesh.
+  template <typename Visit>
+  bool mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
+                      TreeScratch& scratch, Visit&& visit) const;
   template <typename Visit>
   bool general_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                          TreeScratch& scratch, Visit&& visit) const;
@@ -140,10 +171,13 @@ template <typename Visit>
 bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const PreparedRay& ray, double t0,
                                          double t1, TreeScratch& scratch, Visit&& visit) const {
   if (!clip_to_cell(item, ray, t0, t1)) return true;
+  const auto literals = literals_of(item);
   if (item.first_node != SurfaceItem::kFlat || item.literal_count > crossings::kMaxFlatLiterals) {
     return general_crossings(item, ray, t0, t1, scratch, visit);
   }
-  const auto literals = literals_of(item);
+  if (literals.front().kind == PrimitiveKind::kMesh && literals.size() == 1 && item.cell == SurfaceItem::kAllSpace) {
+    return mesh_crossings(item, ray, t0, t1, scratch, visit);
+  }
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> intervals;
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
   std::size_t removed_count = 0;
@@ -173,6 +207,18 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
 }
 
 template <typename Visit>
+bool SurfaceTree::mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
+                                 TreeScratch& scratch, Visit&& visit) const {
+  ++scratch.counts.primitives_tested;
+  const Literal& literal = literals_of(item).front();
+  const bool swaps = literal.is_inverted != item.is_complement;
+  const Mesh& mesh = model_->meshes[model_->primitives[literal.primitive].mesh];
+  return mesh.crossings(ray.ray, t0, t1, scratch.cuts, [&](double t, bool entering) {
+    return visit(Crossing{t, literal.primitive, item.object, entering != swaps});
+  });
+}
+
+template <typename Visit>
 bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0,
                                     double t1, TreeScratch& scratch, Visit&& visit) const {
   const auto literals = literals_of(item);
@@ -183,8 +229,12 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
   before.assign(literals.size() / 64 + 1, 0);
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
     ++scratch.counts.primitives_tested;
-    const Primitive& primitive = model_->primitives[literals[i].primitive];
-    crossings::gather(spans_along(primitive, model_->planes, ray.ray), i, t0, t1, events, before);
+    const std::uint32_t primitive = literals[i].primitive;
+    if (literals[i].kind == PrimitiveKind::kMesh) {
+      crossings::gather(scratch.meshes.spans(*model_, primitive, ray.ray), i, t0, t1, events, before);
+    } else {
+      crossings::gather(spans_along(model_->primitives[primitive], model_->data(), ray.ray), i, t0, t1, events, before);
+    }
   }
   if (events.empty()) return true;
   const bool is_flat = item.first_node == SurfaceItem::kFlat;

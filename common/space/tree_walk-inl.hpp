@@ -14,6 +14,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/culling_ray.hpp"
 #include "space/surface_tree.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,51 +22,6 @@ namespace graycube {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Relative error of a float plane parameter: the direction, its reciprocal and the slack itself, a
-/// difference and a product, each rounded once, with room to spare.
-constexpr float kSlack = 1e-6f;
-/// Directions flatter than this count as this: such a ray doesn't move sideways within any scene.
-constexpr float kFlattest = 1e-30f;
-
-/// One coordinate of a ray in floats, made so that no box which the exact ray meets is missed: distances
-/// are taken from a little before the origin to the near planes, from a little behind it to the far ones,
-/// and the reciprocals carry the slack.
-struct CullingAxis {
-  CullingAxis(double origin, double direction) {
-    const auto f = static_cast<float>(origin);
-    const float error = std::fabs(f) * 1.2e-7f + 1e-37f;
-    auto d = static_cast<float>(direction);
-    if (std::fabs(d) < kFlattest) d = std::signbit(d) ? -kFlattest : kFlattest;
-    is_downward = d < 0;
-    const float inverse = 1 / d;
-    near_inverse = inverse * (1 - kSlack);
-    far_inverse = inverse * (1 + kSlack);
-    near_origin = is_downward ? f - error : f + error;
-    far_origin = is_downward ? f + error : f - error;
-  }
-  float near_inverse, far_inverse, near_origin, far_origin;
-  bool is_downward;
-};
-
-struct CullingRay {
-  CullingRay() = default;
-  explicit CullingRay(const Ray& ray) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      set(a, CullingAxis(ray.origin[static_cast<int>(a)], ray.direction[static_cast<int>(a)]));
-    }
-  }
-  void set(std::size_t a, const CullingAxis& axis) {
-    near_inverse[a] = axis.near_inverse;
-    far_inverse[a] = axis.far_inverse;
-    near_origin[a] = axis.near_origin;
-    far_origin[a] = axis.far_origin;
-    near_side[a] = axis.is_downward ? 1 : 0;
-  }
-  std::array<float, 3> near_inverse, far_inverse, near_origin, far_origin;
-  /// Index into WideNode::planes of the side that the ray meets first.
-  std::array<std::size_t, 3> near_side;
-};
 
 /// Tests the eight boxes of a node against [t0, t1]; bit i of the result: child i may be met, from near[i] on.
 HWY_INLINE std::uint32_t meet(const WideNode& node, const CullingRay& ray, float t0, float t1,

@@ -10,6 +10,12 @@ std::size_t bytes_of(const std::vector<T>& v) {
   return v.size() * sizeof(T);
 }
 
+std::size_t mesh_bytes(const Model& model) {
+  std::size_t bytes = 0;
+  for (const Mesh& mesh : model.meshes) bytes += mesh.memory_bytes();
+  return bytes;
+}
+
 }  // namespace
 
 std::shared_ptr<const Territory> Territory::of(Model model, Subdivision subdivision) {
@@ -25,7 +31,7 @@ std::shared_ptr<const Territory> Territory::of(Model model, Subdivision subdivis
 
 std::size_t Territory::memory_bytes() const {
   return bytes_of(model.primitives) + bytes_of(model.planes) + bytes_of(model.nodes) +
-         bytes_of(model.objects) + bytes_of(model.materials) +
+         bytes_of(model.objects) + mesh_bytes(model) + bytes_of(model.materials) +
          (tree ? tree->memory_bytes() : bsp->memory_bytes());
 }
 

@@ -13,7 +13,7 @@ constexpr std::size_t kMostBehind = 256;
 /// The parameter at which the primitive itself is crossed nearest to t: what found t was the ray turned round, whose
 /// roots may differ in the last bit.
 double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, double t) {
-  const Spans spans = spans_along(model.primitives[primitive], model.planes, ray);
+  const Spans spans = spans_along(model.primitives[primitive], model.data(), ray);
   double best = t, least = Aabb::kInf;
   for (int i = 0; i < spans.count; ++i) {
     const auto& s = spans.interval[static_cast<std::size_t>(i)];

@@ -20,7 +20,7 @@ bool is_pixels_own_ray(const Domain& domain, const RayTask& task) {
 /// Out of the object: against a ray that enters it, along one that leaves it.
 Vec3 object_normal(const Domain& domain, const RayTask& task, const Crossing& hit) {
   const Model& model = domain.model();
-  const Vec3 n = outward_normal(model.primitives[hit.primitive], model.planes, task.ray, hit.t);
+  const Vec3 n = outward_normal(model.primitives[hit.primitive], model.data(), task.ray, hit.t);
   return (dot(n, task.ray.direction) > 0) == hit.entering ? -n : n;
 }
 

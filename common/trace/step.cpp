@@ -314,7 +314,7 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
   }
   const Vec3& d = task.ray.direction;
   const Vec3 p = task.ray.at(hit.t);
-  Vec3 n = outward_normal(solid, model.planes, task.ray, hit.t);
+  Vec3 n = outward_normal(solid, model.data(), task.ray, hit.t);
   if (dot(n, d) > 0) n = -n;
   const std::size_t index = surfaces_.size();
   for (std::size_t a = 0; a < 3; ++a) {

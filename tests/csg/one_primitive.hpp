@@ -11,7 +11,7 @@ namespace graycube::testing {
 
 inline const std::array<const char*, kLeafKinds> kLeafNames{
     "sphere",  "box",        "cylinder",      "cone",           "torus",   "ellipsoid",
-    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "half_space"};
+    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "mesh", "half_space"};
 
 struct OnePrimitive {
   Model model;
@@ -20,12 +20,12 @@ struct OnePrimitive {
 
   const Primitive& primitive() const { return model.primitives.front(); }
   const Aabb& bounds() const { return primitive().bounds; }
-  Spans spans(const Ray& ray) const { return spans_along(primitive(), model.planes, ray); }
-  bool holds(const Vec3& p) const { return contains(primitive(), model.planes, p); }
+  Spans spans(const Ray& ray) const { return spans_along(primitive(), model.data(), ray); }
+  bool holds(const Vec3& p) const { return contains(primitive(), model.data(), p); }
   Vec3 normal(const Ray& ray, double t) const {
-    return outward_normal(primitive(), model.planes, ray, t);
+    return outward_normal(primitive(), model.data(), ray, t);
   }
-  CellSide side(const Aabb& cell) const { return classify(primitive(), model.planes, cell); }
+  CellSide side(const Aabb& cell) const { return classify(primitive(), model.data(), cell); }
 
   /// Do all points of a small ball around p agree on membership?
   bool is_clear(const Vec3& p, double radius) const {

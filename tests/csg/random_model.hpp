@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "csg/dice.hpp"
+#include "csg/mesh_samples.hpp"
 #include "geometry/affine.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube::testing {
 
-inline constexpr std::size_t kLeafKinds = 11;
+inline constexpr std::size_t kLeafKinds = 12;
 
 struct RandomOptions {
   /// Half of all coordinates are multiples of 1/2, and some leaves repeat others: faces coincide.
@@ -74,6 +75,7 @@ class RandomModel {
       case 7: return node_of(elliptic_cone());
       case 8: return node_of(elliptic_torus());
       case 9: return node_of(quadric());
+      case 10: return node_of(mesh());
       default: return node_of(half_space());
     }
   }
@@ -241,6 +243,29 @@ class RandomModel {
       case 3: return {{1, -1 / k, (k + 1) / k, -1}, {-1, -1, 0}, {1, 1, 1}};
       default: return {{1, 1 - k * k, 0, -1}, {-k, -k, -1}, {k, k, 1}};
     }
+  }
+  /// Coarse enough for flat faces to matter; with cavities, and with parts that overlap.
+  MeshShape mesh() {
+    PolygonMesh polygons;
+    switch (dice_.below(4)) {
+      case 0: {
+        const BoxShape b = box();
+        polygons = box_polygons(b.min, b.max);
+        if (dice_.one_in(2)) {
+          const Vec3 e = 0.25 * (b.max - b.min);
+          append(polygons, box_polygons(b.min + e, b.max - e), true);
+        }
+        break;
+      }
+      case 1: polygons = ring_polygons(1.5, 0.5, 5, 4); break;
+      case 2: polygons = ball_polygons(size(), 3, 6); break;
+      default: {
+        const BoxShape a = box(), b = box();
+        polygons = box_polygons(a.min, a.max);
+        append(polygons, box_polygons(b.min, b.max));
+      }
+    }
+    return {closed(polygons)};
   }
   HalfSpaceShape half_space() {
     return {axis(), is_on_grid() ? dice_.on_grid(2) : dice_.between(-2, 2)};

@@ -104,7 +104,7 @@ class WholeTrees {
 
   bool contains_point(std::size_t object, const Vec3& p) const {
     return holds(trees_[object],
-                 [&](std::uint32_t i) { return contains(model_.primitives[i], model_.planes, p); });
+                 [&](std::uint32_t i) { return contains(model_.primitives[i], model_.data(), p); });
   }
 
   /// Every crossing of one object on the whole line, in order of t.
@@ -154,7 +154,7 @@ class WholeTrees {
   void collect(const SolidTree& tree, const Ray& ray, std::vector<Entry>& entries) const {
     if (tree.kind == SolidTree::Kind::kLeaf) {
       entries.push_back(
-          {tree.primitive, spans_along(model_.primitives[tree.primitive], model_.planes, ray)});
+          {tree.primitive, spans_along(model_.primitives[tree.primitive], model_.data(), ray)});
     }
     for (const SolidTree& c : tree.children) collect(c, ray, entries);
   }

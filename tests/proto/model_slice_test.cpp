@@ -32,6 +32,7 @@ Primitive some_primitive(Random& random, const Model& model) {
     p.plane_count =
         static_cast<std::uint32_t>(1 + random.below(model.planes.size() - p.first_plane));
   }
+  if (p.kind == PrimitiveKind::kMesh) p.mesh = static_cast<std::uint32_t>(random.below(model.meshes.size()));
   for (double& v : p.v) v = random.chance(2) ? 0.0 : random.any_finite();
   if (random.chance(2)) {
     for (auto& row : p.to_local.m) {
@@ -40,6 +41,15 @@ Primitive some_primitive(Random& random, const Model& model) {
   }
   p.bounds = some_box(random);
   return p;
+}
+
+/// Not closed, which a slice may be.
+Mesh some_mesh(Random& random) {
+  TriangleMesh m;
+  for (std::uint64_t n = 1 + random.below(5); n > 0; --n) m.points.push_back(random.vec());
+  const auto point = [&] { return static_cast<std::uint32_t>(random.below(m.points.size())); };
+  for (std::uint64_t n = 1 + random.below(9); n > 0; --n) m.triangles.push_back({point(), point(), point()});
+  return Mesh(std::move(m));
 }
 
 /// Appends a tree of at most `depth` levels.
@@ -97,6 +107,7 @@ Model some_model(std::uint64_t seed) {
   }
   for (std::uint64_t n = random.below(5); n > 0; --n)
     model.planes.push_back({random.vec(), random.any_finite()});
+  for (std::uint64_t n = 1 + random.below(2); n > 0; --n) model.meshes.push_back(some_mesh(random));
   for (std::uint64_t n = 1 + random.below(6); n > 0; --n) {
     model.primitives.push_back(some_primitive(random, model));
   }
@@ -122,6 +133,7 @@ Model small_model() {
                            Handedness::kRight, {0.5, 0.5}, InsideView::kExit};
   model.materials.resize(1);
   model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
+  model.meshes.emplace_back(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}}});
   model.primitives.resize(2);
   model.primitives[0].v = {1, 2, 3, 0.5, 0, 0};
   model.primitives[0].bounds = {{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}};
@@ -175,14 +187,20 @@ TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives"
   const Bytes bytes = encode_model(small_model());
   CHECK(std::memcmp(bytes.data(), "GCM1", 4) == 0);
   CHECK(load_little<std::uint16_t>(bytes.data() + 4) == kModelVersion);
-  const std::uint32_t counts[] = {0, 1, 2, 2, 6, 2};
-  for (std::size_t i = 0; i < 6; ++i)
+  const std::uint32_t counts[] = {0, 1, 2, 2, 6, 2, 1};
+  for (std::size_t i = 0; i < 7; ++i)
     CHECK(load_little<std::uint32_t>(bytes.data() + 8 + 4 * i) == counts[i]);
-  CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 4);
-  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 3);
-  CHECK(load_little<double>(bytes.data() + 48 + 16) == -5);
-  // Settings end at 220; a material of 81 bytes, two planes, then the first primitive.
-  const std::byte* primitive = bytes.data() + 220 + 81 + 64;
+  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 4);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 40) == 3);
+  CHECK(load_little<double>(bytes.data() + 52 + 16) == -5);
+  // Settings end at 224; a material of 81 bytes, two planes, a mesh of three points and two triangles, then the first
+  // primitive.
+  const std::byte* mesh = bytes.data() + 224 + 81 + 64;
+  CHECK(load_little<std::uint32_t>(mesh) == 3);
+  CHECK(load_little<std::uint32_t>(mesh + 4) == 2);
+  CHECK(load_little<double>(mesh + 8 + 24) == 1);
+  CHECK(load_little<std::uint32_t>(mesh + 8 + 72 + 4) == 1);
+  const std::byte* primitive = mesh + 8 + 72 + 24;
   CHECK(load_little<std::uint8_t>(primitive) == 0);
   CHECK(load_little<std::uint16_t>(primitive + 1) == (0x0F | 0x80));
   CHECK(load_little<double>(primitive + 7 + 24) == 0.5);
@@ -234,6 +252,19 @@ TEST_CASE("a broken model is refused, and the error names the part") {
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].bounds.lo.x = std::nan(""); }},
       {"primitive 1", "plane", [](Model& m) { m.primitives[1].plane_count = 3; }},
       {"primitive 1", "plane", [](Model& m) { m.primitives[1].first_plane = 0xFFFFFFFF; }},
+      {"primitive 1", "mesh", [](Model& m) { m.primitives[1].mesh = 1; }},
+      {"primitive 1", "mesh",
+       [](Model& m) {
+         m.primitives[1].kind = PrimitiveKind::kMesh;
+         m.primitives[1].mesh = 1;
+       }},
+      {"primitive 1", "mesh",
+       [](Model& m) {
+         m.meshes.clear();
+         m.primitives[1].kind = PrimitiveKind::kMesh;
+       }},
+      {"mesh 0", "empty", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, 0, 0}}, {}}); }},
+      {"mesh 0", "finite", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, Aabb::kInf, 0}}, {{0, 0, 0}}}); }},
       {"node 1", "primitive", [](Model& m) { m.nodes[1].primitive = 2; }},
       {"node 2", "children", [](Model& m) { m.nodes[2].size = 1; }},
       {"node 2", "parent", [](Model& m) { m.nodes[2].size = 4; }},
@@ -258,9 +289,26 @@ TEST_CASE("a broken model is refused, and the error names the part") {
   }
 }
 
+TEST_CASE("a mesh's counts and indices are checked") {
+  const Bytes good = encode_model(small_model());
+  constexpr std::size_t kMesh = 224 + 81 + 64;
+  const auto why_with = [&](std::size_t at, std::uint32_t value) {
+    Bytes bytes = good;
+    store_little(bytes.data() + kMesh + at, value);
+    const ModelError error = error_of(bytes);
+    CHECK(error.where == "mesh 0");
+    return error.why;
+  };
+  CHECK(why_with(0, 0) == "empty");
+  CHECK(why_with(0, kMaxModelPoints) == "too short");
+  CHECK(why_with(0, kMaxModelPoints + 1) == "a count beyond its limit");
+  CHECK(why_with(4, kMaxMeshTriangles + 1) == "a count beyond its limit");
+  CHECK(why_with(8 + 72, 3) == "no such point");
+}
+
 TEST_CASE("counts beyond the bytes are refused before memory is taken") {
   const Bytes good = encode_model(small_model());
-  for (std::size_t field = 0; field < 6; ++field) {
+  for (std::size_t field = 0; field < 7; ++field) {
     for (const std::uint32_t count : {1000u, 4000u, 1u << 20, 0xFFFFFFFFu}) {
       Bytes bytes = good;
       store_little(bytes.data() + 8 + 4 * field, count);

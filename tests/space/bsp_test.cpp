@@ -31,7 +31,7 @@ bool program_holds(const Bsp& bsp, const CellProgram& program, const Vec3& p) {
   const Model& model = bsp.model();
   const auto nodes = std::span(bsp.program_nodes()).subspan(program.first_node, program.node_count);
   const auto inside = [&](std::uint32_t i) {
-    return contains(model.primitives[i], model.planes, p);
+    return contains(model.primitives[i], model.data(), p);
   };
   const auto literal = [&](const TreeNode& n) { return evaluate(std::span(&n, 1), inside); };
   switch (program.shape) {

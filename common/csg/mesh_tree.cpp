@@ -1,0 +1,206 @@
+#include "csg/mesh_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace graycube {
+namespace {
+
+constexpr float kFloatInf = std::numeric_limits<float>::infinity();
+constexpr std::size_t kBins = 16;
+/// From here on groups are simply halved: 24 more levels end 2²³ triangles, and all fit the stack.
+constexpr std::size_t kMaxChosenDepth = 40;
+static_assert((kMaxChosenDepth + 24) * (MeshTreeNode::kWidth - 1) + MeshTreeNode::kWidth <= MeshTree::kMaxStack);
+
+struct FloatBox {
+  std::array<float, 3> lo{kFloatInf, kFloatInf, kFloatInf}, hi{-kFloatInf, -kFloatInf, -kFloatInf};
+
+  void include(const FloatBox& o) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = std::min(lo[a], o.lo[a]);
+      hi[a] = std::max(hi[a], o.hi[a]);
+    }
+  }
+  float half_area() const {
+    const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
+    return x * y + y * z + z * x;
+  }
+  float center(std::size_t a) const { return 0.5f * lo[a] + 0.5f * hi[a]; }
+};
+
+/// Boxes are larger than their triangles by this share of the largest coordinate: a line parallel to a box's side passes
+/// a point of that side to within rounding.
+constexpr double kGrowth = 1e-9;
+
+FloatBox box_of(const TriangleMesh& mesh, const Triangle& t, double grow) {
+  FloatBox box;
+  for (const std::uint32_t i : t) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double v = mesh.points[i][static_cast<int>(a)];
+      box.lo[a] = std::min(box.lo[a], float_below(v - grow));
+      box.hi[a] = std::max(box.hi[a], float_above(v + grow));
+    }
+  }
+  return box;
+}
+
+}  // namespace
+
+class MeshTreeBuilder {
+ public:
+  MeshTreeBuilder(const TriangleMesh& mesh, MeshTree& tree) : mesh_(mesh), tree_(tree), order_(mesh.triangles.size()) {
+    boxes_.reserve(order_.size());
+    double largest = 0;
+    for (const Vec3& p : mesh.points) largest = larger(max_abs(p), largest);
+    for (const Triangle& t : mesh.triangles) boxes_.push_back(box_of(mesh, t, kGrowth * largest));
+    std::iota(order_.begin(), order_.end(), 0u);
+  }
+
+  void run() {
+    if (order_.empty()) return;
+    tree_.nodes_.emplace_back();
+    build_node(0, order_, 0);
+    tree_.triangles_.reserve(order_.size());
+    for (const std::uint32_t i : order_) tree_.triangles_.push_back(mesh_.triangles[i]);
+  }
+
+ private:
+  using Run = std::span<std::uint32_t>;
+  struct Group {
+    Run run;
+    FloatBox box;
+  };
+  struct Bin {
+    FloatBox box;
+    std::size_t count = 0;
+  };
+
+  Group group_of(Run run) const {
+    Group g{run, {}};
+    for (const std::uint32_t i : run) g.box.include(boxes_[i]);
+    return g;
+  }
+
+  void build_node(std::size_t index, Run run, std::size_t depth) {
+    std::vector<Group> groups{group_of(run)};
+    while (groups.size() < MeshTreeNode::kWidth) {
+      // The group with the largest surface is opened next.
+      std::size_t widest = groups.size();
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (groups[g].run.size() <= MeshTree::kMaxLeafTriangles) continue;
+        if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area()) widest = g;
+      }
+      if (widest == groups.size()) break;
+      const Run all = groups[widest].run;
+      const std::size_t middle = depth < kMaxChosenDepth ? partition(all) : all.size() / 2;
+      groups[widest] = group_of(all.first(middle));
+      groups.push_back(group_of(all.subspan(middle)));
+    }
+    MeshTreeNode node;
+    for (std::size_t g = 0; g < MeshTreeNode::kWidth; ++g) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        node.planes[0][a][g] = g < groups.size() ? groups[g].box.lo[a] : kFloatInf;
+        node.planes[1][a][g] = g < groups.size() ? groups[g].box.hi[a] : -kFloatInf;
+      }
+      if (g >= groups.size()) continue;
+      const Run& own = groups[g].run;
+      if (own.size() <= MeshTree::kMaxLeafTriangles) {
+        const auto first = static_cast<std::uint32_t>(own.data() - order_.data());
+        const auto count = static_cast<std::uint32_t>(own.size());
+        node.child[g] = MeshTreeNode::kLeafFlag | (count - 1) << MeshTreeNode::kCountShift | first;
+      } else {
+        node.child[g] = static_cast<std::uint32_t>(tree_.nodes_.size());
+        tree_.nodes_.emplace_back();
+      }
+    }
+    tree_.nodes_[index] = node;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (groups[g].run.size() > MeshTree::kMaxLeafTriangles) build_node(node.child[g], groups[g].run, depth + 1);
+    }
+  }
+
+  static std::size_t bin_of(float center, float lo, float scale) {
+    const float at = (center - lo) * scale;
+    // Written so that NaN, which boxes beyond all floats would give, stays within the bins.
+    return at > 0 ? std::min(static_cast<std::size_t>(std::min(at, static_cast<float>(kBins))), kBins - 1) : 0;
+  }
+
+  /// Splits the run where the surface-area heuristic wants it; the size of the first part, between both ends.
+  std::size_t partition(Run run) {
+    FloatBox centers;
+    for (const std::uint32_t i : run) {
+      const FloatBox& b = boxes_[i];
+      const std::array<float, 3> c{b.center(0), b.center(1), b.center(2)};
+      centers.include({c, c});
+    }
+    std::size_t axis = 0;
+    for (std::size_t a = 1; a < 3; ++a) {
+      if (centers.hi[a] - centers.lo[a] > centers.hi[axis] - centers.lo[axis]) axis = a;
+    }
+    const float extent = centers.hi[axis] - centers.lo[axis];
+    if (!(extent > 0) || !std::isfinite(extent)) return run.size() / 2;
+    const float lo = centers.lo[axis], scale = static_cast<float>(kBins) / extent;
+    std::array<Bin, kBins> bins;
+    for (const std::uint32_t i : run) {
+      Bin& bin = bins[bin_of(boxes_[i].center(axis), lo, scale)];
+      bin.box.include(boxes_[i]);
+      ++bin.count;
+    }
+    const std::size_t split = best_split(bins, run.size());
+    if (split == kBins) return run.size() / 2;
+    const auto middle = std::partition(run.begin(), run.end(), [&](std::uint32_t i) {
+      return bin_of(boxes_[i].center(axis), lo, scale) <= split;
+    });
+    return static_cast<std::size_t>(middle - run.begin());
+  }
+
+  /// The last bin of the first part; kBins when there is no split.
+  static std::size_t best_split(const std::array<Bin, kBins>& bins, std::size_t all) {
+    std::array<float, kBins> above_cost{};
+    Bin above;
+    for (std::size_t b = kBins - 1; b > 0; --b) {
+      above.box.include(bins[b].box);
+      above.count += bins[b].count;
+      above_cost[b] = above.count == 0 ? 0 : above.box.half_area() * static_cast<float>(above.count);
+    }
+    Bin below;
+    std::size_t best = kBins;
+    float best_cost = kFloatInf;
+    for (std::size_t b = 0; b + 1 < kBins; ++b) {
+      below.box.include(bins[b].box);
+      below.count += bins[b].count;
+      if (below.count == 0 || below.count == all) continue;
+      const float cost = below.box.half_area() * static_cast<float>(below.count) + above_cost[b + 1];
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = b;
+      }
+    }
+    return best;
+  }
+
+  const TriangleMesh& mesh_;
+  MeshTree& tree_;
+  std::vector<FloatBox> boxes_;
+  std::vector<std::uint32_t> order_;
+};
+
+MeshTree::MeshTree(const TriangleMesh& mesh) { MeshTreeBuilder(mesh, *this).run(); }
+
+std::uint32_t MeshTree::touching(const MeshTreeNode& node, const Aabb& box) {
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < MeshTreeNode::kWidth; ++i) {
+    bool meets = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int axis = static_cast<int>(a);
+      meets = meets && static_cast<double>(node.planes[0][a][i]) <= box.hi[axis] &&
+              static_cast<double>(node.planes[1][a][i]) >= box.lo[axis];
+    }
+    mask |= static_cast<std::uint32_t>(meets) << i;
+  }
+  return mask;
+}
+
+}  // namespace graycube

@@ -1,0 +1,45 @@
+// What solving and classifying a primitive gives.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace graycube {
+
+/// Where a line is inside a primitive: disjoint intervals [enter, leave] in order, ends included,
+/// ±infinity where the primitive is unbounded. Tangency gives an interval of length zero or none.
+class Spans {
+ public:
+  /// Kinds other than meshes have at most so many; more take memory.
+  static constexpr int kMax = 2;
+  struct Interval {
+    double enter, leave;
+  };
+  class Intervals {
+   public:
+    const Interval& operator[](std::size_t i) const { return many_.empty() ? few_[i] : many_[i]; }
+
+   private:
+    friend class Spans;
+    std::array<Interval, kMax> few_;
+    std::vector<Interval> many_;
+  };
+  int count = 0;
+  Intervals interval;
+
+  void add(double enter, double leave) {
+    if (count < kMax) [[likely]] {
+      interval.few_[static_cast<std::size_t>(count++)] = {enter, leave};
+      return;
+    }
+    if (count == kMax) interval.many_.assign(interval.few_.begin(), interval.few_.end());
+    interval.many_.push_back({enter, leave});
+    ++count;
+  }
+};
+
+enum class CellSide : std::uint8_t { kOutside, kInside, kCrosses };
+
+}  // namespace graycube
