@@ -196,10 +196,10 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     import_openscad(path, options, choice, input);
   } else if (is_brlcad(path)) {
     import_brlcad(path, options, choice, input);
-  } else if (path.extension() == ".json") {
+  } else if (path.extension() == ".json" || path.extension() == ".cbor") {
     read_json(path, input);
   } else {
-    throw bad_scene(path, "expected a name ending in .json, .scad, .csg, .g or .asc");
+    throw bad_scene(path, "expected a name ending in .json, .cbor, .scad, .csg, .g or .asc");
   }
   return input;
 }

@@ -13,6 +13,9 @@ namespace {
 /// What a subtracted piece reaches beyond that from which it is subtracted, in heights.
 constexpr double kReachBeyond = 0.25;
 
+/// Sides that are all but level make cones no wider than this.
+constexpr double kWidestCone = 1e40;
+
 CsgNode leaf(decltype(CsgNode::value) value) { return {std::move(value), std::nullopt, kInheritMaterial}; }
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
@@ -110,7 +113,9 @@ class TurnedPiece {
       if (!(radius > 0)) return std::nullopt;
       return leaf(CylinderShape{{0, 0, low}, {0, 0, high}, radius});
     }
-    const auto radius_at = [&](double z) { return (e.offset - e.normal.y * z) / e.normal.x; };
+    const auto radius_at = [&](double z) {
+      return std::min((e.offset - e.normal.y * z) / e.normal.x, kWidestCone);
+    };
     double r_low = radius_at(low), r_high = radius_at(high);
     if (!(r_low > 0) && !(r_high > 0)) return std::nullopt;
     const double apex = e.offset / e.normal.y;

@@ -32,6 +32,8 @@ inline constexpr double kMaxOpenscadCoordinate = 1e30;
 
 /// Sides of anything round that is made of facets, and slices of an extrusion.
 inline constexpr int kMaxOpenscadSides = 4096;
+/// Facets of one solid that the importer makes of facets.
+inline constexpr std::size_t kMaxOpenscadFacets = std::size_t{1} << 20;
 /// Corners of a polygon after operations.
 inline constexpr std::size_t kMaxOpenscadCorners = std::size_t{1} << 18;
 

@@ -52,6 +52,10 @@ std::optional<ScadSolid> sphere(ScadArguments& arguments, bool facets) {
       arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
   const int sides = sides_of(arguments, r, facets);
   if (arguments.empty_unless(positive(r), "its radius is not positive")) return std::nullopt;
+  if (std::size_t(sides) * std::size_t(sides) / 2 > kMaxOpenscadFacets) {
+    arguments.fail("more than " + std::to_string(kMaxOpenscadFacets) + " facets");
+    return std::nullopt;
+  }
   if (sides > 0) return polyhedral_solid(faceted_sphere(r, sides), arguments);
   return round_solid(SphereShape{{}, r});
 }

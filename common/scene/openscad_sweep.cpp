@@ -69,6 +69,10 @@ std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, doub
     part.insert(part.begin(), std::move(region.outline));
     std::size_t corners = 0;
     for (const FlatLoop& loop : part) corners += loop.size();
+    if (!crossings_are_few(std::span(&part, 1))) {
+      import.report.error(line, "the outline crosses itself too often");
+      return std::nullopt;
+    }
     if (corners > kMaxPrismPoints) {
       import.report.error(line, "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
       return std::nullopt;
@@ -188,6 +192,20 @@ std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions, 
   return operation(Operation::kUnion, std::move(parts));
 }
 
+/// Reports a mesh of too many facets.
+bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module, ScadImport& import) {
+  std::size_t corners = 0, most = 0;
+  for (const FlatLoop& loop : loops) {
+    corners += loop.size();
+    most = std::max(most, loop.size());
+  }
+  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets && most <= kMaxFaceCorners) return true;
+  import.report.error(module.line, module.name + "(): more than " + std::to_string(kMaxOpenscadFacets) +
+                                       " facets, or an outline of more than " + std::to_string(kMaxFaceCorners) +
+                                       " corners");
+  return false;
+}
+
 std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   const auto sweep = linear_sweep(module, import);
   const auto shape = sweep ? figure_of(module, import) : std::nullopt;
@@ -198,7 +216,7 @@ std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   }
   if (shape->has_curves()) import.warn_once(module.line, "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);
-  if (!loops) return std::nullopt;
+  if (!loops || !is_mesh_small(*loops, slices_of(*loops, *sweep), module, import)) return std::nullopt;
   return mesh_of_regions(swept(*loops, *sweep), module, import);
 }
 
@@ -223,6 +241,7 @@ std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
   if (!sweep) return std::nullopt;
   // Few sides, when asked for, are meant.
   if (import.options.facets || asked_sides(sweep->fineness) > 0) {
+    if (!is_mesh_small(*loops, steps_of(*loops, *sweep), module, import)) return std::nullopt;
     return mesh_of_regions(turned_mesh(*loops, *sweep), module, import);
   }
   if (sweep->mirrored) {
@@ -274,8 +293,10 @@ bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec
   if (!loops) return false;
   std::vector<SweptRegion> regions;
   if (along) {
+    if (!is_mesh_small(*loops, slices_of(*loops, *along), module, import)) return false;
     regions = swept(*loops, *along);
   } else if (const auto around = turn_sweep(module, import, *loops)) {
+    if (!is_mesh_small(*loops, steps_of(*loops, *around), module, import)) return false;
     regions = turned_mesh(*loops, *around);
   }
   for (const SweptRegion& region : regions) {

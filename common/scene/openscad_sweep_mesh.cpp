@@ -97,7 +97,8 @@ double spiral_length(double a, double angle) {
 }  // namespace
 
 // The figures are those of OpenSCAD 2021.01's Calc.cc, stated anew.
-int default_slices(const FlatLoops& loops, const LinearSweep& sweep) {
+int slices_of(const FlatLoops& loops, const LinearSweep& sweep) {
+  if (sweep.slices > 0) return sweep.slices;
   const ScadFineness& f = sweep.fineness;
   const double height = sweep.high - sweep.low, twist = std::fabs(sweep.twist);
   double radius2 = 0, change2 = 0;
@@ -134,7 +135,7 @@ int default_slices(const FlatLoops& loops, const LinearSweep& sweep) {
 
 std::vector<SweptRegion> swept(const FlatLoops& loops, const LinearSweep& sweep) {
   LinearSweep cut = sweep;
-  if (cut.slices == 0) cut.slices = default_slices(loops, sweep);
+  cut.slices = slices_of(loops, sweep);
   std::vector<SweptRegion> regions;
   for (const FlatRegion& region : regions_of(loops)) {
     SweptRegion& out = regions.emplace_back();
@@ -146,12 +147,16 @@ std::vector<SweptRegion> swept(const FlatLoops& loops, const LinearSweep& sweep)
   return regions;
 }
 
-std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sweep) {
+int steps_of(const FlatLoops& loops, const TurnSweep& sweep) {
   const auto [lo, hi] = flat_bounds(loops);
-  const bool is_closed = sweep.angle == 360;
   const double share = std::fabs(sweep.angle) / 360;
   const int around = fragments(std::max(hi.x, 0.0) - std::min(lo.x, 0.0), sweep.fineness);
-  const int steps = std::max(static_cast<int>(around * share), is_closed ? 3 : 1);
+  return std::max(static_cast<int>(around * share), sweep.angle == 360 ? 3 : 1);
+}
+
+std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sweep) {
+  const bool is_closed = sweep.angle == 360;
+  const int steps = steps_of(loops, sweep);
   const double reach = std::min(kHoleTurn, (360 - std::fabs(sweep.angle)) / 3) * (sweep.angle > 0 ? 1 : -1);
   std::vector<double> angles;
   // A whole turn starts on the negative side in OpenSCAD.

@@ -35,7 +35,9 @@ struct SweptRegion {
 std::vector<SweptRegion> swept(const FlatLoops& loops, const LinearSweep& sweep);
 std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sweep);
 
-/// The slices that OpenSCAD 2021.01 takes where none are asked for.
-int default_slices(const FlatLoops& loops, const LinearSweep& sweep);
+/// The slices asked for, or those that OpenSCAD 2021.01 takes where none are.
+int slices_of(const FlatLoops& loops, const LinearSweep& sweep);
+/// The facets round the turn.
+int steps_of(const FlatLoops& loops, const TurnSweep& sweep);
 
 }  // namespace graycube
