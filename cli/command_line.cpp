@@ -27,7 +27,7 @@ void add(CLI::App& app, const std::string& names, const char* type, const std::s
 
 void add_scene(CLI::App& app, std::string& scene) {
   add(
-      app, "SCENE", "", "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc)",
+      app, "SCENE", "", "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc), a mesh (.stl, .off)",
       [&scene](const std::string& text) { scene = text; }, true);
 }
 
@@ -267,7 +267,7 @@ class Parser {
     auto& convert =
         declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
     add(
-        *sub, "IN", "", ".json, .scad, .csg, .g, .asc or .exr",
+        *sub, "IN", "", ".json, .cbor, .scad, .csg, .g, .asc, .stl, .off or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
     add(
         *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",

@@ -6,6 +6,7 @@
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"
 #include "scene/cbor_writer.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/padded_text.hpp"
 #include "scene/write_pov.hpp"
 #include "scene/write_scene.hpp"
@@ -53,12 +54,13 @@ ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
-  const bool is_scene = from == ".json" || from == ".cbor" || is_openscad(in) || is_brlcad(in);
+  const bool is_scene =
+      from == ".json" || from == ".cbor" || is_openscad(in) || is_brlcad(in) || is_mesh_file(in);
   const bool is_known =
       (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json, .cbor, .scad, .csg, .g or .asc to .json, .cbor or .pov, or .exr to .png; found " +
+                        "expected .json, .cbor, .scad, .csg, .g, .asc, .stl or .off to .json, .cbor or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);

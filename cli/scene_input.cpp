@@ -12,6 +12,8 @@
 #include "cli/openscad_process.hpp"
 #include "scene/brlcad.hpp"
 #include "scene/brlcad_database.hpp"
+#include "scene/mesh_file.hpp"
+#include "scene/mesh_scene.hpp"
 #include "scene/openscad.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
@@ -137,6 +139,21 @@ void import_openscad(const fs::path& path, const control::JobOptions& options, c
   input.text = write_scene_text(input.scene);
 }
 
+void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
+  auto read = read_mesh_file(path);
+  if (const auto* fault = std::get_if<MeshFault>(&read)) {
+    // The file's name is in front already.
+    const std::string name = path.string() + ": ";
+    throw bad_scene(path, fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
+  }
+  OpenscadOptions how;
+  how.image.width = options.width.value_or(how.image.width);
+  how.image.height = options.height.value_or(how.image.height);
+  how.max_depth = options.max_depth.value_or(how.max_depth);
+  input.scene = scene_of_mesh(std::move(std::get<TriangleMesh>(read)), how);
+  input.text = write_scene_text(input.scene);
+}
+
 Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
   std::vector<Problem> problems;
   for (const BrlcadMessage& e : errors) {
@@ -198,8 +215,10 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     import_brlcad(path, options, choice, input);
   } else if (path.extension() == ".json" || path.extension() == ".cbor") {
     read_json(path, input);
+  } else if (is_mesh_file(path)) {
+    import_mesh(path, options, input);
   } else {
-    throw bad_scene(path, "expected a name ending in .json, .cbor, .scad, .csg, .g or .asc");
+    throw bad_scene(path, "expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off");
   }
   return input;
 }

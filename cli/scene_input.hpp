@@ -34,7 +34,8 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD) and finds all its errors. `options` gives a picture's
+/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one mesh) and finds all its
+/// errors. `options` gives a picture's
 /// size and depth to import for. Throws a Failure of status 2 with a problem for each error,
 /// `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,

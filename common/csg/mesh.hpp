@@ -8,19 +8,13 @@
 #include <memory>
 #include <vector>
 
+#include "csg/mesh_walk.hpp"
 #include "csg/spans.hpp"
 #include "csg/triangle_mesh.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/ray.hpp"
 
 namespace graycube {
-
-/// Where a line passes through a triangle: `count` is what it adds to the winding number, +1 on the way in.
-struct MeshCut {
-  double t;
-  std::int32_t count;
-  std::uint32_t triangle;
-};
 
 /// A value; copies share what never changes.
 class Mesh {

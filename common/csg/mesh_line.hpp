@@ -41,6 +41,9 @@ class MeshLine {
     const Vec3 q = p - origin_;
     return {dot(x_, q), dot(y_, q)};
   }
+  const Vec3& origin() const { return origin_; }
+  const Vec3& x_axis() const { return x_; }
+  const Vec3& y_axis() const { return y_; }
   /// What turns a triangle's winding in the plane into what the line adds on its way: −1 when it looks along the plane's
   /// normal.
   int turn() const { return turn_; }
@@ -70,12 +73,14 @@ inline int edge_count(const LinePoint& a, const LinePoint& b) {
   return side < 0 ? -1 : 0;
 }
 
+/// How often a triangle's outline winds around the line, in the plane.
+inline int winding_of(const LinePoint& a, const LinePoint& b, const LinePoint& c) {
+  return edge_count(a, b) + edge_count(b, c) + edge_count(c, a);
+}
+
 /// +1 where the line enters through the triangle's outside, −1 where it leaves through it, 0 where it passes by.
 inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, const Vec3& r) {
-  const LinePoint a = line.see(p), b = line.see(q), c = line.see(r);
-  const bool a_above = a.y >= 0, b_above = b.y >= 0;
-  if (a_above == b_above && b_above == (c.y >= 0)) return 0;
-  return line.turn() * (edge_count(a, b) + edge_count(b, c) + edge_count(c, a));
+  return line.turn() * winding_of(line.see(p), line.see(q), line.see(r));
 }
 
 /// Where the line meets the triangle's plane, kept between the corners' parameters. The expression is that of all planes

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "geometry/culling_ray.hpp"
+
 namespace graycube {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBins = 16;
 /// From here on groups are simply halved: 24 more levels end 2²³ triangles, and all fit the stack.
 constexpr std::size_t kMaxChosenDepth = 40;
-static_assert((kMaxChosenDepth + 24) * (MeshTreeNode::kWidth - 1) + MeshTreeNode::kWidth <= MeshTree::kMaxStack);
+static_assert((kMaxChosenDepth + 24) * (WideNode::kWidth - 1) + WideNode::kWidth <= MeshTree::kMaxStack);
 
 struct FloatBox {
   std::array<float, 3> lo{kFloatInf, kFloatInf, kFloatInf}, hi{-kFloatInf, -kFloatInf, -kFloatInf};
@@ -46,6 +48,37 @@ FloatBox box_of(const TriangleMesh& mesh, const Triangle& t, double grow) {
   return box;
 }
 
+bool touches(const WideNode& node, std::size_t child, const Aabb& box) {
+  bool meets = true;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    meets = meets && static_cast<double>(node.planes[0][a][child]) <= box.hi[axis] &&
+            static_cast<double>(node.planes[1][a][child]) >= box.lo[axis];
+  }
+  return meets;
+}
+
+/// By the boxes, and by the triangle's plane.
+bool may_touch(const Vec3& a, const Vec3& b, const Vec3& c, const Aabb& cell) {
+  Aabb box{a, a};
+  box.include(b);
+  box.include(c);
+  if (!box.overlaps(cell)) return false;
+  const auto absolute = [](const Vec3& v) { return Vec3{std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; };
+  const Aabb near = intersection_of(box, cell);
+  const Vec3 n = cross(b - a, c - a), middle = near.center() - a, half = 0.5 * (near.hi - near.lo);
+  const Vec3 size = absolute(n);
+  const double rounding = 1e-12 * (dot(size, absolute(middle)) + dot(size, half));
+  return !(std::fabs(dot(n, middle)) > dot(size, half) + rounding);
+}
+
+bool may_touch_any(const TriangleBlock& block, const Aabb& cell) {
+  for (std::size_t i = 0; i < TriangleBlock::kWidth; ++i) {
+    if (may_touch(block.corner(i, 0), block.corner(i, 1), block.corner(i, 2), cell)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 class MeshTreeBuilder {
@@ -62,8 +95,6 @@ class MeshTreeBuilder {
     if (order_.empty()) return;
     tree_.nodes_.emplace_back();
     build_node(0, order_, 0);
-    tree_.triangles_.reserve(order_.size());
-    for (const std::uint32_t i : order_) tree_.triangles_.push_back(mesh_.triangles[i]);
   }
 
  private:
@@ -85,11 +116,11 @@ class MeshTreeBuilder {
 
   void build_node(std::size_t index, Run run, std::size_t depth) {
     std::vector<Group> groups{group_of(run)};
-    while (groups.size() < MeshTreeNode::kWidth) {
+    while (groups.size() < WideNode::kWidth) {
       // The group with the largest surface is opened next.
       std::size_t widest = groups.size();
       for (std::size_t g = 0; g < groups.size(); ++g) {
-        if (groups[g].run.size() <= MeshTree::kMaxLeafTriangles) continue;
+        if (groups[g].run.size() <= TriangleBlock::kWidth) continue;
         if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area()) widest = g;
       }
       if (widest == groups.size()) break;
@@ -98,18 +129,17 @@ class MeshTreeBuilder {
       groups[widest] = group_of(all.first(middle));
       groups.push_back(group_of(all.subspan(middle)));
     }
-    MeshTreeNode node;
-    for (std::size_t g = 0; g < MeshTreeNode::kWidth; ++g) {
+    WideNode node;
+    for (std::size_t g = 0; g < WideNode::kWidth; ++g) {
       for (std::size_t a = 0; a < 3; ++a) {
         node.planes[0][a][g] = g < groups.size() ? groups[g].box.lo[a] : kFloatInf;
         node.planes[1][a][g] = g < groups.size() ? groups[g].box.hi[a] : -kFloatInf;
       }
       if (g >= groups.size()) continue;
       const Run& own = groups[g].run;
-      if (own.size() <= MeshTree::kMaxLeafTriangles) {
-        const auto first = static_cast<std::uint32_t>(own.data() - order_.data());
-        const auto count = static_cast<std::uint32_t>(own.size());
-        node.child[g] = MeshTreeNode::kLeafFlag | (count - 1) << MeshTreeNode::kCountShift | first;
+      if (own.size() <= TriangleBlock::kWidth) {
+        node.child[g] = WideNode::kItemFlag | static_cast<std::uint32_t>(tree_.blocks_.size());
+        tree_.blocks_.push_back(block_of(own));
       } else {
         node.child[g] = static_cast<std::uint32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
@@ -117,8 +147,20 @@ class MeshTreeBuilder {
     }
     tree_.nodes_[index] = node;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (groups[g].run.size() > MeshTree::kMaxLeafTriangles) build_node(node.child[g], groups[g].run, depth + 1);
+      if (groups[g].run.size() > TriangleBlock::kWidth) build_node(node.child[g], groups[g].run, depth + 1);
     }
+  }
+
+  TriangleBlock block_of(Run run) const {
+    TriangleBlock block;
+    for (std::size_t i = 0; i < TriangleBlock::kWidth; ++i) {
+      const Triangle& t = mesh_.triangles[run[i < run.size() ? i : 0]];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3& p = mesh_.points[t[i < run.size() ? c : 0]];
+        for (std::size_t a = 0; a < 3; ++a) block.corners[c][a][i] = p[static_cast<int>(a)];
+      }
+    }
+    return block;
   }
 
   static std::size_t bin_of(float center, float lo, float scale) {
@@ -189,18 +231,23 @@ class MeshTreeBuilder {
 
 MeshTree::MeshTree(const TriangleMesh& mesh) { MeshTreeBuilder(mesh, *this).run(); }
 
-std::uint32_t MeshTree::touching(const MeshTreeNode& node, const Aabb& box) {
-  std::uint32_t mask = 0;
-  for (std::size_t i = 0; i < MeshTreeNode::kWidth; ++i) {
-    bool meets = true;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const int axis = static_cast<int>(a);
-      meets = meets && static_cast<double>(node.planes[0][a][i]) <= box.hi[axis] &&
-              static_cast<double>(node.planes[1][a][i]) >= box.lo[axis];
+bool MeshTree::may_touch(const Aabb& box) const {
+  if (nodes_.empty()) return false;
+  std::uint32_t stack[kMaxStack];
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const WideNode& node = nodes_[stack[--size]];
+    for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+      if (!touches(node, i, box)) continue;
+      if ((node.child[i] & WideNode::kItemFlag) == 0) {
+        stack[size++] = node.child[i];
+      } else if (may_touch_any(blocks_[node.child[i] & ~WideNode::kItemFlag], box)) {
+        return true;
+      }
     }
-    mask |= static_cast<std::uint32_t>(meets) << i;
   }
-  return mask;
+  return false;
 }
 
 }  // namespace graycube

@@ -295,8 +295,15 @@ class SceneBuilder {
                     "the model has more than " + std::to_string(kMaxBrlcadLeaves) + " solids");
       return {};
     }
+    const BrlcadSolid& is = std::get<BrlcadSolid>(object.value);
+    triangles_ += is.mesh.faces.size();
+    if (triangles_ > kMaxMeshTriangles) {
+      report_.error(object.name, "the meshes have more than " + std::to_string(kMaxMeshTriangles) +
+                                     " triangles, each use of one counted");
+      return {};
+    }
     BrlcadNode built =
-        brlcad_node(std::get<BrlcadSolid>(object.value), to_world, is_cut ? kBrlcadSkin : 0);
+        brlcad_node(is, to_world, is_cut ? kBrlcadSkin : 0);
     if (!built.node) {
       if (built.is_error) {
         report_.error(object.name, built.problem);
@@ -320,7 +327,7 @@ class SceneBuilder {
   Scene scene_;
   std::map<std::array<double, 10>, MaterialIndex> materials_;
   std::vector<const BrlcadObject*> path_;
-  std::size_t visits_ = 0, leaves_ = 0;
+  std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
   std::vector<std::pair<std::size_t, double>> lamps_;
 };
 

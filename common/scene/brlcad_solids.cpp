@@ -29,10 +29,7 @@ CsgNode operation(Operation op, std::vector<CsgNode> children) {
 BrlcadNode problem(std::string why) { return {std::nullopt, std::move(why), false}; }
 BrlcadNode refusal(std::string why) { return {std::nullopt, std::move(why), true}; }
 
-/// Larger numbers, in mm, mean nothing; their products might overflow.
-constexpr double kMostSize = 1e12;
-
-bool is_fair(double v) { return std::fabs(v) <= kMostSize; }
+bool is_fair(double v) { return std::fabs(v) <= kMostBrlcadSize; }
 bool is_fair(const Vec3& v) { return is_fair(v.x) && is_fair(v.y) && is_fair(v.z); }
 bool is_direction(const Vec3& v) { return is_fair(v) && length(v) > 0; }
 
@@ -458,8 +455,8 @@ BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double 
     case BrlcadKind::kPart: return particle(p, grow);
     case BrlcadKind::kArbn: return arbn(p, grow);
     case BrlcadKind::kPipe: return pipe(p, grow);
-    case BrlcadKind::kArs: return refusal("ars is not supported: meshes aren't built yet");
-    case BrlcadKind::kBot: return refusal("bot is not supported: meshes aren't built yet");
+    case BrlcadKind::kArs:
+    case BrlcadKind::kBot: return brlcad_mesh_node(solid.mesh, to_world, grow);
   }
   return problem("it is of no known kind");
 }

@@ -11,21 +11,11 @@
 #include <vector>
 
 #include "csg/model.hpp"
+#include "geometry/wide_node.hpp"
 #include "space/object_crossings.hpp"
 #include "space/ray_packet.hpp"
 
 namespace graycube {
-
-/// Up to eight boxes side by side. Unused places hold empty boxes.
-struct alignas(64) WideNode {
-  static constexpr std::size_t kWidth = 8;
-  static constexpr std::uint32_t kItemFlag = 0x80000000u;
-
-  /// [0]: lower, [1]: upper sides, by axis.
-  std::array<std::array<std::array<float, kWidth>, 3>, 2> planes{};
-  /// Inner: index of a node; with kItemFlag: of an item.
-  std::array<std::uint32_t, kWidth> child{};
-};
 
 struct SurfaceTreeOptions {
   /// Objects with more literals are cut into cells.

@@ -1,7 +1,13 @@
 #include "cli/scene_input.hpp"
 
+#include <signal.h>
+
+#include <fstream>
+
 #include "cli/expect_failure.hpp"
+#include "cli/openscad_process.hpp"
 #include "cli/temporary_folder.hpp"
+#include "scene/cbor_writer.hpp"
 #include "scene/read_scene.hpp"
 
 namespace graycube {
@@ -33,6 +39,43 @@ TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for") {
   const ReadResult again = read_scene_text(input.text);
   REQUIRE(again.scene);
   CHECK(*again.scene == input.scene);
+}
+
+constexpr const char* kTetrahedron = "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+TEST_CASE("a mesh file becomes a framed scene of one mesh") {
+  const TemporaryFolder folder;
+  control::JobOptions options;
+  options.width = 30;
+  options.height = 20;
+  const SceneInput input = read_scene_input(write_file(folder / "part.off", kTetrahedron), options);
+  CHECK(input.scene.settings.image == ImageSize{30, 20, 1});
+  REQUIRE(input.scene.objects.size() == 1);
+  CHECK(std::get<MeshShape>(input.scene.objects[0].csg.value).mesh.triangles.size() == 4);
+  const ReadResult again = read_scene_text(input.text);
+  REQUIRE(again.scene);
+  CHECK(*again.scene == input.scene);
+}
+
+TEST_CASE("what goes to the farm of a scene with a mesh file holds the mesh") {
+  const TemporaryFolder folder;
+  write_file(folder / "part.off", kTetrahedron);
+  std::string text = kBall;
+  const std::string ball = R"({"type": "sphere", "center": [0,0,0], "radius": 1})";
+  text.replace(text.find(ball), ball.size(), R"({"type": "mesh", "file": "part.off"})");
+  const SceneInput input = read_scene_input(write_file(folder / "scene.json", text));
+  CHECK(input.text.find("part.off") == std::string::npos);
+  const ReadResult again = read_scene_text(input.text);
+  REQUIRE(again.scene);
+  CHECK(*again.scene == input.scene);
+}
+
+TEST_CASE("a mesh file's faults have the file and the line once") {
+  const TemporaryFolder folder;
+  const auto path = write_file(folder / "open.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  CHECK(refusal([&] {
+          read_scene_input(path);
+        }).starts_with("graycube: scene: " + path.string() + ": not closed: the edge from (0, 0, 0) to (1, 0, 0)"));
 }
 
 TEST_CASE("every error of a scene has the file and the place") {
@@ -67,12 +110,59 @@ TEST_CASE("what is no scene file is told apart") {
         }).ends_with("No such file or directory"));
   CHECK(refusal([&] {
           read_scene_input(folder.path());
-        }).ends_with("expected a name ending in .json, .csg, .g or .asc"));
-  CHECK(refusal([&] {
-          read_scene_input(write_file(folder / "a.scad", ""));
-        }).ends_with("openscad -o MODEL.csg MODEL.scad"));
+        }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
+  ModelChoice facets;
+  facets.facets = true;
+  CHECK(refusal([&] { read_scene_input(write_file(folder / "a.json", ""), {}, facets); }).find("--facets") !=
+        std::string::npos);
   std::filesystem::create_directory(folder / "folder.json");
   CHECK(refusal([&] { read_scene_input(folder / "folder.json"); }).ends_with("is a folder"));
+}
+
+TEST_CASE("a scene in CBOR is the scene, and goes to the farm byte for byte") {
+  const TemporaryFolder folder;
+  const std::string cbor = cbor_of(JsonTree(std::string_view(kBall)));
+  const SceneInput input = read_scene_input(write_file(folder / "ball.cbor", cbor));
+  CHECK(input.text == cbor);
+  CHECK(input.scene == read_scene_input(write_file(folder / "ball.json", kBall)).scene);
+}
+
+/// An executable script in the folder.
+std::filesystem::path script(const TemporaryFolder& folder, const std::string& text) {
+  const auto path = write_file(folder / "openscad", "#!/bin/sh\n" + text);
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+TEST_CASE("OpenSCAD's file, its emptiness and its errors come back from a child process") {
+  const TemporaryFolder folder;
+  const auto evaluate = [&](const std::string& text, int seconds = 60) {
+    OpenscadProcess process(script(folder, text), seconds);
+    return process.evaluate("cube(1);", OpenscadProgram::Format::kOff);
+  };
+  CHECK(evaluate("cat \"$3\" > \"$2\"; echo ERROR: none >&2").text == "cube(1);");
+  CHECK(evaluate("echo 'ERROR: no such thing' >&2; exit 1").trouble == "openscad: ERROR: no such thing");
+  CHECK(evaluate("exit 3").trouble == "openscad ended with status 3");
+  CHECK(evaluate("kill -9 $$").trouble == "openscad ended by signal 9");
+  const auto empty = evaluate("echo 'Current top level object is empty.' >&2; exit 1");
+  CHECK((empty.trouble.empty() && empty.text.empty()));
+}
+
+TEST_CASE("OpenSCAD is killed when its time is up, and its files go") {
+  const TemporaryFolder folder;
+  const auto process = script(folder, "echo $$ > " + (folder / "pid").string() + "; echo \"$2\" > " +
+                                          (folder / "output").string() + "; exec sleep 60");
+  {
+    OpenscadProcess openscad(process, 1);
+    CHECK(openscad.evaluate("cube(1);", OpenscadProgram::Format::kOff).trouble == "openscad took more than 1 s");
+  }
+  std::ifstream pid_file(folder / "pid"), output_file(folder / "output");
+  int pid = 0;
+  std::string output;
+  REQUIRE((pid_file >> pid));
+  REQUIRE(std::getline(output_file, output));
+  CHECK(::kill(pid, 0) != 0);
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::path(output).parent_path()));
 }
 
 TEST_CASE("what only serial can render is refused before a farm is asked") {

@@ -87,6 +87,9 @@ TEST_CASE("AOVs are the same whatever computes them") {
   check_identity("first.json", kSize, {"--aov", "depth,normal,albedo,object"});
 }
 TEST_CASE("tori look the same whatever computes them") { check_identity("tori.json"); }
+TEST_CASE("meshes look the same whatever computes them") {
+  check_identity("meshes.json", kSize, {"--aov", "depth,normal,albedo,object"});
+}
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");
 }
@@ -96,7 +99,7 @@ TEST_CASE("an orthographic picture is the same whatever computes it") {
 
 TEST_CASE("a picture does not show which vector instructions computed it") {
   Sandbox sandbox;
-  for (const char* scene : {"first.json", "glass.json", "mirrors.json", "tori.json"}) {
+  for (const char* scene : {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json"}) {
     std::string reference;
     for (const std::string& name : simd_names()) {
       INFO(scene << " with " << name);

@@ -249,6 +249,53 @@ TEST_CASE("quadrics, elliptic tori and general cones hold the points they should
   CHECK_FALSE(holds(tgc, 0, 1.51, 2));
 }
 
+TEST_CASE("a bot and an ars are meshes, in each format") {
+  // A tetrahedron; its faces are turned any way.
+  const std::string v5 = "title t\nput b bot mode volume orient no flags {} V {{0 0 0} {4 0 0} {0 4 0} {0 0 4}} "
+                         "F {{0 1 2} {0 1 3} {0 2 3} {1 2 3}}\n";
+  const std::string v4 = kV4Head + "t b 2 1 0 4 4\n\t0: 0 0 0\n\t1: 4 0 0\n\t2: 0 4 0\n\t3: 0 0 4\n"
+                                   "\t0: 0 1 2\n\t1: 0 1 3\n\t2: 0 2 3\n\t3: 1 2 3\n";
+  for (const std::string& text : {v5, v4}) {
+    const Scene scene = scene_of(text);
+    CHECK(holds(scene, 0.9, 0.9, 0.9));
+    CHECK_FALSE(holds(scene, 1.5, 1.5, 1.5));
+  }
+  // A pyramid of two curves: the base collapsed to its middle, a square, the tip.
+  const std::string square = "{1 -1 0} {1 1 0} {-1 1 0} {-1 -1 0}";
+  const auto curve = [](const std::string& p) { return "{" + p + " " + p + " " + p + " " + p + "}"; };
+  const Scene ars5 = scene_of("title t\nput a ars NC 3 PPC 4 C0 {" + curve("{0 0 0}").substr(1) + " C1 {" + square +
+                              "} C2 " + curve("{0 0 3}") + "\n");
+  const Scene ars4 = scene_of(kV4Head +
+                              "A 0 a 3 4\nB 1 1 0 0 0 0 0 0 0 0 0 0 0 0\nB 2 1 1 -1 0 1 1 0 -1 1 0 -1 -1 0\n"
+                              "B 3 1 0 0 3 0 0 3 0 0 3 0 0 3\n");
+  for (const Scene* scene : {&ars5, &ars4}) {
+    CHECK(holds(*scene, 0.1, 0.2, 1));
+    CHECK_FALSE(holds(*scene, 0.9, 0.9, 1));
+  }
+}
+
+TEST_CASE("a mesh that is cut off is larger by the skin on all sides") {
+  const std::string bot = "put b bot mode volume orient rh flags {} V {{0 0 0} {4 0 0} {4 4 0} {0 4 0} {2 2 4}} "
+                          "F {{0 2 1} {0 3 2} {0 1 4} {1 2 4} {2 3 4} {3 0 4}}\n";
+  const std::string box = "put s arb8 V1 {-1 -1 0} V2 {5 -1 0} V3 {5 5 0} V4 {-1 5 0} V5 {-1 -1 5} V6 {5 -1 5} "
+                          "V7 {5 5 5} V8 {-1 5 5}\n";
+  const Scene cut = scene_of("title t\n" + bot + box + "put r comb region yes tree {- {l s} {l b}}\n", {"r"});
+  // No skin is left below, where the faces are flush.
+  CHECK_FALSE(holds(cut, 2.1, 2.2, 1e-6));
+  CHECK_FALSE(holds(cut, 2.1, 2.2, 0));
+  CHECK(holds(cut, 0.5, 0.1, 2));
+}
+
+TEST_CASE("an open bot is left out with a word of where") {
+  const BrlcadResult read = read_brlcad("title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput b bot mode volume "
+                                        "orient rh flags {} V {{0 0 0} {4 0 0} {0 4 0} {0 0 4}} F {{0 2 1} {0 1 3} {0 3 2}}\n");
+  REQUIRE(read.scene);
+  CHECK(read.scene->objects.size() == 1);
+  REQUIRE(read.warnings.size() == 1);
+  CHECK(read.warnings[0].where == "b");
+  CHECK(read.warnings[0].text.find("its mesh: not closed: the edge from") == 0);
+}
+
 TEST_CASE("what can't be read is refused by name or line") {
   CHECK(error_of("put d dsp file x\nput r comb region yes tree {l d}\n", {"r"}) == "d: dsp is not supported");
   CHECK(error_of("put b bot mode plate V {} F {}\n").find("plate mode is not supported") != std::string::npos);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "csg/mesh_samples.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube::testing {
@@ -118,7 +119,7 @@ class RandomScene {
   void leaf(CsgNode& node) {
     const Vec3 corner = vector();
     const double major = positive();
-    switch (below(scene_.shapes.empty() ? 11 : 12)) {
+    switch (below(scene_.shapes.empty() ? 12 : 13)) {
       case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
         node.value =
@@ -157,6 +158,9 @@ class RandomScene {
         node.value = QuadricShape{{positive(), number(), number(), number()},
                                   corner,
                                   corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
+        return;
+      case 11:
+        node.value = MeshShape{closed(box_polygons(corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}))};
         return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};

@@ -1,0 +1,24 @@
+#include "scene/mesh_scene.hpp"
+
+#include <utility>
+
+#include "scene/openscad_framing.hpp"
+#include "scene/openscad_palette.hpp"
+
+namespace graycube {
+
+Scene scene_of_mesh(TriangleMesh mesh, const OpenscadOptions& options) {
+  Scene scene;
+  // A mesh reaches as far as its points do.
+  CsgNode hull;
+  hull.value = PolyhedronShape{};
+  scene.settings = framed_settings(reach_of(hull, mesh.points, Affine{}, reach_directions(options)), options);
+  OpenscadPalette palette;
+  SceneObject object{"mesh", palette.index_of(ScadColor{}), {}};
+  object.csg.value = MeshShape{std::move(mesh)};
+  scene.materials = std::move(palette).take();
+  scene.objects.push_back(std::move(object));
+  return scene;
+}
+
+}  // namespace graycube
