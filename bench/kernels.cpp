@@ -7,11 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/dice.hpp"
 #include "bench/scene_families.hpp"
 #include "csg/build_primitive.hpp"
+#include "csg/close_mesh.hpp"
 #include "geometry/portable_math.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
@@ -23,6 +25,35 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr std::size_t kRays = 1024;
+
+/// Cuts a triangle of the unit sphere into four, and those again.
+void add_facets(PolygonMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, int times) {
+  if (times == 0) {
+    const auto n = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), {a, b, c});
+    mesh.add_face(std::array{n, n + 1, n + 2});
+    return;
+  }
+  const Vec3 ab = normalized(a + b), bc = normalized(b + c), ca = normalized(c + a);
+  add_facets(mesh, a, ab, ca, times - 1);
+  add_facets(mesh, b, bc, ab, times - 1);
+  add_facets(mesh, c, ca, bc, times - 1);
+  add_facets(mesh, ab, bc, ca, times - 1);
+}
+
+/// An octahedron refined to 8 · 4⁵ triangles.
+TriangleMesh ball_mesh() {
+  PolygonMesh mesh;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0}) {
+        const bool is_turned = x * y * z < 0;
+        add_facets(mesh, {x, 0, 0}, is_turned ? Vec3{0, 0, z} : Vec3{0, y, 0}, is_turned ? Vec3{0, y, 0} : Vec3{0, 0, z}, 5);
+      }
+    }
+  }
+  return std::get<TriangleMesh>(closed_mesh(mesh));
+}
 
 /// One primitive of each kind, each about 1 in radius about the origin.
 struct Specimen {
@@ -52,6 +83,7 @@ struct Specimen {
       case PrimitiveKind::kQuadric:  // the paraboloid y ≥ x² + z² − 1, cut at y = 1
         primitive = build_quadric(none, {1, 1, 0, -1}, {-1.5, -1.5, -1}, {1.5, 1.5, 1}, planes);
         break;
+      case PrimitiveKind::kMesh: primitive = build_mesh(none, ball_mesh(), meshes); break;
       case PrimitiveKind::kPolyhedron: {
         const std::array<Plane, 4> faces{
             {{{1, 1, 1}, 1}, {{-1, -1, 1}, 1}, {{-1, 1, -1}, 1}, {{1, -1, -1}, 1}}};
@@ -60,8 +92,11 @@ struct Specimen {
       }
     }
   }
+  PrimitiveData data() const { return {planes, meshes}; }
+
   Primitive primitive;
   std::vector<Plane> planes;
+  std::vector<Mesh> meshes;
 };
 
 /// About two of three rays hit what Specimen makes.
@@ -78,14 +113,14 @@ std::vector<Ray> rays_about_the_origin() {
 constexpr std::array<const char*, kPrimitiveKinds> kKindNames{
     "sphere", "ellipsoid", "box",        "parallelepiped", "cylinder",
     "cone",   "torus",     "half_space", "polyhedron",     "elliptic_cone",
-    "elliptic_torus", "quadric"};
+    "elliptic_torus", "quadric", "mesh"};
 
 void spans_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);
   const std::vector<Ray> rays = rays_about_the_origin();
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(spans_along(specimen.primitive, specimen.planes, rays[i++ % kRays]));
+    benchmark::DoNotOptimize(spans_along(specimen.primitive, specimen.data(), rays[i++ % kRays]));
   }
   state.SetItemsProcessed(state.iterations());
 }
@@ -94,7 +129,7 @@ void normal_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);
   std::vector<std::pair<Ray, double>> hits;
   for (const Ray& ray : rays_about_the_origin()) {
-    const Spans spans = spans_along(specimen.primitive, specimen.planes, ray);
+    const Spans spans = spans_along(specimen.primitive, specimen.data(), ray);
     if (spans.count > 0 && std::isfinite(spans.interval[0].enter)) {
       hits.emplace_back(ray, spans.interval[0].enter);
     }
@@ -102,7 +137,7 @@ void normal_of_kind(benchmark::State& state, PrimitiveKind kind) {
   std::size_t i = 0;
   for (auto _ : state) {
     const auto& [ray, t] = hits[i++ % hits.size()];
-    benchmark::DoNotOptimize(outward_normal(specimen.primitive, specimen.planes, ray, t));
+    benchmark::DoNotOptimize(outward_normal(specimen.primitive, specimen.data(), ray, t));
   }
   state.SetItemsProcessed(state.iterations());
 }

@@ -15,6 +15,9 @@ template <typename... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+// clang doesn't deduce it before version 17.
+template <typename... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 class Compiler {
  public:

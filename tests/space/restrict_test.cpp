@@ -168,3 +168,25 @@ TEST_CASE("space is shared out: a region of many holds few of many small solids"
   CHECK(held < 800);
   CHECK(most < 120);
 }
+
+TEST_CASE("a node holds the meshes that its region may meet, and no others") {
+  const TriangleMesh box = closed(box_polygons({-1, -1, -1}, {1, 1, 1}));
+  const auto placed = [&](double x, double y) {
+    return transformed(node_of(MeshShape{box}), compose(translation({x, y, 0}), scaling({0.5, 0.5, 0.5})));
+  };
+  Scene scene = scene_of({placed(-2, 2), placed(2, 2), placed(2, -2), placed(-2, -2), placed(0, 0)});
+  scene.settings.image = {64, 64, 1};
+  scene.settings.camera.width = 8;
+  const Model model = compile_scene(scene);
+  REQUIRE(model.meshes.size() == 5);
+  const MacroGrid grid = MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
+  for_each_region(grid, [&](RegionIndex r) {
+    const Model part = restrict_to_share(model, grid, only(r, grid));
+    // Its own, and the one in the middle.
+    REQUIRE(part.meshes.size() == 2);
+    for (const Primitive& p : part.primitives) {
+      CHECK(part.meshes[p.mesh].bounds() == p.bounds);
+      CHECK(part.meshes[p.mesh].surface().triangles.size() == 12);
+    }
+  });
+}
