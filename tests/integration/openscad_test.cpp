@@ -121,8 +121,11 @@ class FakeOpenscad {
     const auto path = sandbox.write("fake/openscad", "#!/bin/sh\n" + text);
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   }
-  Outcome run(const Arguments& arguments) {
-    Arguments all{"PATH=" + (sandbox_ / "fake").string() + ":/usr/bin:/bin", GRAYCUBE_COMMAND};
+  /// `before` stands in front of the command.
+  Outcome run(const Arguments& arguments, const Arguments& before = {}) {
+    Arguments all{"PATH=" + (sandbox_ / "fake").string() + ":/usr/bin:/bin"};
+    all.insert(all.end(), before.begin(), before.end());
+    all.push_back(GRAYCUBE_COMMAND);
     all.insert(all.end(), arguments.begin(), arguments.end());
     return sandbox_.run_program("/usr/bin/env", all);
   }
@@ -159,6 +162,18 @@ TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was ask
   CHECK(scad.status == 2);
   CHECK(scad.err == "graycube: openscad: m.scad: ERROR: it is broken\n");
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
+  Sandbox sandbox;
+  FakeOpenscad fake(sandbox, "exec sleep 100\n");
+  sandbox.write("m.csg", "minkowski() { cube(1); }\n");
+  const Outcome o = fake.run({"render", "m.csg", "-o", "m.exr"}, {"timeout", "--signal=INT", "2"});
+  CHECK(o.status == 124);
+  CHECK(o.err.find("SIGINT: interrupted") != std::string::npos);
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+  CHECK_FALSE(std::filesystem::exists(sandbox / "m.exr"));
 }
 
 TEST_CASE("text, Minkowski sums and files of the model's folder come through OpenSCAD where it is installed") {
