@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cli/commands.hpp"
+#include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "scene/compile_scene.hpp"
 
@@ -15,6 +16,7 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 }  // namespace
 
 ExitStatus run(const CheckCommand& command) {
+  catch_interrupts("check", 0);
   if (is_brlcad(command.scene)) std::fputs(brlcad_tops_text(command.scene).c_str(), stdout);
   SceneInput input = read_scene_input(command.scene, {}, command.choice);
   check_is_built(command.scene, input.scene);

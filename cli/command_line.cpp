@@ -33,8 +33,13 @@ void add_scene(CLI::App& app, std::string& scene) {
       [&scene](const std::string& text) { scene = text; }, true);
 }
 
-/// What to show of a BRL-CAD database.
+void add_facets(CLI::App& app, ModelChoice& choice) {
+  app.add_flag("--facets", choice.facets, "OpenSCAD: what is round as OpenSCAD's own facets");
+}
+
+/// What to show of a model that says nothing of that itself.
 void add_choice(CLI::App& app, ModelChoice& choice) {
+  add_facets(app, choice);
   app.add_option_function<std::vector<std::string>>(
          "--object",
          [&choice](const std::vector<std::string>& names) {
@@ -253,6 +258,7 @@ class Parser {
         declare<CompareCommand>("compare", "Render a scene in every way, and compare", sub);
     compare.nodes = default_nodes();
     add_scene(*sub, compare.scene);
+    add_facets(*sub, compare.choice);
     add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
               compare.nodes);
     add_common_options(*sub, compare.options);
@@ -264,7 +270,7 @@ class Parser {
     auto& convert =
         declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
     add(
-        *sub, "IN", "", ".json, .csg, .g, .asc, .stl, .off or .exr",
+        *sub, "IN", "", ".json, .cbor, .scad, .csg, .g, .asc, .stl, .off or .exr",
         [&convert](const std::string& text) { convert.in = text; }, true);
     add(
         *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",

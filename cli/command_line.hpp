@@ -70,6 +70,7 @@ struct CheckCommand {
 };
 struct CompareCommand {
   std::string scene;
+  ModelChoice choice;
   /// What all ways have in common: size, samples, depth, the historical queue.
   control::JobOptions options;
   std::uint32_t nodes = 1;

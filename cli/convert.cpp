@@ -5,7 +5,9 @@
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"
+#include "scene/cbor_writer.hpp"
 #include "scene/mesh_file.hpp"
+#include "scene/padded_text.hpp"
 #include "scene/write_pov.hpp"
 #include "scene/write_scene.hpp"
 
@@ -40,6 +42,7 @@ void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& c
     text = std::move(pov.text);
   } else {
     text = write_scene_text(input.scene);
+    if (out.extension() == ".cbor") text = cbor_of(JsonTree(PaddedText(std::move(text))));
   }
   const InterruptsHeld held;
   write_text_file(out, text);
@@ -51,12 +54,13 @@ ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
   const auto from = in.extension(), to = out.extension();
-  const bool is_scene = from == ".json" || from == ".csg" || is_brlcad(in) || is_mesh_file(in);
+  const bool is_scene =
+      from == ".json" || from == ".cbor" || is_openscad(in) || is_brlcad(in) || is_mesh_file(in);
   const bool is_known =
-      (is_scene && (to == ".json" || to == ".pov")) || (from == ".exr" && to == ".png");
+      (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) || (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json, .csg, .g, .asc, .stl or .off to .json or .pov, or .exr to .png; found " +
+                        "expected .json, .cbor, .scad, .csg, .g, .asc, .stl or .off to .json, .cbor or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);

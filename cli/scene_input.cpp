@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "cli/openscad_process.hpp"
 #include "scene/brlcad.hpp"
 #include "scene/brlcad_database.hpp"
 #include "scene/mesh_file.hpp"
@@ -88,20 +89,49 @@ void read_json(const fs::path& path, SceneInput& input) {
   input.text = read.used_files ? write_scene_text(input.scene) : std::move(text).take();
 }
 
-void import_openscad(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
+/// The .csg text of an OpenSCAD file. Of a .scad file it is what the program makes of it.
+std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
+  if (path.extension() == ".csg") return read_file(path, kMaxOpenscadBytes);
+  read_file(path, kMaxOpenscadBytes);  // says why when it can't be read
+  if (program == nullptr) {
+    throw bad_scene(path, "the program openscad must evaluate it, and is not there; or give a .csg file");
+  }
+  auto result = program->evaluate_file(path);
+  if (!result.trouble.empty()) {
+    std::vector<Problem> problems;
+    for (const std::string& line : program->take_messages()) problems.push_back({"openscad", path.string(), line});
+    if (problems.empty()) problems.push_back({"openscad", path.string(), result.trouble});
+    throw Failure(ExitStatus::kBadInput, std::move(problems));
+  }
+  return std::move(result.text);
+}
+
+void import_openscad(const fs::path& path, const control::JobOptions& options, const ModelChoice& choice,
+                     SceneInput& input) {
+  const auto program = OpenscadProcess::find();
   OpenscadOptions how;
   how.image.width = options.width.value_or(how.image.width);
   how.image.height = options.height.value_or(how.image.height);
   how.max_depth = options.max_depth.value_or(how.max_depth);
-  OpenscadResult read = read_openscad_csg(read_file(path, kMaxOpenscadBytes), how);
+  how.facets = choice.facets;
+  how.program = program.get();
+  how.folder = fs::absolute(path).parent_path().string();
+  // Lines are those of the evaluated tree.
+  const fs::path where = path.extension() == ".csg" ? path : fs::path(path.string() + " (as .csg)");
+  OpenscadResult read = read_openscad_csg(openscad_text(path, program.get()), how);
+  if (program) {
+    for (const std::string& line : program->take_messages()) {
+      input.warnings.push_back({"openscad", path.string(), line});
+    }
+  }
   for (const std::string& w : read.warnings) {
-    input.warnings.push_back(located("warning", path, w));
+    input.warnings.push_back(located("warning", where, w));
   }
   if (!read.scene) {
     std::vector<Problem> problems;
     for (const OpenscadError& e : read.errors) {
       const std::string line = e.line > 0 ? ":" + std::to_string(e.line) : "";
-      problems.push_back({"scene", path.string() + line, e.message});
+      problems.push_back({"scene", where.string() + line, e.message});
     }
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
@@ -154,6 +184,7 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options, con
 
 }  // namespace
 
+bool is_openscad(const fs::path& path) { return path.extension() == ".csg" || path.extension() == ".scad"; }
 bool is_brlcad(const fs::path& path) { return path.extension() == ".g" || path.extension() == ".asc"; }
 
 std::string brlcad_tops_text(const fs::path& path) {
@@ -173,20 +204,21 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     throw usage_failure("--object, --view, --azimuth, --elevation",
                         "are for BRL-CAD databases (.g, .asc), not for " + path.string());
   }
+  if (choice.facets && !is_openscad(path)) {
+    throw usage_failure("--facets", "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
+  }
   SceneInput input;
   input.name = path.filename().string();
-  if (path.extension() == ".csg") {
-    import_openscad(path, options, input);
+  if (is_openscad(path)) {
+    import_openscad(path, options, choice, input);
   } else if (is_brlcad(path)) {
     import_brlcad(path, options, choice, input);
-  } else if (path.extension() == ".json") {
+  } else if (path.extension() == ".json" || path.extension() == ".cbor") {
     read_json(path, input);
   } else if (is_mesh_file(path)) {
     import_mesh(path, options, input);
-  } else if (path.extension() == ".scad") {
-    throw bad_scene(path, "OpenSCAD must evaluate it first: openscad -o MODEL.csg MODEL.scad");
   } else {
-    throw bad_scene(path, "expected a name ending in .json, .csg, .g, .asc, .stl or .off");
+    throw bad_scene(path, "expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off");
   }
   return input;
 }

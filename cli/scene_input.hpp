@@ -11,14 +11,16 @@
 
 namespace graycube {
 
-/// What to show of a file that holds a model without a view: a BRL-CAD database.
+/// What to show of a file that holds a model without a view: a BRL-CAD database or an OpenSCAD model.
 struct ModelChoice {
+  /// OpenSCAD: everything round as OpenSCAD would make it of facets.
+  bool facets = false;
   /// All that nothing refers to, when empty.
   std::vector<std::string> objects;
   /// A view script of rt's; empty for azimuth and elevation.
   std::filesystem::path view;
   double azimuth_degrees = 35, elevation_degrees = 25;
-  /// Whether any option was given: other files have no use for them.
+  /// Whether any option for BRL-CAD was given: other files have no use for them.
   bool is_given = false;
 };
 
@@ -32,13 +34,16 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json; .csg from OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one mesh) and finds all its errors. `options` gives a picture's
+/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one mesh) and finds all its
+/// errors. `options` gives a picture's
 /// size and depth to import for. Throws a Failure of status 2 with a problem for each error,
 /// `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {},
                             const ModelChoice& choice = {});
 
+/// Whether the file is OpenSCAD's, by its name's ending.
+bool is_openscad(const std::filesystem::path& path);
 /// Whether the file is a BRL-CAD database, by its name's ending.
 bool is_brlcad(const std::filesystem::path& path);
 

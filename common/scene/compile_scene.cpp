@@ -6,6 +6,7 @@
 #include "csg/build_primitive.hpp"
 #include "csg/tree.hpp"
 #include "geometry/check.hpp"
+#include "scene/flat_solids.hpp"
 
 namespace graycube {
 namespace {
@@ -59,6 +60,7 @@ class Compiler {
     std::visit(
         Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
                    [&](const ReferenceNode& n) { emit(scene_.shapes[n.shape].node, context); },
+                   [&](const PrismShape& shape) { emit_prism(shape, context); },
                    [&](const auto& shape) { emit_leaf(build(context.to_world, shape), context); }},
         node.value);
   }
@@ -87,6 +89,12 @@ class Compiler {
     if (n.children.size() > 1) {
       model_.nodes[start].size = static_cast<std::uint32_t>(model_.nodes.size() - start);
     }
+  }
+
+  void emit_prism(const PrismShape& shape, const Context& context) {
+    const auto solid = prism_of(shape);
+    GRAYCUBE_CHECK(solid.has_value(), "a prism without an area, of %zu points", shape.points.size());
+    emit(*solid, context);
   }
 
   void emit_leaf(Primitive primitive, const Context& context) {

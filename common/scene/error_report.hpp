@@ -19,6 +19,8 @@ class ErrorReport {
   /// Whether another message would be kept; if not, count() spares making it.
   bool has_room() const { return found_.size() < kMaxReportedErrors; }
   void count() { ++not_kept_; }
+  /// Errors so far, kept or not.
+  std::uint64_t total() const { return found_.size() + not_kept_; }
   bool empty() const { return found_.empty(); }
   /// In the order of the text; when some were not kept, a last one tells how many.
   std::vector<SceneError> take(std::string_view text);

@@ -1,6 +1,7 @@
 #include "scene/json_tree.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "scene/padded_text.hpp"
@@ -29,6 +30,11 @@ void append_token(std::string& pointer, std::string_view token) {
   }
 }
 
+std::string shortest_text(double v) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, v).ptr};
+}
+
 }  // namespace
 
 JsonTree::JsonTree(std::string_view text) : JsonTree(text, nullptr) {}
@@ -38,6 +44,11 @@ JsonTree::JsonTree(const PaddedText& text) : JsonTree(text.view(), &text) {}
 JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text) {
   // Growing by doubling would touch three times the memory, and first touches are half the time.
   values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
+  is_cbor_ = text.starts_with(kCborMagic);
+  if (is_cbor_) {
+    read_cbor();
+    return;
+  }
   was_read_fast_ = padded != nullptr && read_fast(*padded);
   if (was_read_fast_) return;
   values_.clear();
@@ -78,12 +89,25 @@ std::string JsonTree::describe(JsonIndex i) const {
     }
     case JsonKind::kNumber: break;
   }
+  if (is_cbor_) return shortest_text(number(i));
   const std::string_view rest = text_.substr(values_[i].begin, kMaxExcerpt);
   return std::string(rest.substr(0, rest.find_first_not_of("+-.eE0123456789")));
 }
 
+std::string JsonTree::describe_cbor_array(JsonIndex i) const {
+  constexpr std::uint32_t kMaxShown = 4;
+  std::string text = "[";
+  for (JsonIndex c = first_child(i); c != end(i); c = next(c)) {
+    if (kind(c) != JsonKind::kNumber || size(i) > kMaxShown) return "an array of " + std::to_string(size(i));
+    if (text.size() > 1) text += ',';
+    text += shortest_text(number(c));
+  }
+  return size(i) == 0 ? "an empty array" : text + ']';
+}
+
 std::string JsonTree::describe_array(JsonIndex i) const {
   // A short flat array, such as a vector, is shown as written; others by their size.
+  if (is_cbor_) return describe_cbor_array(i);
   bool flat = size(i) > 0;
   for (JsonIndex c = first_child(i); flat && c != end(i); c = next(c))
     flat = kind(c) == JsonKind::kNumber && values_[c].begin - values_[i].begin < 2 * kMaxExcerpt;

@@ -21,6 +21,11 @@ inline constexpr std::uint64_t kMaxJsonBytes = 0xFFFFFFFFull;
 inline constexpr std::uint32_t kMaxJsonNesting = 1024;
 inline constexpr std::uint32_t kMaxJsonString = 65535;
 
+/// What a text begins with that is CBOR instead: the tag that describes itself (RFC 8949, 3.4.6).
+inline constexpr std::string_view kCborMagic = "\xD9\xD9\xF7";
+/// Most values in CBOR, 24 bytes each: they may be as short as a byte.
+inline constexpr std::uint32_t kMaxCborValues = 1u << 27;
+
 enum class JsonKind : std::uint8_t { kNull, kFalse, kTrue, kNumber, kString, kArray, kObject };
 
 /// Number of a value in the order of the text. The root is 0, so 0 is never somebody's member.
@@ -51,6 +56,9 @@ class JsonTree {
   explicit JsonTree(std::string_view text);
   explicit JsonTree(const PaddedText& text);
 
+  /// Whether the text was CBOR: maps with keys that are texts, arrays, texts, finite numbers, true, false and null; no other
+  /// tags, no byte strings. Offsets are in bytes, lines have no meaning.
+  bool is_cbor() const { return is_cbor_; }
   /// False when the careful parser had to read the text.
   bool was_read_fast() const { return was_read_fast_; }
 
@@ -86,11 +94,13 @@ class JsonTree {
  private:
   friend class JsonEvents;
   friend class FastJsonReader;
+  friend class CborEvents;
 
   JsonTree(std::string_view text, const PaddedText* padded);
   /// False on whatever it doesn't take; the tree then holds anything.
   bool read_fast(const PaddedText& text);
   void read_carefully();
+  void read_cbor();
 
   struct Value {
     /// Numbers: the bits of the double. Strings: begin << 32 | length. Containers: the number of
@@ -111,6 +121,7 @@ class JsonTree {
                    : std::string_view(text_.data() + begin, length);
   }
   std::string describe_array(JsonIndex i) const;
+  std::string describe_cbor_array(JsonIndex i) const;
 
   std::string_view text_;
   std::vector<Value> values_;
@@ -118,6 +129,7 @@ class JsonTree {
   std::deque<std::string> decoded_;
   std::optional<SyntaxError> syntax_error_;
   bool was_read_fast_ = false;
+  bool is_cbor_ = false;
 };
 
 /// Positions of ascending offsets in `text`, in one pass.

@@ -22,13 +22,35 @@ inline constexpr std::size_t kMaxOpenscadValues = std::size_t{1} << 23;
 /// Modules inside modules, and lists inside lists.
 inline constexpr int kMaxOpenscadNesting = 512;
 inline constexpr int kMaxOpenscadListNesting = 16;
-inline constexpr std::size_t kMaxOpenscadPoints = 4096;
-inline constexpr std::size_t kMaxOpenscadFaces = 4096;
+inline constexpr std::size_t kMaxOpenscadPoints = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxOpenscadFaces = std::size_t{1} << 20;
 /// Errors and warnings that are kept; one more line counts the rest.
 inline constexpr std::size_t kMaxOpenscadErrors = 100;
 inline constexpr std::size_t kMaxOpenscadWarnings = 100;
 /// Coordinates beyond this are an error; solids thinner than its inverse count as empty.
 inline constexpr double kMaxOpenscadCoordinate = 1e30;
+
+/// Sides of anything round that is made of facets, and slices of an extrusion.
+inline constexpr int kMaxOpenscadSides = 4096;
+/// Facets of one solid that the importer makes of facets.
+inline constexpr std::size_t kMaxOpenscadFacets = std::size_t{1} << 20;
+/// Corners of a polygon after operations.
+inline constexpr std::size_t kMaxOpenscadCorners = std::size_t{1} << 18;
+
+/// OpenSCAD as a program, for what the importer can't do.
+class OpenscadProgram {
+ public:
+  enum class Format : std::uint8_t { kOff, kSvg };
+  struct Result {
+    /// The file that it wrote; empty, without trouble, for an empty model.
+    std::string text;
+    /// Why there is no file.
+    std::string trouble;
+  };
+  virtual ~OpenscadProgram() = default;
+  /// Evaluates the text of a .csg file.
+  virtual Result evaluate(const std::string& csg, Format format) = 0;
+};
 
 /// What a .csg file doesn't say.
 struct OpenscadOptions {
@@ -39,6 +61,12 @@ struct OpenscadOptions {
   /// Share of the picture's width or height left free on each side, 0 ≤ margin < 0.5.
   double margin = 0.08;
   std::uint32_t max_depth = 5;
+  /// Everything round as OpenSCAD would make it of facets.
+  bool facets = false;
+  /// Evaluates text(), import() and what else needs it; null: they are errors.
+  OpenscadProgram* program = nullptr;
+  /// Where the names of files in the text start from.
+  std::string folder{};
 };
 
 /// `line` counts from 1; 0 stands for the whole file.

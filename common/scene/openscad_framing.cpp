@@ -65,11 +65,39 @@ struct LocalReach {
     for (const Vec3& corner : corners) largest = std::max(largest, dot(n, corner));
     return largest;
   }
+  double operator()(const PrismShape& s) const {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const FlatPoint& p : s.points) largest = std::max(largest, n.x * p.x + n.y * p.y);
+    return largest + std::max(n.z * s.base, n.z * (s.base + s.height));
+  }
+  double operator()(const MeshShape& s) const {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const Vec3& p : s.mesh.points) largest = std::max(largest, dot(n, p));
+    return largest;
+  }
+  double operator()(const TorusShape& s) const {
+    return disc_reach(n, s.center, normalized(s.axis), s.major) + s.minor * length(n);
+  }
+  double operator()(const EllipticTorusShape& s) const {
+    const double longer = std::sqrt(s.outward * s.outward + s.upward * s.upward);
+    return disc_reach(n, s.center, normalized(s.axis), s.radius) + std::max(longer, s.across) * length(n);
+  }
   template <typename Other>
   double operator()(const Other&) const {
     return std::numeric_limits<double>::infinity();
   }
 };
+
+Reach reach_of_operation(const OperationNode& operation, const Affine& to_world, const ReachDirections& directions) {
+  const auto of = [&](const CsgNode& child) { return reach_of(child, {}, to_world, directions); };
+  Reach reach = of(operation.children.front());
+  if (operation.operation == Operation::kDifference) return reach;
+  for (std::size_t i = 1; i < operation.children.size(); ++i) {
+    const Reach other = of(operation.children[i]);
+    reach = operation.operation == Operation::kUnion ? union_of(reach, other) : intersection_of(reach, other);
+  }
+  return reach;
+}
 
 /// The nearest eye on this view from which the four sides of the pyramid enclose the solid,
 /// symmetrically. A side's plane through the eye e lets the points with n · p ≤ n · e through, and
@@ -138,8 +166,12 @@ Reach intersection_of(const Reach& a, const Reach& b) {
   return result;
 }
 
-Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine& to_world,
+Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine& around,
                const ReachDirections& directions) {
+  const Affine to_world = leaf.transform ? compose(around, *leaf.transform) : around;
+  if (const auto* operation = std::get_if<OperationNode>(&leaf.value)) {
+    return reach_of_operation(*operation, to_world, directions);
+  }
   Reach result;
   for (std::size_t i = 0; i < kReachDirections; ++i) {
     const Vec3 local = to_world.transposed_vector(directions[i]);

@@ -77,7 +77,7 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
     std::vector<ScadModule> only{*root};
     modules = std::move(only);
   }
-  auto [parts, materials] = openscad_parts(modules, reach_directions(options), report);
+  auto [parts, materials] = openscad_parts(modules, options, report);
   Scene scene;
   if (report.has_errors()) return scene;
   scene.settings = framed_settings(reach_of(parts), options);

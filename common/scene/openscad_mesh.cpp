@@ -192,11 +192,11 @@ ConvexPlanes convex_planes(const ScadMesh& mesh) {
   for (FacePlane& plane : face_planes(mesh.points, faces)) {
     const Face& face = faces[plane.face];
     if (!lies_in(mesh.points, face, plane)) {
-      return {{}, "has a face that is not flat: meshes are not supported yet", false};
+      return {{}, "has a face that is not flat", false};
     }
     const Excursion reach = excursion(mesh.points, used, plane);
     if (reach.beyond_back && reach.beyond_front) {
-      return {{}, "is not convex: meshes are not supported yet", false};
+      return {{}, "is not convex", false};
     }
     if (kept.empty() && std::max(reach.front, reach.back) <= plane.tolerance) {
       return {.planes = {}, .problem = {}, .flat = true};
@@ -249,6 +249,13 @@ ScadMesh stacked_rings(std::span<const std::pair<double, double>> radius_and_hei
 }
 
 }  // namespace
+
+PolygonMesh polygons_of(const ScadMesh& mesh) {
+  PolygonMesh polygons;
+  polygons.points = mesh.points;
+  for (const auto& face : mesh.faces) polygons.add_face(face);
+  return polygons;
+}
 
 ScadMesh faceted_cylinder(double z_low, double z_high, double r_low, double r_high, int sides) {
   const std::array<std::pair<double, double>, 2> rings{{{r_low, z_low}, {r_high, z_high}}};

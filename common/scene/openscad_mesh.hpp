@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "csg/close_mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -15,6 +16,11 @@ struct ScadMesh {
   std::vector<Vec3> points;
   std::vector<std::vector<std::uint32_t>> faces;
 };
+
+PolygonMesh polygons_of(const ScadMesh& mesh);
+
+/// Convex solids of more faces become meshes: a ray tests every face of a polyhedron.
+inline constexpr std::size_t kMaxPolyhedronFaces = 64;
 
 /// Exactly one of: planes (outward unit normals), a problem, flat.
 struct ConvexPlanes {

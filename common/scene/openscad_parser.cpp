@@ -1,5 +1,7 @@
 #include "scene/openscad_parser.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -225,9 +227,43 @@ const ScadValue* ScadModule::argument(std::string_view argument_name, int positi
   return found == nullptr || found->is_undef() ? nullptr : found;
 }
 
+namespace {
+
+bool ends_in(const ScadValue* name, std::string_view ending) {
+  const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
+  return text != nullptr && text->size() >= ending.size() &&
+         std::equal(ending.begin(), ending.end(), text->end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+}
+
+int own_dimension(const ScadModule& module) {
+  constexpr std::array<std::string_view, 5> kFlat{"square", "circle", "polygon", "text", "projection"};
+  constexpr std::array<std::string_view, 7> kSolid{"cube",           "sphere",         "cylinder", "polyhedron",
+                                                   "linear_extrude", "rotate_extrude", "surface"};
+  if (std::find(kFlat.begin(), kFlat.end(), module.name) != kFlat.end()) return 2;
+  if (std::find(kSolid.begin(), kSolid.end(), module.name) != kSolid.end()) return 3;
+  if (module.name != "import") return 0;
+  const ScadValue* file = module.argument("file", 0);
+  return ends_in(file, ".dxf") || ends_in(file, ".svg") ? 2 : 3;
+}
+
+void note_dimensions(std::vector<ScadModule>& modules) {
+  for (ScadModule& module : modules) {
+    note_dimensions(module.children);
+    module.dimension = own_dimension(module);
+    for (const ScadModule& child : module.children) {
+      if (module.dimension == 0 && !child.left_out) module.dimension = child.dimension;
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<ScadModule> parse_openscad(std::string_view text, OpenscadReport& report,
                                        const ScadLimits& limits) {
-  return Parser(text, report, limits).file();
+  std::vector<ScadModule> modules = Parser(text, report, limits).file();
+  note_dimensions(modules);
+  return modules;
 }
 
 }  // namespace graycube

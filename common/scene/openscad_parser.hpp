@@ -38,6 +38,8 @@ struct ScadModule {
   bool left_out = false;
   /// `!` in front: the rest of the file doesn't count.
   bool root = false;
+  /// 2 or 3; 0 where nothing in it tells.
+  int dimension = 0;
   std::vector<ScadArgument> arguments;
   std::vector<ScadModule> children;
 

@@ -8,8 +8,11 @@
 #include <optional>
 #include <utility>
 
+#include "scene/openscad_flat.hpp"
+#include "scene/openscad_hull.hpp"
 #include "scene/openscad_palette.hpp"
 #include "scene/openscad_primitives.hpp"
+#include "scene/openscad_sweep.hpp"
 #include "scene/read_scene.hpp"
 
 namespace graycube {
@@ -20,6 +23,15 @@ namespace {
 constexpr double kRotationPrecision = 2e-6;
 /// The largest difference of levels between a part and its object: a union around all parts.
 constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
+
+/// Half the thickness of a flat shape.
+constexpr double kHalfSlab = 0.5;
+
+/// A map of the plane that leaves heights alone.
+Affine lifted(const FlatMap& map) {
+  const auto& m = map.m;
+  return {{{{m[0][0], m[0][1], 0, m[0][2]}, {m[1][0], m[1][1], 0, m[1][2]}, {0, 0, 1, 0}}}};
+}
 
 /// The factor of a similarity, as far as the written digits tell.
 std::optional<double> written_similarity(const Affine& map) {
@@ -52,30 +64,47 @@ std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
   return taken;
 }
 
-const char* why_unsupported(const std::string& name) {
-  if (name == "hull" || name == "minkowski" || name == "resize" || name == "roof") {
-    return " needs meshes of its children, which are not supported yet";
+/// Modules that only gather or place what is in them, whatever its dimension.
+bool is_gathering(const std::string& name) {
+  return name == "group" || name == "union" || name == "render" || name == "multmatrix" || name == "color";
+}
+
+/// What the program `openscad` is asked for; all else is no module of .csg files.
+bool is_for_program(const std::string& name) {
+  return name == "minkowski" || name == "resize" || name == "import" || name == "surface" || name == "hull" ||
+         name == "roof" || name == "fill" || name == "intersection_for";
+}
+
+std::uint32_t levels_of(const CsgNode& node) {
+  std::uint32_t most = 0;
+  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
+    for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
   }
-  if (name == "linear_extrude" || name == "rotate_extrude") {
-    return " of 2-D shapes is not supported yet";
+  return most + 1;
+}
+
+/// 2 or 3, of the first that has one.
+int dimension_of(const std::vector<ScadModule>& modules) {
+  for (const ScadModule& module : modules) {
+    if (!module.left_out && module.dimension != 0) return module.dimension;
   }
-  if (name == "square" || name == "circle" || name == "polygon" || name == "text" ||
-      name == "projection" || name == "offset" || name == "fill") {
-    return " is two-dimensional, which is not supported yet";
-  }
-  if (name == "import" || name == "surface") return " of another file is not supported yet";
-  return " is not a module of .csg files; write them with `openscad -o MODEL.csg MODEL.scad`";
+  return 0;
 }
 
 class Importer {
  public:
-  Importer(const ReachDirections& directions, OpenscadReport& report)
-      : directions_(directions), report_(report) {}
+  Importer(const ReachDirections& directions, const OpenscadOptions& options, OpenscadReport& report)
+      : directions_(directions),
+        report_(report),
+        import_{options, report, OpenscadDelegate(options.program, options.folder), {}} {}
 
   /// Appends the operands of the union of `modules`.
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
                std::vector<Part>& parts) {
-    for (const ScadModule& module : modules) add(module, around, parts);
+    const int dimension = dimension_of(modules);
+    for (const ScadModule& module : modules) {
+      if (fits(module, dimension)) add(module, around, parts);
+    }
   }
   std::vector<NamedMaterial> take_materials() { return palette_.take(); }
 
@@ -83,7 +112,9 @@ class Importer {
   void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     if (module.left_out) return;
     const std::string& name = module.name;
-    if (name == "group" || name == "union" || name == "render") {
+    if (module.dimension == 2 && !is_gathering(name)) {
+      add_slab(module, around, parts);
+    } else if (name == "group" || name == "union" || name == "render") {
       add_all(module.children, around, parts);
     } else if (name == "multmatrix") {
       add_transformed(module, around, parts);
@@ -95,14 +126,31 @@ class Importer {
       add_intersection(module, around, parts);
     } else if (is_openscad_primitive(module)) {
       add_primitive(module, around, parts);
+    } else if (name == "linear_extrude" || name == "rotate_extrude") {
+      if (auto solid = openscad_sweep(module, import_)) add_solid(std::move(*solid), {}, module, around, parts);
+    } else if (name == "hull") {
+      add_hull(module, around, parts);
+    } else if (is_for_program(name)) {
+      add_by_program(module, around, parts);
     } else {
-      report_.error(module.line, name.substr(0, kMaxQuotedName) + "()" + why_unsupported(name));
+      report_.error(module.line, name.substr(0, kMaxQuotedName) +
+                                     "() is not a module of .csg files; write them with `openscad -o "
+                                     "MODEL.csg MODEL.scad`");
     }
+  }
+
+  /// OpenSCAD doesn't mix dimensions: what isn't of the first one is left out.
+  bool fits(const ScadModule& module, int dimension) {
+    if (module.left_out || module.dimension == 0 || module.dimension == dimension) return true;
+    report_.warning(module.line, module.name + "() is left out: flat shapes and solids don't mix");
+    return false;
   }
 
   void add_transformed(const ScadModule& module, const Surroundings& around,
                        std::vector<Part>& parts) {
-    const std::optional<Affine> map = openscad_matrix(module, report_);
+    const bool is_flat = module.dimension == 2;
+    const auto flat = is_flat ? flat_matrix(module, report_) : std::nullopt;
+    const std::optional<Affine> map = flat ? lifted(*flat) : is_flat ? std::nullopt : openscad_matrix(module, report_);
     if (!map) return;
     Surroundings inner = around;
     inner.to_world = compose(around.to_world, *map);
@@ -132,7 +180,7 @@ class Importer {
     std::size_t rest = first;
     bool is_first = true;
     for (const ScadModule& child : module.children) {
-      if (child.left_out) continue;
+      if (child.left_out || !fits(child, 3)) continue;
       add(child, around, parts);
       if (std::exchange(is_first, false)) rest = parts.size();
     }
@@ -146,7 +194,7 @@ class Importer {
 
   void add_intersection(const ScadModule& module, const Surroundings& around,
                         std::vector<Part>& parts) {
-    const auto takes_part = [](const ScadModule& child) { return !child.left_out; };
+    const auto takes_part = [](const ScadModule& child) { return !child.left_out && child.dimension != 2; };
     const auto count = std::count_if(module.children.begin(), module.children.end(), takes_part);
     if (count == 1) {
       add_all(module.children, around, parts);
@@ -155,7 +203,7 @@ class Importer {
     std::vector<Part> used;
     bool has_empty = count == 0;
     for (const ScadModule& child : module.children) {
-      if (child.left_out) continue;
+      if (child.left_out || !fits(child, 3)) continue;
       const std::size_t first = parts.size();
       add(child, around, parts);
       if (parts.size() == first) {
@@ -194,9 +242,49 @@ class Importer {
 
   void add_primitive(const ScadModule& module, const Surroundings& around,
                      std::vector<Part>& parts) {
-    std::optional<ScadSolid> solid = openscad_primitive(module, report_);
-    if (!solid) return;
-    const Reach reach = reach_of(solid->leaf, solid->corners, around.to_world, directions_);
+    std::optional<ScadSolid> solid = openscad_primitive(module, report_, import_.options.facets);
+    if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  /// As in OpenSCAD's preview.
+  void add_slab(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    import_.warn_once(module.line, "flat shapes that nothing extrudes are shown one unit thick");
+    const auto shape = flat_shape(module, {}, import_);
+    if (!shape) return;
+    auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
+  }
+
+  void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    std::vector<Vec3> corners;
+    if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
+    ScadMesh mesh = convex_hull(corners);
+    if (mesh.faces.empty()) {
+      return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
+    }
+    ScadArguments arguments(module, report_);
+    auto solid = polyhedral_solid(std::move(mesh), arguments);
+    if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  void add_by_program(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    if (!import_.delegate.is_there()) {
+      return report_.error(module.line, module.name + "() needs the program openscad, which is not there");
+    }
+    import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
+    auto result = import_.delegate.solid(module);
+    if (const auto* trouble = std::get_if<std::string>(&result)) {
+      return report_.error(module.line, module.name + "(): " + *trouble);
+    }
+    const PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    auto solid = mesh_leaf(mesh, module, report_);
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
+  }
+
+  /// `corners` are needed of polyhedra only.
+  void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module, const Surroundings& around,
+                 std::vector<Part>& parts) {
+    const Reach reach = reach_of(solid, corners, around.to_world, directions_);
     const Aabb box = reach.box();
     if (!(std::max(max_abs(box.lo), max_abs(box.hi)) <= kMaxOpenscadCoordinate)) {
       report_.error(module.line, module.name + "() reaches beyond the largest coordinate, 1e30");
@@ -207,9 +295,13 @@ class Importer {
       report_.warning(module.line, module.name + "() is left out: it is too thin to be seen");
       return;
     }
-    place(solid->leaf, around);
-    solid->leaf.material = palette_.index_of(around.color);
-    parts.push_back({std::move(solid->leaf), reach, 1, module.line, module.name});
+    const std::uint32_t levels = levels_of(solid);
+    if (levels > kMaxPartLevels) {
+      return report_.error(module.line, "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+    }
+    place(solid, around);
+    solid.material = palette_.index_of(around.color);
+    parts.push_back({std::move(solid), reach, levels, module.line, module.name});
   }
 
   /// Spheres under rotations stay spheres, though the written digits make them ellipsoids by a
@@ -221,6 +313,8 @@ class Importer {
         sphere != nullptr ? written_similarity(around.to_world) : std::nullopt;
     if (scale) {
       *sphere = {around.to_world.point(sphere->center), *scale * sphere->radius};
+    } else if (leaf.transform) {
+      leaf.transform = compose(around.to_world, *leaf.transform);
     } else {
       leaf.transform = around.to_world;
     }
@@ -230,14 +324,15 @@ class Importer {
 
   ReachDirections directions_;
   OpenscadReport& report_;
+  ScadImport import_;
   OpenscadPalette palette_;
 };
 
 }  // namespace
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
-                             const ReachDirections& directions, OpenscadReport& report) {
-  Importer importer(directions, report);
+                             const OpenscadOptions& options, OpenscadReport& report) {
+  Importer importer(reach_directions(options), options, report);
   OpenscadParts result;
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();

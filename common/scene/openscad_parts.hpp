@@ -26,7 +26,7 @@ struct OpenscadParts {
   std::vector<NamedMaterial> materials;
 };
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
-                             const ReachDirections& directions, OpenscadReport& report);
+                             const OpenscadOptions& options, OpenscadReport& report);
 
 Reach reach_of(const std::vector<Part>& parts);
 /// The union of at least one part, as one.

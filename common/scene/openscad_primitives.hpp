@@ -5,26 +5,37 @@
 #include <vector>
 
 #include "geometry/affine.hpp"
+#include "scene/flat_polygon.hpp"
+#include "scene/openscad_arguments.hpp"
+#include "scene/openscad_mesh.hpp"
 #include "scene/openscad_palette.hpp"
 #include "scene/openscad_parser.hpp"
 
 namespace graycube {
 
-/// A leaf in its own coordinates, material still to be set; the corners, when it is a polyhedron.
+/// A leaf in its own coordinates, material still to be set; the corners, unless it is
+/// round.
 struct ScadSolid {
   CsgNode leaf;
   std::vector<Vec3> corners;
 };
 
+/// A convex solid of few faces as half-spaces, any other as a mesh; nothing, reported, when its faces enclose none.
+std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments);
+
 bool is_openscad_primitive(const ScadModule& module);
 
 /// The primitive's solid. Nothing, with a warning, when OpenSCAD would leave it out (size 0, a
 /// negative radius, not finite); nothing, with an error, when the arguments make no sense here.
-std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report);
+std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
+                                            bool facets = false);
 
 /// The map of a multmatrix(); entries that are missing are those of the identity, and a fourth row
 /// [0, 0, 0, w] divides by w. Nothing with an error or, for a singular one, a warning.
 std::optional<Affine> openscad_matrix(const ScadModule& module, OpenscadReport& report);
+
+/// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a singular one.
+std::optional<FlatMap> flat_matrix(const ScadModule& module, OpenscadReport& report);
 
 /// The colour of a color(); components are clamped to at most 1. Nothing with an error.
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);

@@ -119,6 +119,11 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     default:
       read_leaf(at, has_material, rules->owner, context);
       read_leaf_value(json_, rules->type, member, out);
+      // A prism is cut into fewer pieces than it has corners.
+      if (const auto* prism = std::get_if<PrismShape>(&out.value)) {
+        for (const auto& path : prism->paths) context.summary.leaves += path.size();
+        if (prism->paths.empty()) context.summary.leaves += prism->points.size();
+      }
   }
 }
 

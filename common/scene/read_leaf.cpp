@@ -4,6 +4,7 @@
 
 #include "geometry/affine.hpp"
 #include "geometry/check.hpp"
+#include "scene/flat_solids.hpp"
 #include "scene/read_scene.hpp"
 
 namespace graycube {
@@ -41,6 +42,17 @@ constexpr std::array kRules{
     rules_of(NodeType::kEllipticTorus, "elliptic_torus", "an elliptic_torus", "center", "axis", "radius",
              "outward", "upward", "across"),
     rules_of(NodeType::kQuadric, "quadric", "a quadric", "coefficients", "min", "max"),
+    NodeRules{"prism",
+              "a prism",
+              NodeType::kPrism,
+              kOwn + 4,
+              {{{"type", true},
+                {"transform"},
+                {"material"},
+                {"points", true},
+                {"height", true},
+                {"paths"},
+                {"base"}}}},
     NodeRules{"mesh",
               "a mesh",
               NodeType::kMesh,
@@ -248,6 +260,63 @@ PolyhedronShape read_polyhedron(JsonAccess& json, LeafMembers members) {
   return p;
 }
 
+void read_prism_points(JsonAccess& json, JsonIndex at, PrismShape& prism) {
+  if (!json.is_array(at)) return;
+  const std::uint32_t count = json.tree.size(at);
+  if (count < 3 || count > kMaxPrismPoints) {
+    json.wrong(at, "3 to " + std::to_string(kMaxPrismPoints) + " points");
+    return;
+  }
+  prism.points.resize(count);
+  JsonIndex child = json.tree.first_child(at);
+  for (FlatPoint& point : prism.points) {
+    if (json.tree.kind(child) != JsonKind::kArray || json.tree.size(child) != 2) {
+      json.wrong(child, "a point [x, y]");
+    } else {
+      const JsonIndex x = json.tree.first_child(child);
+      json.read(x, point.x);
+      json.read(json.tree.next(x), point.y);
+    }
+    child = json.tree.next(child);
+  }
+}
+
+void read_prism_paths(JsonAccess& json, JsonIndex at, PrismShape& prism) {
+  if (!json.is_array(at)) return;
+  if (json.tree.size(at) == 0) json.wrong(at, "one path or more");
+  std::size_t corners = 0;
+  for (JsonIndex path = json.tree.first_child(at); path != json.tree.end(at); path = json.tree.next(path)) {
+    if (!json.is_array(path)) continue;
+    corners += json.tree.size(path);
+    if (corners > kMaxPrismPoints) {
+      json.wrong(at, "at most " + std::to_string(kMaxPrismPoints) + " corners");
+      return;
+    }
+    auto& numbers = prism.paths.emplace_back(json.tree.size(path));
+    JsonIndex child = json.tree.first_child(path);
+    for (std::uint32_t& number : numbers) {
+      json.read(child, number, 0u, static_cast<std::uint32_t>(prism.points.size()) - 1);
+      child = json.tree.next(child);
+    }
+  }
+}
+
+PrismShape read_prism(JsonAccess& json, const LeafMembers& members) {
+  PrismShape p;
+  const std::uint64_t errors = json.errors.total();
+  if (members.at(0) != 0) read_prism_points(json, members.at(0), p);
+  if (members.at(1) != 0) json.read(members.at(1), p.height, kPositive);
+  if (members.at(2) != 0 && !p.points.empty()) read_prism_paths(json, members.at(2), p);
+  json.read_optional(members.at(3), p.base);
+  if (json.errors.total() != errors || members.at(0) == 0 || members.at(1) == 0) return p;
+  if (!crossings_are_few(std::vector<FlatLoops>{loops_of(p)})) {
+    json.errors.add(members.at(0), "the outline crosses itself too often");
+  } else if (!prism_of(p)) {
+    json.errors.add(members.at(0), "expected points that go round an area, found none");
+  }
+  return p;
+}
+
 }  // namespace
 
 std::span<const NodeRules> node_rules() { return kRules; }
@@ -266,6 +335,7 @@ void read_leaf_value(JsonAccess& json, NodeType type, const Members& members, Cs
     case NodeType::kEllipticCone: out.value = read_elliptic_cone(json, leaf); return;
     case NodeType::kEllipticTorus: out.value = read_elliptic_torus(json, leaf); return;
     case NodeType::kQuadric: out.value = read_quadric(json, leaf); return;
+    case NodeType::kPrism: out.value = read_prism(json, leaf); return;
     default: GRAYCUBE_CHECK(false, "node type %d is no leaf", static_cast<int>(type));
   }
 }

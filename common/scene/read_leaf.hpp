@@ -29,6 +29,7 @@ enum class NodeType : std::uint8_t {
   kEllipticCone,
   kEllipticTorus,
   kQuadric,
+  kPrism,
   kMesh,
 };
 

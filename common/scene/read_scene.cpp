@@ -69,6 +69,9 @@ class SceneReader {
  private:
   SceneError syntax_error() const {
     const auto& error = *tree_.syntax_error();
+    if (tree_.is_cbor()) {
+      return {tree_.pointer(error.value), "byte " + std::to_string(error.offset) + ": " + error.message, 0, 0};
+    }
     const TextPosition p = text_positions(text_, {error.offset}).front();
     return {tree_.pointer(error.value),
             "line " + std::to_string(p.line) + ", column " + std::to_string(p.column) + ": " +

@@ -25,6 +25,8 @@ inline constexpr std::uint32_t kMaxMaterials = 1u << 20;
 inline constexpr std::uint32_t kMaxShapes = 1u << 24;
 inline constexpr std::uint32_t kMaxObjects = 1u << 24;
 inline constexpr std::uint32_t kMaxPlanes = 1u << 16;
+/// Points of a prism, and corners of its paths.
+inline constexpr std::uint32_t kMaxPrismPoints = 4096;
 /// Further errors are only counted.
 inline constexpr std::size_t kMaxReportedErrors = 100;
 

@@ -12,6 +12,7 @@
 #include "csg/triangle_mesh.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
+#include "scene/flat_polygon.hpp"
 #include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"
@@ -90,6 +91,14 @@ struct QuadricShape {
   friend bool operator==(const QuadricShape&, const QuadricShape&) = default;
 };
 
+/// A polygon × [base, base + height] along z. Each path goes round by its corners, numbers of points; without
+/// paths all points are one. A point is inside when an odd number of paths goes round it.
+struct PrismShape {
+  std::vector<FlatPoint> points;
+  std::vector<std::vector<std::uint32_t>> paths;
+  double height = 0, base = 0;
+  friend bool operator==(const PrismShape&, const PrismShape&) = default;
+};
 /// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals outward.
 struct MeshShape {
   TriangleMesh mesh;
@@ -112,7 +121,7 @@ struct ReferenceNode {
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
                TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape, MeshShape>
+               EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

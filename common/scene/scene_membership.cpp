@@ -6,6 +6,7 @@
 #include "csg/mesh_line.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
+#include "scene/flat_solids.hpp"
 
 namespace graycube {
 namespace {
@@ -110,6 +111,9 @@ bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),
                      [&](const HalfSpaceShape& plane) { return value_holds(scene, plane, p); });
+}
+bool value_holds(const Scene&, const PrismShape& s, const Vec3& p) {
+  return p.z >= s.base && p.z <= s.base + s.height && is_within(loops_of(s), {p.x, p.y});
 }
 
 bool holds(const Scene& scene, const CsgNode& node, Vec3 p) {

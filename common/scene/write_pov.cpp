@@ -9,6 +9,7 @@
 
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
+#include "scene/flat_solids.hpp"
 #include "scene/scene_membership.hpp"
 #include "scene/scene_words.hpp"
 
@@ -287,6 +288,11 @@ class PovWriter {
       errors_.push_back("a " + kind + " can't be written for POV-Ray");
     }
     text_ += "sphere { <0,0,0>, 0";
+  }
+  void write_value(const PrismShape& p) {
+    if (const auto solid = prism_of(p)) {
+      std::visit([&](const auto& value) { write_value(value); }, solid->value);
+    }
   }
   /// POV-Ray counts crossings along inside_vector: an odd number is inside. Where shells overlap that differs.
   void write_value(const MeshShape& m) {

@@ -308,6 +308,33 @@ class SceneWriter {
     member("min", q.min);
     member("max", q.max);
   }
+  void write_value(const PrismShape& p) {
+    text_ += "\"prism\", \"points\": ";
+    char before = '[';
+    for (const FlatPoint& point : p.points) {
+      text_ += before;
+      write_numbers({point.x, point.y});
+      before = ',';
+    }
+    text_ += ']';
+    if (!p.paths.empty()) {
+      next_key("paths");
+      before = '[';
+      for (const auto& path : p.paths) {
+        text_ += before;
+        text_ += '[';
+        for (std::size_t i = 0; i < path.size(); ++i) {
+          if (i > 0) text_ += ',';
+          write(path[i]);
+        }
+        text_ += ']';
+        before = ',';
+      }
+      text_ += ']';
+    }
+    member("height", p.height);
+    if (p.base != 0) member("base", p.base);
+  }
   void write_value(const MeshShape& m) {
     text_ += "\"mesh\", \"points\": ";
     char before = '[';

@@ -1,7 +1,13 @@
 #include "cli/scene_input.hpp"
 
+#include <signal.h>
+
+#include <fstream>
+
 #include "cli/expect_failure.hpp"
+#include "cli/openscad_process.hpp"
 #include "cli/temporary_folder.hpp"
+#include "scene/cbor_writer.hpp"
 #include "scene/read_scene.hpp"
 
 namespace graycube {
@@ -104,12 +110,59 @@ TEST_CASE("what is no scene file is told apart") {
         }).ends_with("No such file or directory"));
   CHECK(refusal([&] {
           read_scene_input(folder.path());
-        }).ends_with("expected a name ending in .json, .csg, .g, .asc, .stl or .off"));
-  CHECK(refusal([&] {
-          read_scene_input(write_file(folder / "a.scad", ""));
-        }).ends_with("openscad -o MODEL.csg MODEL.scad"));
+        }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
+  ModelChoice facets;
+  facets.facets = true;
+  CHECK(refusal([&] { read_scene_input(write_file(folder / "a.json", ""), {}, facets); }).find("--facets") !=
+        std::string::npos);
   std::filesystem::create_directory(folder / "folder.json");
   CHECK(refusal([&] { read_scene_input(folder / "folder.json"); }).ends_with("is a folder"));
+}
+
+TEST_CASE("a scene in CBOR is the scene, and goes to the farm byte for byte") {
+  const TemporaryFolder folder;
+  const std::string cbor = cbor_of(JsonTree(std::string_view(kBall)));
+  const SceneInput input = read_scene_input(write_file(folder / "ball.cbor", cbor));
+  CHECK(input.text == cbor);
+  CHECK(input.scene == read_scene_input(write_file(folder / "ball.json", kBall)).scene);
+}
+
+/// An executable script in the folder.
+std::filesystem::path script(const TemporaryFolder& folder, const std::string& text) {
+  const auto path = write_file(folder / "openscad", "#!/bin/sh\n" + text);
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+TEST_CASE("OpenSCAD's file, its emptiness and its errors come back from a child process") {
+  const TemporaryFolder folder;
+  const auto evaluate = [&](const std::string& text, int seconds = 60) {
+    OpenscadProcess process(script(folder, text), seconds);
+    return process.evaluate("cube(1);", OpenscadProgram::Format::kOff);
+  };
+  CHECK(evaluate("cat \"$3\" > \"$2\"; echo ERROR: none >&2").text == "cube(1);");
+  CHECK(evaluate("echo 'ERROR: no such thing' >&2; exit 1").trouble == "openscad: ERROR: no such thing");
+  CHECK(evaluate("exit 3").trouble == "openscad ended with status 3");
+  CHECK(evaluate("kill -9 $$").trouble == "openscad ended by signal 9");
+  const auto empty = evaluate("echo 'Current top level object is empty.' >&2; exit 1");
+  CHECK((empty.trouble.empty() && empty.text.empty()));
+}
+
+TEST_CASE("OpenSCAD is killed when its time is up, and its files go") {
+  const TemporaryFolder folder;
+  const auto process = script(folder, "echo $$ > " + (folder / "pid").string() + "; echo \"$2\" > " +
+                                          (folder / "output").string() + "; exec sleep 60");
+  {
+    OpenscadProcess openscad(process, 1);
+    CHECK(openscad.evaluate("cube(1);", OpenscadProgram::Format::kOff).trouble == "openscad took more than 1 s");
+  }
+  std::ifstream pid_file(folder / "pid"), output_file(folder / "output");
+  int pid = 0;
+  std::string output;
+  REQUIRE((pid_file >> pid));
+  REQUIRE(std::getline(output_file, output));
+  CHECK(::kill(pid, 0) != 0);
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::path(output).parent_path()));
 }
 
 TEST_CASE("what only serial can render is refused before a farm is asked") {

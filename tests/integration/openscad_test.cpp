@@ -53,6 +53,148 @@ TEST_CASE("OpenSCAD's own examples are rendered on 8 nodes") {
   }
 }
 
+/// All that the importer does by itself: exact sweeps, meshes, hulls, flat operations.
+constexpr const char* kEveryConstruct = R"(
+linear_extrude(height = 3, center = true) {
+  difference() {
+    square(size = [8, 6], center = true);
+    multmatrix([[1, 0, 0, 1], [0, 1.5, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) circle($fn = 0, $fa = 12, $fs = 2, r = 1);
+    polygon(points = [[-3, -2], [-1, -2], [-2, 2], [-2, -1]], paths = undef);
+  }
+}
+multmatrix([[1, 0, 0, 14], [0, 0.8, -0.6, 0], [0, 0.6, 0.8, 0], [0, 0, 0, 1]]) {
+  difference() {
+    rotate_extrude(angle = 300, $fn = 0) {
+      polygon(points = [[2, 0], [6, 0], [5, 2], [6, 4], [3, 3]], paths = [[0, 1, 2, 3, 4]]);
+      multmatrix([[1, 0, 0, 4], [0, 1, 0, 4], [0, 0, 1, 0], [0, 0, 0, 1]]) circle(r = 1.5, $fn = 0);
+    }
+    linear_extrude(height = 9, twist = 90, slices = 5, scale = [0.5, 0.7]) {
+      offset(r = 0.5, $fn = 12) square(size = 5);
+    }
+  }
+}
+multmatrix([[1, 0, 0, 0], [0, 1, 0, 14], [0, 0, 1, 0], [0, 0, 0, 1]]) color([0.2, 0.5, 1, 0.5]) {
+  hull() { cube(size = [4, 4, 1], center = true); multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]) sphere(r = 1); }
+}
+multmatrix([[1, 0, 0, 12], [0, 1, 0, 14], [0, 0, 1, 0], [0, 0, 0, 1]]) {
+  polyhedron(points = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [2, 2, 1], [2, 2, 4]],
+    faces = [[0, 1, 5], [1, 2, 5], [2, 3, 5], [3, 0, 5], [1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]);
+}
+)";
+
+TEST_CASE("a model of every construct is the same here and on nodes, exact and with facets") {
+  Sandbox sandbox;
+  sandbox.write("every.csg", kEveryConstruct);
+  for (const Arguments& facets : {Arguments{}, Arguments{"--facets"}}) {
+    for (const auto& [algorithm, out] : {std::pair{"macro", "a.exr"}, {"serial", "b.exr"}, {"roth", "c.exr"}}) {
+      Arguments arguments{"render", "every.csg", "-n", "4", "--algorithm", algorithm, "--size", "90x70", "-o", out, "-q"};
+      arguments.insert(arguments.end(), facets.begin(), facets.end());
+      const Outcome o = sandbox.run(arguments);
+      INFO(o.err);
+      REQUIRE(o.status == 0);
+    }
+    CHECK((file_bytes(sandbox / "a.exr") == file_bytes(sandbox / "b.exr")));
+    CHECK((file_bytes(sandbox / "a.exr") == file_bytes(sandbox / "c.exr")));
+  }
+}
+
+TEST_CASE("a scene in CBOR gives the picture of its JSON, and comes back as it was") {
+  Sandbox sandbox;
+  sandbox.write("every.csg", kEveryConstruct);
+  REQUIRE(sandbox.run({"convert", "every.csg", "a.json"}).status == 0);
+  REQUIRE(sandbox.run({"convert", "a.json", "a.cbor"}).status == 0);
+  REQUIRE(sandbox.run({"convert", "a.cbor", "b.json"}).status == 0);
+  CHECK(file_bytes(sandbox / "a.json") == file_bytes(sandbox / "b.json"));
+  for (const char* scene : {"a.json", "a.cbor"}) {
+    const Outcome o = sandbox.run({"render", scene, "-n", "2", "--size", "64x64", "-o", std::string(scene) + ".exr", "-q"});
+    INFO(o.err);
+    REQUIRE(o.status == 0);
+  }
+  CHECK((read_exr(sandbox / "a.json.exr") == read_exr(sandbox / "a.cbor.exr")));
+}
+
+/// Runs the command with a script for `openscad`.
+class FakeOpenscad {
+ public:
+  FakeOpenscad(Sandbox& sandbox, const std::string& text) : sandbox_(sandbox) {
+    std::filesystem::create_directory(sandbox / "fake");
+    const auto path = sandbox.write("fake/openscad", "#!/bin/sh\n" + text);
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  }
+  /// `before` stands in front of the command.
+  Outcome run(const Arguments& arguments, const Arguments& before = {}) {
+    Arguments all{"PATH=" + (sandbox_ / "fake").string() + ":/usr/bin:/bin"};
+    all.insert(all.end(), before.begin(), before.end());
+    all.push_back(GRAYCUBE_COMMAND);
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return sandbox_.run_program("/usr/bin/env", all);
+  }
+
+ private:
+  Sandbox& sandbox_;
+};
+
+constexpr const char* kTetrahedron =
+    "printf 'OFF 4 4 0\\n0 0 0\\n2 0 0\\n0 2 0\\n0 0 2\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 0 3 2\\n' > \"$2\"\n";
+
+TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves nothing behind") {
+  Sandbox sandbox;
+  FakeOpenscad fake(sandbox, "echo run >> runs\n" + std::string(kTetrahedron));
+  sandbox.write("m.csg", "minkowski() { cube(1); sphere(1); }\nminkowski() { cube(1); sphere(1); }\n");
+  const Outcome o = fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
+  INFO(o.err);
+  REQUIRE(o.status == 0);
+  CHECK(lines_of(o.err) == std::vector<std::string>{
+                               "graycube: warning: m.csg:1: minkowski() is evaluated by OpenSCAD, as a mesh"});
+  CHECK(lines_of(file_bytes(sandbox / "runs")).size() == 1);
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was asked for") {
+  Sandbox sandbox;
+  FakeOpenscad fake(sandbox, "echo 'ERROR: it is broken' >&2\nexit 1\n");
+  sandbox.write("m.csg", "cube(1);\ntext(text = \"a\");\nminkowski() { cube(1); }\n");
+  const Outcome o = fake.run({"check", "m.csg"});
+  CHECK(o.status == 2);
+  CHECK(o.err.find("graycube: scene: m.csg:3: minkowski(): openscad: ERROR: it is broken\n") != std::string::npos);
+  sandbox.write("m.scad", "cube(;");
+  const Outcome scad = fake.run({"check", "m.scad"});
+  CHECK(scad.status == 2);
+  CHECK(scad.err == "graycube: openscad: m.scad: ERROR: it is broken\n");
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
+  Sandbox sandbox;
+  FakeOpenscad fake(sandbox, "exec sleep 100\n");
+  sandbox.write("m.csg", "minkowski() { cube(1); }\n");
+  const Outcome o = fake.run({"render", "m.csg", "-o", "m.exr"}, {"timeout", "--signal=INT", "2"});
+  CHECK(o.status == 124);
+  CHECK(o.err.find("SIGINT: interrupted") != std::string::npos);
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+  CHECK_FALSE(std::filesystem::exists(sandbox / "m.exr"));
+}
+
+TEST_CASE("text, Minkowski sums and files of the model's folder come through OpenSCAD where it is installed") {
+  if (!find_program("openscad")) {
+    WARN("no openscad here");
+    return;
+  }
+  Sandbox sandbox;
+  std::filesystem::create_directory(sandbox / "folder");
+  sandbox.write("folder/part.off", "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  sandbox.write("folder/m.scad",
+                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { cube(4); cylinder(1); }\n"
+                "translate([20, 0, 0]) import(\"part.off\");\n");
+  const Outcome o = sandbox.run({"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK(o.err.find("text() is evaluated by OpenSCAD, as a polygon") != std::string::npos);
+  CHECK(o.err.find("minkowski() is evaluated by OpenSCAD, as a mesh") != std::string::npos);
+  CHECK(sandbox.temporary_files().empty());
+}
+
 TEST_CASE("a converted OpenSCAD model is the scene that is rendered") {
   Sandbox sandbox;
   const std::string model = scene_file("openscad/dice.csg").string();

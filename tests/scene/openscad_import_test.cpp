@@ -195,16 +195,10 @@ TEST_CASE("matrices multiply from the outside in") {
          !holds(scene, {9.5, 0.5, 0.5})));
 }
 
-TEST_CASE("every module that is not supported is an error naming its line") {
-  const auto errors = errors_of(fixture("not_supported.csg"));
-  const std::vector<std::string> expected{
-      "2: hull() needs meshes of its children, which are not supported yet",
-      "8: linear_extrude() of 2-D shapes is not supported yet",
-      "12: minkowski() needs meshes of its children, which are not supported yet",
-      "19: rotate_extrude() of 2-D shapes is not supported yet",
-      "24: linear_extrude() of 2-D shapes is not supported yet",
-      "31: polyhedron(): is not convex: meshes are not supported yet"};
-  CHECK(errors == expected);
+TEST_CASE("without OpenSCAD what needs it is an error naming its line") {
+  const std::vector<std::string> expected{"12: minkowski() needs the program openscad, which is not there",
+                                          "25: text() needs the program openscad, which is not there"};
+  CHECK(errors_of(fixture("for_openscad.csg")) == expected);
 }
 
 TEST_CASE("arguments that make no sense are errors naming the line and the argument") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "fuzz/openscad_fuzz.hpp"
 #include "scene/openscad.hpp"
 #include "scene/openscad/reading.hpp"
 #include "scene/read_scene.hpp"
@@ -48,6 +49,12 @@ void mutate(std::string& text, Random& random) {
                                                "multmatrix(",
                                                "color(",
                                                "$fn = 3, ",
+                                               "linear_extrude(height = 2, twist = 30) ",
+                                               "rotate_extrude(angle = 90) ",
+                                               "hull() ",
+                                               "offset(r = -1) ",
+                                               "circle(r = 2);",
+                                               "multmatrix([[1, 0, 0, 9]]) ",
                                                "\n"};
   const std::size_t at = below(random, text.size() + 1);
   const std::size_t piece = below(random, 60);
@@ -108,6 +115,39 @@ TEST_CASE("thousands of damaged files are read without harm, and both ends occur
   }
   CHECK(accepted > 200);
   CHECK(refused > 400);
+}
+
+/// Flat shapes and what is made of them.
+constexpr const char* kFlatFile = R"(linear_extrude(height = 3, center = true, twist = 0, scale = [1, 1]) {
+	difference() {
+		square(size = [4, 3], center = true);
+		multmatrix([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { circle($fn = 0, r = 1); }
+		polygon(points = [[0, 0], [2, 0], [0, 2], [1, 1]], paths = [[0, 1, 2], [3, 1, 0]]);
+	}
+}
+rotate_extrude(angle = 270, $fn = 0) {
+	intersection() {
+		multmatrix([[1, 0, 0, 5], [0, 2, 0, 0]]) circle(r = 2, $fn = 0);
+		offset(delta = 1, chamfer = true) { square(size = 6); }
+	}
+}
+hull() { sphere(r = 1, $fn = 6); cube(size = [1, 2, 3]); }
+linear_extrude(height = 2, twist = 45, slices = 3, scale = [0.5, 2]) offset(r = 0.5) { text(text = "a"); square(2); }
+projection() { cube(1); }
+)";
+
+TEST_CASE("thousands of damaged files of flat shapes are read without harm, and both ends occur") {
+  int accepted = 0, refused = 0;
+  for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
+    Random random(seed);
+    std::string text = kFlatFile;
+    const std::size_t mutations = below(random, 5);
+    for (std::size_t i = 0; i < mutations; ++i) mutate(text, random);
+    INFO("seed " << seed << ":\n" << text);
+    ++(testing::fuzz_openscad(text) ? accepted : refused);
+  }
+  CHECK(accepted > 200);
+  CHECK(refused > 200);
 }
 
 TEST_CASE("every beginning of a file is read without harm") {

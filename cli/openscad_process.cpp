@@ -1,0 +1,161 @@
+#include "cli/openscad_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How often to look whether the process has ended, where nothing tells.
+constexpr int kLookMs = 20;
+constexpr std::string_view kEmptyModel = "Current top level object is empty.";
+
+/// At most `most` bytes; nothing when there is no such file.
+std::optional<std::string> bytes_of(const fs::path& path, std::uint64_t most) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::error_code error;
+  const std::uint64_t size = std::min<std::uint64_t>(fs::file_size(path, error), most);
+  if (error) return std::nullopt;
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+void reap(pid_t pid) {
+  ::kill(pid, SIGKILL);
+  while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+/// Statistics of an export, of no interest here.
+bool is_worth_telling(std::string_view line) {
+  return line.starts_with("ERROR") || line.starts_with("WARNING") || line.starts_with("ECHO") ||
+         line.starts_with("TRACE") || line.starts_with("DEPRECATED") || line.starts_with("Can't");
+}
+
+}  // namespace
+
+std::unique_ptr<OpenscadProcess> OpenscadProcess::find() {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / "openscad";
+    std::error_code error;
+    if (fs::is_regular_file(program, error) && ::access(program.c_str(), X_OK) == 0) {
+      return std::make_unique<OpenscadProcess>(program);
+    }
+  }
+  return nullptr;
+}
+
+pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, const fs::path& log) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawnattr_init(&attributes);
+  constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC;
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), kWrite, 0600);
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGPIPE);
+  ::posix_spawnattr_setsigdefault(&attributes, &signals);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  std::array<std::string, 4> words{program_.string(), "-o", output.string(), input.string()};
+  std::array<char*, 5> argv{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  pid_t pid = -1;
+  const int error = ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::posix_spawnattr_destroy(&attributes);
+  if (error != 0) {
+    throw Failure(ExitStatus::kFailed, Problem{"openscad", program_.string(), std::strerror(error)});
+  }
+  return pid;
+}
+
+std::optional<int> OpenscadProcess::wait_for_end(pid_t pid) const {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(most_seconds_);
+  for (;;) {
+    int status = 0;
+    const pid_t ended = ::waitpid(pid, &status, WNOHANG);
+    if (ended == pid) return status;
+    if (is_interrupted()) {
+      reap(pid);
+      throw_if_interrupted();
+    }
+    if (std::chrono::steady_clock::now() >= deadline) {
+      reap(pid);
+      return std::nullopt;
+    }
+    ::poll(nullptr, 0, kLookMs);
+  }
+}
+
+std::string OpenscadProcess::trouble_in(const std::string& log, int status) {
+  std::string last_error;
+  std::stringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    if (!is_worth_telling(line)) continue;
+    messages_.push_back(line);
+    if (line.starts_with("ERROR")) last_error = line;
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (log.find(kEmptyModel) != std::string::npos) return {};
+  if (!last_error.empty()) return "openscad: " + last_error;
+  return WIFEXITED(status) ? "openscad ended with status " + std::to_string(WEXITSTATUS(status))
+                           : "openscad ended by signal " + std::to_string(WTERMSIG(status));
+}
+
+OpenscadProgram::Result OpenscadProcess::run(const fs::path& input, const std::string& output) {
+  const fs::path written = folder_ / output, log = folder_ / "log";
+  const auto status = wait_for_end(start(input, written, log));
+  throw_if_interrupted();
+  Result result;
+  if (!status) {
+    result.trouble = "openscad took more than " + std::to_string(most_seconds_) + " s";
+    return result;
+  }
+  result.trouble = trouble_in(bytes_of(log, kMaxOpenscadLogBytes).value_or(""), *status);
+  if (!result.trouble.empty()) return result;
+  if (auto bytes = bytes_of(written, kMaxOpenscadOutputBytes + 1)) result.text = std::move(*bytes);
+  if (result.text.size() > kMaxOpenscadOutputBytes) {
+    result = {{}, "openscad wrote more than " + std::to_string(kMaxOpenscadOutputBytes) + " bytes"};
+  }
+  return result;
+}
+
+OpenscadProgram::Result OpenscadProcess::evaluate(const std::string& csg, Format format) {
+  const std::string name = "part" + std::to_string(++runs_);
+  const fs::path input = folder_ / (name + ".csg");
+  std::ofstream(input, std::ios::binary) << csg;
+  return run(input, name + (format == Format::kOff ? ".off" : ".svg"));
+}
+
+OpenscadProgram::Result OpenscadProcess::evaluate_file(const fs::path& scad) {
+  return run(fs::absolute(scad), "model.csg");
+}
+
+std::vector<std::string> OpenscadProcess::take_messages() { return std::exchange(messages_, {}); }
+
+}  // namespace graycube

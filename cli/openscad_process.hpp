@@ -1,0 +1,58 @@
+// OpenSCAD as a child process, in a private folder for its files.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/failure.hpp"
+#include "cli/interrupts.hpp"
+#include "scene/openscad.hpp"
+#include "transport/temporary_folder.hpp"
+
+namespace graycube {
+
+/// Longest run; then the process is killed.
+inline constexpr int kMaxOpenscadSeconds = 300;
+/// Largest file that is taken from it, and how much of what it says is read.
+inline constexpr std::uint64_t kMaxOpenscadOutputBytes = std::uint64_t{1} << 28;
+inline constexpr std::uint64_t kMaxOpenscadLogBytes = 65536;
+
+class OpenscadProcess : public OpenscadProgram {
+ public:
+  /// The program on PATH; null when there is none.
+  static std::unique_ptr<OpenscadProcess> find();
+  explicit OpenscadProcess(std::filesystem::path program, int most_seconds = kMaxOpenscadSeconds)
+      : program_(std::move(program)), most_seconds_(most_seconds) {}
+
+  /// An interrupt ends the process and is thrown as a Failure.
+  Result evaluate(const std::string& csg, Format format) override;
+  /// The .csg file that a .scad file comes to.
+  Result evaluate_file(const std::filesystem::path& scad);
+  /// What the program had to say, line by line, since this was last asked.
+  std::vector<std::string> take_messages();
+
+ private:
+  /// Runs the program with `-o output input` and gives what it wrote.
+  Result run(const std::filesystem::path& input, const std::string& output);
+  pid_t start(const std::filesystem::path& input, const std::filesystem::path& output,
+              const std::filesystem::path& log);
+  /// Its wait status; nothing when the time was up.
+  std::optional<int> wait_for_end(pid_t pid) const;
+  /// Notes what it said, and gives what went wrong.
+  std::string trouble_in(const std::string& log, int status);
+
+  std::filesystem::path program_;
+  int most_seconds_;
+  std::vector<std::string> messages_;
+  /// The folder has to go on an interrupt, too.
+  InterruptsHeld held_;
+  TemporaryFolder folder_;
+  int runs_ = 0;
+};
+
+}  // namespace graycube

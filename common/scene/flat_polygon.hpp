@@ -1,0 +1,74 @@
+// Polygons of the plane, with holes: Boolean operations and offsets (by Clipper, whose only home is
+// flat_polygon.cpp), and what is in them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace graycube {
+
+struct FlatPoint {
+  double x = 0, y = 0;
+  friend bool operator==(const FlatPoint&, const FlatPoint&) = default;
+};
+/// A closed cycle of corners; the last is joined to the first.
+using FlatLoop = std::vector<FlatPoint>;
+/// The points that an odd number of loops goes round.
+using FlatLoops = std::vector<FlatLoop>;
+
+/// One connected part: an outline counter-clockwise, and holes clockwise.
+struct FlatRegion {
+  FlatLoop outline;
+  FlatLoops holes;
+};
+
+/// p' = [a b; c d] p + (x, y), rows of three.
+struct FlatMap {
+  std::array<std::array<double, 3>, 2> m{{{1, 0, 0}, {0, 1, 0}}};
+
+  FlatPoint operator()(const FlatPoint& p) const {
+    return {m[0][0] * p.x + m[0][1] * p.y + m[0][2], m[1][0] * p.x + m[1][1] * p.y + m[1][2]};
+  }
+  double determinant() const { return m[0][0] * m[1][1] - m[0][1] * m[1][0]; }
+  friend bool operator==(const FlatMap&, const FlatMap&) = default;
+};
+FlatMap compose(const FlatMap& then, const FlatMap& first);
+FlatLoops mapped(const FlatMap& map, FlatLoops loops);
+
+/// The sign of the area of the triangle a, b, c: positive where it turns left. Exact: the error-free
+/// products of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), where rounding could tell.
+int orientation(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c);
+
+/// Whether the point is within the loops, by the even-odd rule.
+bool is_within(std::span<const FlatLoop> loops, const FlatPoint& p);
+
+/// The smallest rectangle that holds all corners; lower corner first. Not for no loops.
+std::array<FlatPoint, 2> flat_bounds(std::span<const FlatLoop> loops);
+
+/// The corners of the convex hull, counter-clockwise, none of them on a line between others. Fewer than three
+/// where the points lie in one line.
+FlatLoop flat_hull(std::vector<FlatPoint> points);
+
+/// Clipper works on integers: coordinates are rounded to 2^-40 of the largest one's power of two, corners that stay
+/// keep their own values. All results are outlines counter-clockwise and holes clockwise that touch one another at
+/// corners only. Coordinates must be finite.
+/// Whether the operations below end soon: at most this many pairs of sides have boxes that overlap.
+inline constexpr std::size_t kMaxFlatCrossings = std::size_t{1} << 22;
+bool crossings_are_few(std::span<const FlatLoops> operands);
+
+enum class FlatOperation : std::uint8_t { kUnion, kIntersection, kDifference };
+/// The first operand and the others together; operands are even-odd each.
+FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands);
+/// As above for one operand: outlines that cross themselves or one another are resolved.
+FlatLoops resolved(const FlatLoops& loops);
+/// The connected parts.
+std::vector<FlatRegion> regions_of(const FlatLoops& loops);
+
+enum class FlatJoin : std::uint8_t { kRound, kMiter, kSquare };
+/// Grown by `distance` everywhere, shrunk if negative. Round joins have corners at most `arc_tolerance` > 0 off the arc.
+FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance);
+
+}  // namespace graycube

@@ -1,0 +1,54 @@
+// The two-dimensional part of a .csg file: squares, circles, polygons, what is made of them, and what comes
+// of the rest as polygons.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/flat_polygon.hpp"
+#include "scene/openscad_program.hpp"
+
+namespace graycube {
+
+/// A figure that isn't empty. Circles and their images stay what they are; operations remain only above them.
+struct FlatShape {
+  enum class Kind : std::uint8_t { kPolygon, kDisk, kUnion, kIntersection, kDifference };
+  Kind kind = Kind::kPolygon;
+  /// Of a polygon.
+  FlatLoops loops;
+  /// A disk is the image of the unit disk; OpenSCAD gives it so many sides.
+  FlatMap disk;
+  int sides = 0;
+  std::vector<FlatShape> children;
+
+  bool has_curves() const;
+};
+
+/// What all parts of an import share.
+struct ScadImport {
+  const OpenscadOptions& options;
+  OpenscadReport& report;
+  OpenscadDelegate delegate;
+  /// What was warned of once.
+  std::set<std::string> told;
+
+  void warn_once(int line, const std::string& message) {
+    if (told.insert(message).second) report.warning(line, message);
+  }
+};
+
+/// The figure of a module under a map; nothing where it is empty or wrong, which is reported.
+std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map, ScadImport& import);
+/// The union of the modules in the list that have two dimensions.
+std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map, ScadImport& import,
+                                    int line);
+
+/// The figure with OpenSCAD's sides for what is round, resolved; nothing where it is empty. `line` for an error.
+std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line);
+
+/// The factor of a similarity, as far as the six digits tell that OpenSCAD writes.
+std::optional<double> written_similarity(const FlatMap& map);
+
+}  // namespace graycube
