@@ -154,10 +154,10 @@ class EchoProcess {
 }  // namespace
 
 double measuring_overhead_s() {
-  constexpr int kRounds = 10000;
+  constexpr int kReadings = 10000;
   const double began_s = thread_cpu_seconds();
-  for (int i = 0; i < kRounds; ++i) thread_cpu_seconds();
-  return (thread_cpu_seconds() - began_s) / kRounds;
+  for (int i = 0; i < kReadings; ++i) thread_cpu_seconds();
+  return (thread_cpu_seconds() - began_s) / kReadings;
 }
 
 PerUnit transport_costs() {
