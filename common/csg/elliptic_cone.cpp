@@ -18,6 +18,22 @@ Range radius_over(double k, double lo, double hi) {
   return {std::fmax(0, std::fmin(a, b)), std::fmax(0, std::fmax(a, b))};
 }
 
+/// Whether a line passes outside of the ellipse a cone has where it is widest in [enter, leave] of s. A little
+/// larger than the cone: what is left out has no roots.
+bool misses_widest(const Vec3& q, const Vec3& u, double k, double enter, double leave) {
+  constexpr double kWider = 1 + 1e-6;
+  const double z0 = q.z + enter * u.z, z1 = q.z + leave * u.z;
+  const double a = kWider * std::fmax(std::fabs(1 - z0), std::fabs(1 - z1));
+  const double b = kWider * std::fmax(std::fabs(1 - k * z0), std::fabs(1 - k * z1));
+  // |(b x, a y)|² along the line is a parabola: least at its middle, or where the piece ends.
+  const double x = b * q.x, y = a * q.y, dx = b * u.x, dy = a * u.y;
+  const double steepness = dx * dx + dy * dy;
+  const double middle = steepness > 0 ? -(x * dx + y * dy) / steepness : 0;
+  const double s = std::fmin(std::fmax(middle, enter), leave);
+  const double nx = x + s * dx, ny = y + s * dy;
+  return nx * nx + ny * ny > a * a * (b * b);
+}
+
 }  // namespace
 
 Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
@@ -34,6 +50,7 @@ Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
   // Recentred in the middle of the piece that counts.
   const double nearest = 0.5 * (i.enter + i.leave) * speed;
   const Vec3 q = o + nearest * u;
+  if (misses_widest(q, u, k, i.enter * speed - nearest, i.leave * speed - nearest)) return {};
   const Quadratic x = product(q.x, u.x, 1 - k * q.z, -k * u.z);
   const Quadratic y = product(q.y, u.y, 1 - q.z, -u.z);
   const Quadratic w = product(1 - q.z, -u.z, 1 - k * q.z, -k * u.z);

@@ -231,17 +231,26 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
   auto& after = scratch.flags_after;
   events.clear();
   before.assign(literals.size() / 64 + 1, 0);
+  const bool is_flat = item.first_node == SurfaceItem::kFlat;
+  double from = -csg::kInf;
+  double to = csg::kInf;
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
     ++scratch.counts.primitives_tested;
     const std::uint32_t primitive = literals[i].primitive;
     if (literals[i].kind == PrimitiveKind::kMesh) {
       crossings::gather(scratch.meshes.spans(*model_, primitive, ray.ray), i, t0, t1, events, before);
-    } else {
-      crossings::gather(spans_along(model_->primitives[primitive], model_->data(), ray.ray), i, t0, t1, events, before);
+      continue;
     }
+    const Spans spans = spans_along(model_->primitives[primitive], model_->data(), ray.ray);
+    crossings::gather(spans, i, t0, t1, events, before);
+    if (!is_flat || literals[i].is_inverted) continue;
+    // As in for_each_item_crossing: all crossings of a conjunction lie where all that is not taken away reaches.
+    if (spans.count == 0) return true;
+    from = std::fmax(from, spans.interval[0].enter);
+    to = std::fmin(to, spans.interval[static_cast<std::size_t>(spans.count - 1)].leave);
+    if (!(from < to) || to < t0 || from >= t1) return true;
   }
   if (events.empty()) return true;
-  const bool is_flat = item.first_node == SurfaceItem::kFlat;
   const std::span<const TreeNode> tree{
       is_flat ? nullptr : program_nodes_.data() + item.first_node, item.node_count};
   const auto is_member = [&](std::span<const std::uint64_t> flags) {
