@@ -4,40 +4,18 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/json_tree.hpp"
+#include "scene/tracked_text.hpp"
 
 namespace graycube {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Hands out the bytes and tells how far the library has read, which its events don't.
-class TrackedBytes {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  TrackedBytes(const char* at, const char** reached) : at_(at), reached_(reached) {}
-  reference operator*() const { return *at_; }
-  TrackedBytes& operator++() {
-    *reached_ = ++at_;
-    return *this;
-  }
-  bool operator==(const TrackedBytes& other) const { return at_ == other.at_; }
-
- private:
-  const char* at_;
-  const char** reached_;
-};
 
 }  // namespace
 
@@ -49,7 +27,7 @@ class CborEvents {
   void parse() {
     const char* const begin = bytes_.data() + kCborMagic.size();
     reached_ = begin;
-    Json::sax_parse(TrackedBytes(begin, &reached_), TrackedBytes(bytes_.data() + bytes_.size(), &reached_), this,
+    Json::sax_parse(TrackedText(begin, &reached_), TrackedText(bytes_.data() + bytes_.size(), &reached_), this,
                     Json::input_format_t::cbor, true);
     // Also after a failure, so that pointers to what was read stay right.
     while (!open_.empty()) close();

@@ -1,10 +1,8 @@
-// Fills a JsonTree from the events of nlohmann's parser: the only file of this folder that knows
-// the library. It decides what is JSON here, and words what is wrong.
+// Fills a JsonTree from the events of nlohmann's parser. It decides what is JSON here, and words what is wrong.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "scene/json_tree.hpp"
+#include "scene/tracked_text.hpp"
 
 namespace graycube {
 namespace {
@@ -21,28 +20,6 @@ using Json = nlohmann::json;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// The library's number for a number beyond a double.
 constexpr int kNumberOverflow = 406;
-
-/// Hands out the text and tells how far the library has read, which its events don't.
-class TrackedText {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  TrackedText(const char* at, const char** reached) : at_(at), reached_(reached) {}
-  reference operator*() const { return *at_; }
-  TrackedText& operator++() {
-    *reached_ = ++at_;
-    return *this;
-  }
-  bool operator==(const TrackedText& other) const { return at_ == other.at_; }
-
- private:
-  const char* at_;
-  const char** reached_;
-};
 
 /// What the library says it was parsing, and what would have been right there.
 struct Expectation {
