@@ -4,6 +4,7 @@
 #   holds  no assertion fails and nothing gets stuck
 #   ends   the model's LTL claim holds under weak fairness
 #   fails  an assertion can fail (the model shows why a rule is needed)
+#   stuck  the model can stop before its end (likewise)
 # SPIN and CC name the programs. Works in a directory of its own, and removes it.
 set -eu
 
@@ -12,7 +13,7 @@ expected=$2
 shift 2
 spin=${SPIN:-spin}
 cc=${CC:-cc}
-memory_mb=1500
+memory_mb=1000
 depth=3000000
 
 fail() {
@@ -29,8 +30,8 @@ cd "$directory"
 "$spin" -a "$@" "$model" >spin.out 2>&1 || { cat spin.out >&2; fail "spin refuses the model"; }
 case $expected in
   ends) "$cc" -O1 -w -DMEMLIM=$memory_mb -DCOLLAPSE -DNFAIR=5 -o pan pan.c; options="-a -f" ;;
-  holds | fails) "$cc" -O1 -w -DMEMLIM=$memory_mb -DCOLLAPSE -DSAFETY -o pan pan.c; options="" ;;
-  *) fail "expected is holds, ends or fails" ;;
+  holds | fails | stuck) "$cc" -O1 -w -DMEMLIM=$memory_mb -DCOLLAPSE -DSAFETY -o pan pan.c; options="" ;;
+  *) fail "expected is holds, ends, fails or stuck" ;;
 esac
 # shellcheck disable=SC2086  # options are words
 ./pan $options -m$depth -w22 >pan.out 2>&1 || true
@@ -40,12 +41,17 @@ cat pan.out
 for trouble in "max search depth too small" "reached -DMEMLIM" "out of memory"; do
   if grep -q -- "$trouble" pan.out; then fail "search incomplete: $trouble"; fi
 done
+counterexample() {
+  grep -q -- "$1" pan.out || fail "no counterexample found"
+  echo "counterexample:"
+  trail=$(basename "$model").trail
+  shift
+  "$spin" -t -p -g -k "$trail" "$@" "$model" 2>/dev/null | tail -n 40 || true
+}
+
 case $expected in
-  fails)
-    grep -q "assertion violated" pan.out || fail "no counterexample found"
-    echo "counterexample:"
-    trail=$(basename "$model").trail
-    "$spin" -t -p -g -k "$trail" "$@" "$model" 2>/dev/null | tail -n 40 || true ;;
+  fails) counterexample "assertion violated" "$@" ;;
+  stuck) counterexample "invalid end state" "$@" ;;
   *)
     grep -q "errors: 0" pan.out || fail "an error was found"
     if grep -q "Search not completed" pan.out; then fail "search not completed"; fi ;;
