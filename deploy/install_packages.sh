@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what Graycube is built from, on Debian 12: deploy/install_packages.sh [--tests]
-# With --tests also the tools that tests and benchmarks compare with. Does nothing when all is there.
+# Installs what Graycube is built from, on Debian 12: deploy/install_packages.sh [--tests | --fuzz]
+# With --tests also the tools that tests and benchmarks compare with, with --fuzz what the fuzzers need.
+# Does nothing when all is there.
 set -euo pipefail
 
 fail() {
@@ -16,7 +17,8 @@ packages=(
 case "${1-}" in
   '') ;;
   --tests) packages+=(spin openscad povray libbenchmark-dev curl python3) ;;
-  *) fail "usage: install_packages.sh [--tests]" ;;
+  --fuzz) packages+=(clang libclang-rt-14-dev) ;;
+  *) fail "usage: install_packages.sh [--tests | --fuzz]" ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -1,21 +1,29 @@
 #!/usr/bin/env bash
-# Builds with warnings as errors and runs every test: deploy/test.sh [--sanitizers]
+# Builds with warnings as errors and runs every test: deploy/test.sh [--sanitizers | --fuzz [SECONDS]]
 # With --sanitizers then also under the address, undefined-behaviour and thread sanitizers. What is
-# printed last is ctest's own summary.
+# printed last is ctest's own summary. With --fuzz nothing but the fuzzers of tests/fuzz, 60 seconds each.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
+say() { printf '==> %s\n' "$*"; }
+
 presets=(release)
 case "${1-}" in
+  --fuzz)
+    say "Packages"
+    bash deploy/install_packages.sh --fuzz
+    say "Building in build/fuzz"
+    cmake --preset fuzz --log-level=WARNING
+    cmake --build --preset fuzz --parallel "$(nproc)" -- --quiet
+    exec bash tests/fuzz/run.sh build/fuzz/bin "${2-60}"
+    ;;
   '') ;;
   --sanitizers) presets+=(asan tsan) ;;
   *)
-    printf 'usage: test.sh [--sanitizers]\n' >&2
+    printf 'usage: test.sh [--sanitizers | --fuzz [SECONDS]]\n' >&2
     exit 2
     ;;
 esac
-
-say() { printf '==> %s\n' "$*"; }
 
 say "Packages"
 bash deploy/install_packages.sh --tests

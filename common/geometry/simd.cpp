@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <cstdlib>
 
+#if HWY_ARCH_X86
+#include <cpuid.h>
+#endif
+
 namespace graycube {
 namespace {
 
@@ -21,6 +25,18 @@ constexpr std::array<Named, 6> kNamed{{{"scalar", HWY_EMU128},
                                        {"avx2", HWY_AVX2},
                                        {"avx512", HWY_AVX3}}};
 
+#if HWY_ARCH_X86
+// clang 14's __builtin_cpu_supports knows neither of these.
+bool has_f16c() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+bool has_lzcnt() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(0x80000001, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;
+}
+#endif
+
 /// What the processor and its operating system have, of what is compiled.
 std::int64_t available() {
   std::int64_t found = HWY_EMU128 | HWY_SCALAR;
@@ -30,7 +46,7 @@ std::int64_t available() {
                             __builtin_cpu_supports("pclmul"));
   const bool avx2 = sse4 && has_all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("bmi"),
                                     __builtin_cpu_supports("bmi2"), __builtin_cpu_supports("fma"),
-                                    __builtin_cpu_supports("f16c"), __builtin_cpu_supports("lzcnt"));
+                                    has_f16c(), has_lzcnt());
   const bool avx512 = avx2 && has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
                                       __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"));
   if (sse4) found |= HWY_SSE4;

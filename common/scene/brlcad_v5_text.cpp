@@ -70,6 +70,8 @@ class V5TextReader {
 
  private:
   static constexpr std::size_t kMaxWords = 4 * kMaxBrlcadNumbers;
+  /// Bytes read for one combination's tree, over all levels: some seconds.
+  static constexpr std::uint64_t kMaxTreeBytes = std::uint64_t{1} << 31;
 
   std::string where() const { return "line " + std::to_string(line_); }
   void fail(const std::string& name, const std::string& why) {
@@ -318,6 +320,7 @@ class V5TextReader {
   std::optional<BrlcadTree> tree(const std::string& name, const std::string& text) {
     BrlcadTreeBuilder builder;
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) return std::nullopt;
+    tree_bytes_ = 0;
     if (!tree_node(name, text, builder, 0)) return std::nullopt;
     return builder.finish();
   }
@@ -343,6 +346,12 @@ class V5TextReader {
     std::vector<Pending> pending;
     std::string node = text;
     for (;;) {
+      // Each level reads what is below it again.
+      tree_bytes_ += node.size();
+      if (tree_bytes_ > kMaxTreeBytes) {
+        fail(name, "its tree is too long, or too lopsided, to be read in this form");
+        return false;
+      }
       const auto words = tcl_list(node, 4);
       if (!words || words->empty()) return wrong_tree(name);
       if (words->front() == "l") {
@@ -395,6 +404,7 @@ class V5TextReader {
   TclWords script_;
   BrlcadReport& report_;
   std::size_t line_ = 1;
+  std::uint64_t tree_bytes_ = 0;
   BrlcadDatabase database_;
 };
 

@@ -235,25 +235,30 @@ FlatLoop flat_hull(std::vector<FlatPoint> points) {
 }
 
 bool crossings_are_few(std::span<const FlatLoops> operands) {
-  struct Box {
-    FlatPoint lo, hi;
+  struct Side {
+    FlatPoint a, b, lo, hi;
   };
-  std::vector<Box> boxes;
+  std::vector<Side> sides;
   for (const FlatLoops& loops : operands) {
     for (const FlatLoop& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-        boxes.push_back({{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}});
+        sides.push_back({a, b, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}});
       }
     }
   }
-  std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.lo.x < b.lo.x; });
-  std::size_t tests = 0, crossings = 0;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo.x <= boxes[i].hi.x; ++j) {
-      if (++tests > 64 * kMaxFlatCrossings) return false;
-      if (boxes[j].lo.y > boxes[i].hi.y || boxes[i].lo.y > boxes[j].hi.y) continue;
-      if (++crossings > kMaxFlatCrossings) return false;
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.lo.x < t.lo.x; });
+  const auto cross = [](const Side& s, const Side& t) {
+    return orientation(s.a, s.b, t.a) * orientation(s.a, s.b, t.b) < 0 &&
+           orientation(t.a, t.b, s.a) * orientation(t.a, t.b, s.b) < 0;
+  };
+  std::size_t tests = 0, overlaps = 0, crossings = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].lo.x <= sides[i].hi.x; ++j) {
+      if (++tests > 64 * kMaxFlatOverlaps) return false;
+      if (sides[j].lo.y > sides[i].hi.y || sides[i].lo.y > sides[j].hi.y) continue;
+      if (++overlaps > kMaxFlatOverlaps) return false;
+      if (cross(sides[i], sides[j]) && ++crossings > kMaxFlatCrossings) return false;
     }
   }
   return true;

@@ -27,13 +27,26 @@ std::string picture(Sandbox& sandbox, const std::string& scene, const char* size
   return bytes;
 }
 
-void check_identity(const std::string& scene, const char* size = kSize, const Arguments& also = {}) {
+/// The scene's picture is that of `serial` in all of these ways.
+void check_ways(const std::string& scene, const std::vector<Arguments>& ways, const char* size,
+                const Arguments& also) {
   Sandbox sandbox;
   const auto with_also = [&](Arguments way) {
     way.insert(way.end(), also.begin(), also.end());
     return way;
   };
   const std::string reference = picture(sandbox, scene, size, with_also({"--algorithm", "serial"}));
+  for (const Arguments& way : ways) {
+    std::string name;
+    for (const std::string& word : way) name += word + " ";
+    INFO(scene << " with " << name);
+    CHECK((picture(sandbox, scene, size, with_also(way)) == reference));
+  }
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+void check_identity(const std::string& scene, const char* size = kSize, const Arguments& also = {}) {
   std::vector<Arguments> ways{{"--algorithm", "serial", "--threads", "2"},
                               {"--algorithm", "auto"},
                               {"--algorithm", "macro", "-n", "4", "--threads", "2"},
@@ -51,14 +64,7 @@ void check_identity(const std::string& scene, const char* size = kSize, const Ar
     ways.push_back({"--algorithm", "macro", "-n", nodes, "--partition", "balanced"});
   }
   ways.push_back({"--algorithm", "macro", "-n", "4", "--flow", "blocking", "--queue", "65536"});
-  for (const Arguments& way : ways) {
-    std::string name;
-    for (const std::string& word : way) name += word + " ";
-    INFO(scene << " with " << name);
-    CHECK((picture(sandbox, scene, size, with_also(way)) == reference));
-  }
-  CHECK(sandbox.processes().empty());
-  CHECK(sandbox.temporary_files().empty());
+  check_ways(scene, ways, size, also);
 }
 
 TEST_CASE("compare renders a scene in every way and finds the same picture each time") {
@@ -120,6 +126,24 @@ TEST_CASE("tori look the same whatever computes them") { check_identity("tori.js
 TEST_CASE("meshes look the same whatever computes them") {
   check_identity("meshes.json", kSize, {"--aov", "depth,normal,albedo,object"});
 }
+
+/// What importers make is rendered as it is read; who owns a model has few nodes or many.
+void check_model(const std::string& model) {
+  std::vector<Arguments> ways;
+  for (const char* algorithm : {"roth", "macro"}) {
+    for (const char* nodes : {"1", "4", "16"}) ways.push_back({"--algorithm", algorithm, "-n", nodes});
+  }
+  check_ways(model, ways, kSize, {"--aov", "depth,normal,albedo,object"});
+}
+TEST_CASE("each solid that is read from BRL-CAD looks the same whatever computes it") {
+  Sandbox sandbox;
+  // A solid that isn't taken is said.
+  const Outcome o = sandbox.run({"check", scene_file("brlcad/solids.asc").string()});
+  CHECK(o.err.empty());
+  CHECK(o.out.find("27 objects") != std::string::npos);
+  check_model("brlcad/solids.asc");
+}
+TEST_CASE("a model from OpenSCAD looks the same whatever computes it") { check_model("openscad/bracket.csg"); }
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");
 }
