@@ -19,6 +19,9 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/interrupts.hpp"
+#include "transport/temporary_folder.hpp"
+
 namespace graycube {
 namespace {
 
@@ -27,6 +30,13 @@ namespace fs = std::filesystem;
 /// How often to look whether the process has ended, where nothing tells.
 constexpr int kLookMs = 20;
 constexpr std::string_view kEmptyModel = "Current top level object is empty.";
+
+/// The folder has to go on an interrupt, too. Only while there is one: an importer that is busy with what came from it
+/// may be interrupted at any time.
+struct Workplace {
+  InterruptsHeld held;
+  TemporaryFolder folder;
+};
 
 /// At most `most` bytes; nothing when there is no such file.
 std::optional<std::string> bytes_of(const fs::path& path, std::uint64_t most) {
@@ -127,8 +137,9 @@ std::string OpenscadProcess::trouble_in(const std::string& log, int status) {
                            : "openscad ended by signal " + std::to_string(WTERMSIG(status));
 }
 
-OpenscadProgram::Result OpenscadProcess::run(const fs::path& input, const std::string& output) {
-  const fs::path written = folder_ / output, log = folder_ / "log";
+OpenscadProgram::Result OpenscadProcess::run(const fs::path& folder, const fs::path& input,
+                                             const std::string& output) {
+  const fs::path written = folder / output, log = folder / "log";
   const auto status = wait_for_end(start(input, written, log));
   throw_if_interrupted();
   Result result;
@@ -146,14 +157,15 @@ OpenscadProgram::Result OpenscadProcess::run(const fs::path& input, const std::s
 }
 
 OpenscadProgram::Result OpenscadProcess::evaluate(const std::string& csg, Format format) {
-  const std::string name = "part" + std::to_string(++runs_);
-  const fs::path input = folder_ / (name + ".csg");
+  const Workplace place;
+  const fs::path input = place.folder / "part.csg";
   std::ofstream(input, std::ios::binary) << csg;
-  return run(input, name + (format == Format::kOff ? ".off" : ".svg"));
+  return run(place.folder.path(), input, format == Format::kOff ? "part.off" : "part.svg");
 }
 
 OpenscadProgram::Result OpenscadProcess::evaluate_file(const fs::path& scad) {
-  return run(fs::absolute(scad), "model.csg");
+  const Workplace place;
+  return run(place.folder.path(), fs::absolute(scad), "model.csg");
 }
 
 std::vector<std::string> OpenscadProcess::take_messages() { return std::exchange(messages_, {}); }

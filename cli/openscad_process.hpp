@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "cli/failure.hpp"
-#include "cli/interrupts.hpp"
 #include "scene/openscad.hpp"
-#include "transport/temporary_folder.hpp"
 
 namespace graycube {
 
@@ -37,8 +35,8 @@ class OpenscadProcess : public OpenscadProgram {
   std::vector<std::string> take_messages();
 
  private:
-  /// Runs the program with `-o output input` and gives what it wrote.
-  Result run(const std::filesystem::path& input, const std::string& output);
+  /// Runs the program with `-o FOLDER/output input` and gives what it wrote.
+  Result run(const std::filesystem::path& folder, const std::filesystem::path& input, const std::string& output);
   pid_t start(const std::filesystem::path& input, const std::filesystem::path& output,
               const std::filesystem::path& log);
   /// Its wait status; nothing when the time was up.
@@ -49,10 +47,6 @@ class OpenscadProcess : public OpenscadProgram {
   std::filesystem::path program_;
   int most_seconds_;
   std::vector<std::string> messages_;
-  /// The folder has to go on an interrupt, too.
-  InterruptsHeld held_;
-  TemporaryFolder folder_;
-  int runs_ = 0;
 };
 
 }  // namespace graycube

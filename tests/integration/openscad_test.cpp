@@ -1,4 +1,6 @@
 // Models from OpenSCAD, through to pictures.
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 #include "film/picture_files.hpp"
@@ -179,6 +181,16 @@ TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
   CHECK_FALSE(std::filesystem::exists(sandbox / "m.exr"));
+}
+
+TEST_CASE("while OpenSCAD isn't at work an interrupt ends an importer at once") {
+  Sandbox sandbox;
+  FakeOpenscad fake(sandbox, "exit 0\n");
+  // Nobody writes to it, so reading it takes for ever.
+  REQUIRE(::mkfifo((sandbox / "pipe.csg").c_str(), 0600) == 0);
+  const Outcome o = fake.run({"check", "pipe.csg"}, {"timeout", "--signal=INT", "--kill-after=20", "1"});
+  CHECK(o.status == 124);
+  CHECK(o.err == "graycube: check: SIGINT: interrupted\n");
 }
 
 TEST_CASE("text, Minkowski sums and files of the model's folder come through OpenSCAD where it is installed") {
