@@ -141,8 +141,8 @@ std::deque<std::uint32_t>* RenderJob::tiles_to_take_over(Rank helper) {
 }
 
 Rank RenderJob::owner_of(std::uint32_t tile) const {
-  const std::uint32_t area = scene_.plan->area_of_tile(tile), columns = scene_.grid.columns;
-  return cube_.owner_of(area % columns, area / columns);
+  const RegionIndex region = scene_.plan->region_of_tile(tile);
+  return cube_.owner_of(region.column, region.row);
 }
 
 std::vector<std::uint32_t> RenderJob::take_relief() {

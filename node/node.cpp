@@ -207,10 +207,7 @@ void Node::on_frontal_batch(const Bytes& batch) {
 
 /// In `roth` all tiles are everybody's.
 bool Node::is_own_tile(std::uint32_t tile) const {
-  if (domain_->grid() == nullptr) return true;
-  const std::uint32_t area = plan_->area_of_tile(tile), columns = domain_->grid()->columns();
-  return domain_->holds({static_cast<std::uint16_t>(area % columns),
-                         static_cast<std::uint16_t>(area / columns)});
+  return domain_->holds(plan_->region_of_tile(tile));
 }
 
 void Node::on_relieved(const control::Relieved& m) {

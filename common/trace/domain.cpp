@@ -36,11 +36,8 @@ std::size_t Territory::memory_bytes() const {
 }
 
 Domain::Domain(Model model, Subdivision subdivision)
-    : Domain(Territory::of(std::move(model), subdivision)) {}
-
-Domain::Domain(std::shared_ptr<const Territory> territory)
-    : frame_(CameraFrame::from(territory->model.settings.camera, territory->model.settings.image)),
-      territory_(std::move(territory)) {}
+    : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
+      territory_(Territory::of(std::move(model), subdivision)) {}
 
 Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),

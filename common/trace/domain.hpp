@@ -60,7 +60,6 @@ class Domain {
  public:
   /// All of space, without boundaries.
   explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree);
-  explicit Domain(std::shared_ptr<const Territory> territory);
   /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
   /// reaches into several is held once.
   Domain(MacroGrid grid, RegionShare share, Model model,

@@ -60,6 +60,11 @@ std::uint32_t TilePlan::area_of_tile(std::uint32_t tile) const {
   return static_cast<std::uint32_t>(after - areas_.begin() - 1);
 }
 
+RegionIndex TilePlan::region_of_tile(std::uint32_t tile) const {
+  const std::uint32_t area = area_of_tile(tile);
+  return {static_cast<std::uint16_t>(area % columns_), static_cast<std::uint16_t>(area / columns_)};
+}
+
 PixelRect TilePlan::rect(std::uint32_t tile) const {
   const Area& area = areas_[area_of_tile(tile)];
   const std::uint32_t i = tile - area.first_tile;

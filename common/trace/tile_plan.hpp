@@ -34,6 +34,8 @@ class TilePlan {
 
   /// Areas are numbered row · columns + column.
   std::uint32_t area_of_tile(std::uint32_t tile) const;
+  /// The macro-region that all of a tile's primary rays belong to; {0, 0} where the picture is one area.
+  RegionIndex region_of_tile(std::uint32_t tile) const;
   std::uint32_t first_tile(std::uint32_t area) const { return areas_[area].first_tile; }
   std::uint32_t tile_count_of(std::uint32_t area) const;
   /// The tiles of all areas of a share, area by area.

@@ -112,6 +112,7 @@ TEST_CASE("a plan of macro-regions has every pixel in exactly one tile, of its o
       for (const auto& [x, y] : {std::pair{r.x0, r.y0}, std::pair{r.x1 - 1, r.y1 - 1}}) {
         const RegionIndex region = grid.region_of_pixel(x, y);
         REQUIRE(plan.area_of_tile(tile) == region.row * columns + region.column);
+        REQUIRE(plan.region_of_tile(tile) == region);
       }
     }
   }
