@@ -120,7 +120,7 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
   add(app, "--shadows", "NAME", "horizon (default), forward or local: how macro finishes shadow rays",
       [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
-  add(app, "--partition", "NAME", "regular (default), or balanced: boundaries by a coarse pre-render",
+  add(app, "--partition", "NAME", "auto (default), regular, or balanced: boundaries by a coarse pre-render",
       [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
   add(app, "--scatter", "K", "K x K macro-regions per node, 1 to 8 (default: what suits the scene)",
       [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });

@@ -36,33 +36,35 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
       o.grain = grain;
     });
   }
-  const auto macro = [&](std::string name, const std::string& arguments, ShadowMode shadows,
-                         std::uint32_t scatter, FlowMode flow = FlowMode::kCredit,
-                         std::uint32_t queue = kDefaultQueue) {
-    add(std::move(name), "--algorithm macro " + arguments, [&](auto& o) {
+  struct Macro {
+    ShadowMode shadows = ShadowMode::kForward;
+    std::uint32_t scatter = 1;
+    PartitionMode partition = PartitionMode::kRegular;
+    /// Places of a blocking queue; 0: credits.
+    std::uint32_t queue = 0;
+  };
+  const auto macro = [&](std::string name, const Macro& m) {
+    std::string arguments = "--algorithm macro --shadows " + std::string(to_string(m.shadows)) + " --scatter " +
+                            std::to_string(m.scatter) + " --partition " + std::string(to_string(m.partition));
+    if (m.queue != 0) arguments += " --flow blocking --queue " + std::to_string(m.queue);
+    add(std::move(name), std::move(arguments), [&](auto& o) {
       o.algorithm = Algorithm::kMacro;
-      o.shadows = shadows;
-      o.scatter = scatter;
-      o.flow = flow;
-      o.queue = queue;
+      o.shadows = m.shadows;
+      o.scatter = m.scatter;
+      o.partition = m.partition;
+      o.flow = m.queue != 0 ? FlowMode::kBlocking : FlowMode::kCredit;
+      if (m.queue != 0) o.queue = m.queue;
     });
   };
-  const std::string forward = "--shadows forward --scatter 1";
-  macro("macro as in 1987", forward + " --flow blocking --queue " + std::to_string(common.queue),
-        ShadowMode::kForward, 1, FlowMode::kBlocking, common.queue);
-  macro("  with endless queues", forward + " --flow blocking --queue " + std::to_string(kMaxQueue),
-        ShadowMode::kForward, 1, FlowMode::kBlocking, kMaxQueue);
-  macro("macro, credits", forward, ShadowMode::kForward, 1);
-  macro("macro, horizons", "--shadows horizon --scatter 1", ShadowMode::kHorizon, 1);
-  macro("macro, local shadows", "--shadows local --scatter 1", ShadowMode::kLocal, 1);
-  const auto balanced = [&](std::string name, ShadowMode shadows) {
-    const std::string arguments = "--shadows " + std::string(to_string(shadows));
-    macro(std::move(name), arguments + " --scatter 1 --partition balanced", shadows, 1);
-    ways.back().options.partition = PartitionMode::kBalanced;
-  };
-  macro("macro, scatter 2", "--shadows forward --scatter 2", ShadowMode::kForward, 2);
-  balanced("macro, balance", ShadowMode::kForward);
-  balanced("macro, all", ShadowMode::kHorizon);
+  macro("macro as in 1987", {.queue = common.queue});
+  macro("  with endless queues", {.queue = kMaxQueue});
+  macro("macro, credits", {});
+  macro("macro, horizons", {.shadows = ShadowMode::kHorizon});
+  macro("macro, local shadows", {.shadows = ShadowMode::kLocal});
+  macro("macro, scatter 2", {.scatter = 2});
+  macro("macro, balance", {.partition = PartitionMode::kBalanced});
+  macro("macro, all", {.shadows = ShadowMode::kHorizon, .partition = PartitionMode::kBalanced});
+  add("macro", "--algorithm macro", [](auto& o) { o.algorithm = Algorithm::kMacro; });
   add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
   return ways;
 }

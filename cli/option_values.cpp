@@ -135,7 +135,8 @@ ShadowMode parse_shadows(std::string_view option, std::string_view text) {
 }
 
 PartitionMode parse_partition(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{PartitionMode::kRegular, PartitionMode::kBalanced};
+  static constexpr std::array choices{PartitionMode::kAuto, PartitionMode::kRegular,
+                                      PartitionMode::kBalanced};
   return parse_choice<PartitionMode>(option, text, choices);
 }
 

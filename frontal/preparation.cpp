@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "frontal/partition.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
@@ -11,9 +12,7 @@
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "space/macro_grid.hpp"
-#include "space/rectilinear.hpp"
 #include "space/restrict.hpp"
-#include "trace/coarse_load.hpp"
 
 namespace graycube {
 namespace {
@@ -23,13 +22,6 @@ using Clock = std::chrono::steady_clock;
 /// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded, which costs
 /// more than the better balance brings: measured, see ARCHITECTURE.md.
 constexpr std::uint32_t kAutoScatter = 1;
-
-/// Cells of the coarse pre-render along each side of a macro-region, up to so many nodes (beyond: 2).
-constexpr std::uint32_t kFineCells = 4;
-constexpr std::uint32_t kFewNodes = 64;
-/// What a ray that comes in costs a node, in rays that it creates and primitives that it tests: it is decoded,
-/// stored and traced anew.
-constexpr double kCrossingCost = 1.5;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -76,59 +68,42 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
 
 /// Light horizons where they are wanted and there are any: on one node no ray leaves, and lights that are walled
 /// in have none.
-std::shared_ptr<const LightHorizons> chosen_horizons(const PreparationWork& work, const Model& model) {
-  if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return nullptr;
+std::shared_ptr<const LightHorizons> horizons_for(ShadowMode shadows, const Hypercube& cube, const Model& model) {
+  if (shadows != ShadowMode::kHorizon || cube.nodes() == 1) return nullptr;
   auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
   return horizons->is_empty() ? nullptr : horizons;
 }
 
-/// Boundaries placed by the cost of a coarse pre-render. Nothing when the picture is too small to tell.
-std::optional<MacroGrid> balanced_grid(const PreparationWork& work, const Model& model,
-                                       const std::shared_ptr<const LightHorizons>& horizons,
-                                       std::uint32_t columns, std::uint32_t rows) {
-  const ImageSize& image = model.settings.image;
-  const std::uint32_t fine = work.cube.nodes() <= kFewNodes ? kFineCells : 2;
-  if (image.width < columns * fine * 2 || image.height < rows * fine * 2) return std::nullopt;
-  const auto frame = CameraFrame::from(model.settings.camera, image);
-  const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  const LoadMap load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
-  const RectilinearCuts cuts = balanced_cuts(load, columns, rows);
-  std::vector<std::int64_t> column_edges, row_edges;
-  for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
-  for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
-  return MacroGrid(frame, std::move(column_edges), std::move(row_edges));
+/// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
+PartitionMode chosen_partition(const PreparationWork& work, bool has_replica) {
+  const bool is_open = work.options.partition == PartitionMode::kAuto;
+  return is_open && (has_replica || work.options.flow == FlowMode::kBlocking) ? PartitionMode::kRegular
+                                                                               : work.options.partition;
 }
 
 void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScene& out) {
-  const ImageSize& image = model.settings.image;
-  const auto frame = CameraFrame::from(model.settings.camera, image);
   const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
-  const std::uint32_t columns = work.cube.columns() * k, rows = work.cube.rows() * k;
-  const auto horizons = chosen_horizons(work, model);
   out.shadows = work.options.shadows;
-  const bool is_local = out.shadows == ShadowMode::kLocal && work.options.flow == FlowMode::kCredit;
+  out.flow = work.options.flow;
+  out.queue = work.options.queue;
+  const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   if (is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes) {
     out.replica = encode_model(model);
   }
+  const auto horizons = horizons_for(out.shadows, work.cube, model);
   if (horizons) {
     out.horizons = encode_horizons(*horizons);
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  std::optional<MacroGrid> grid;
-  if (work.options.partition == PartitionMode::kBalanced && work.cube.nodes() > 1) {
-    grid = balanced_grid(work, model, horizons, columns, rows);
-  }
-  out.partition = grid ? PartitionMode::kBalanced : PartitionMode::kRegular;
-  if (!grid) grid = MacroGrid::regular(frame, columns, rows);
-  out.grid = {columns, rows, k, grid->column_edges(), grid->row_edges()};
-  out.plan.emplace(image, tile_shape(out.grain, kTileSide, image), *grid);
+  const Partition cut = partition_of(model, work.cube, k, chosen_partition(work, !out.replica.empty()), horizons);
+  const MacroGrid& grid = cut.grid;
+  out.partition = cut.mode;
+  out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};
+  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid);
   for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
-    out.slices.push_back(
-        encode_model(restrict_to_share(model, *grid, share_of(work.cube, Rank{rank}))));
+    out.slices.push_back(encode_model(restrict_to_share(model, grid, share_of(work.cube, Rank{rank}))));
   }
-  out.flow = work.options.flow;
-  out.queue = work.options.queue;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Names<ShadowMode> {
 };
 template <>
 struct Names<PartitionMode> {
-  static constexpr std::array<std::string_view, 2> kAll{"regular", "balanced"};
+  static constexpr std::array<std::string_view, 3> kAll{"regular", "balanced", "auto"};
 };
 template <>
 struct Names<FlowMode> {

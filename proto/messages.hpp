@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kMaxQueue = 1u << 16;
 enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
 enum class Grain : std::uint8_t { kPixel, kLine, kTile };
 enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
-enum class PartitionMode : std::uint8_t { kRegular, kBalanced };
+enum class PartitionMode : std::uint8_t { kRegular, kBalanced, kAuto };
 enum class FlowMode : std::uint8_t { kCredit, kBlocking };
 enum class JobState : std::uint8_t {
   kQueued,
@@ -109,7 +109,7 @@ struct JobOptions {
   Algorithm algorithm = Algorithm::kAuto;
   Grain grain = Grain::kTile;
   ShadowMode shadows = ShadowMode::kHorizon;
-  PartitionMode partition = PartitionMode::kRegular;
+  PartitionMode partition = PartitionMode::kAuto;
   /// K: K × K macro-regions per node; 0: what suits the scene.
   std::uint32_t scatter = 0;
   FlowMode flow = FlowMode::kCredit;

@@ -12,6 +12,9 @@ namespace {
 
 /// Side of the blocks of pixels that are traced together: neighbours share most of the way.
 constexpr std::uint32_t kCoarseBlock = 2;
+/// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
+/// row of blocks comes on top.
+constexpr std::size_t kManyRays = 8192;
 
 /// All regions of the grid, seen one at a time: what leaves one goes on in the next.
 class CoarseTrace {
@@ -21,15 +24,10 @@ class CoarseTrace {
       : grid_(grid),
         crossing_cost_(crossing_cost),
         map_(grid.columns(), grid.rows()),
-        evaluators_(std::size_t{grid.columns()} * grid.rows()),
-        waiting_(evaluators_.size()) {
-    for (std::uint32_t row = 0; row < grid.rows(); ++row) {
-      for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-        domains_.push_back(std::make_unique<Domain>(
-            whole.restricted_to(grid, {grid.columns(), grid.rows(), column, row})));
-        domains_.back()->set_horizons(horizons);
-      }
-    }
+        domain_(whole.restricted_to(grid, {grid.columns(), grid.rows(), 0, 0})),
+        evaluator_(domain_),
+        waiting_(std::size_t{grid.columns()} * grid.rows()) {
+    domain_.set_horizons(std::move(horizons));
   }
 
   /// The pixels' primary rays; they may belong to several regions.
@@ -47,19 +45,22 @@ class CoarseTrace {
     }
   }
 
-  /// Traces what has left its region, until nothing is left.
+  /// Traces what has left its region, the fullest region first, until nothing is left.
   void finish() {
     for (;;) {
       const auto most = std::max_element(
           waiting_.begin(), waiting_.end(),
           [](const auto& a, const auto& b) { return a.size() < b.size(); });
       if (most->empty()) return;
-      const std::vector<RayTask> rays = std::exchange(*most, {});
-      const RegionIndex at = rays.front().region;
-      map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(rays.size());
-      trace(at, [&](Evaluator& e) { e.trace_rays(rays, step_); });
+      taken_.swap(*most);
+      const RegionIndex at = taken_.front().region;
+      waiting_count_ -= taken_.size();
+      map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
+      trace(at, [&](Evaluator& e) { e.trace_rays(taken_, step_); });
+      taken_.clear();
     }
   }
+  bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
 
   const LoadMap& map() const { return map_; }
 
@@ -70,26 +71,29 @@ class CoarseTrace {
 
   template <typename Trace>
   void trace(RegionIndex at, Trace&& work) {
-    auto& evaluator = evaluators_[index_of(at)];
-    if (!evaluator) evaluator = std::make_unique<Evaluator>(*domains_[index_of(at)]);
-    const WalkCounts before = evaluator->walk_counts();
-    work(*evaluator);
-    const WalkCounts walk = evaluator->walk_counts().since(before);
+    domain_.confine_to({grid_.columns(), grid_.rows(), at.column, at.row});
+    const WalkCounts before = evaluator_.walk_counts();
+    work(evaluator_);
+    const WalkCounts walk = evaluator_.walk_counts().since(before);
     const auto& created = step_.rays.created;
     map_.at(at.column, at.row) +=
         static_cast<double>(std::accumulate(created.begin(), created.end(), std::uint64_t{0}) +
                             walk.primitives_tested);
     for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
+    waiting_count_ += step_.leaving.size();
     step_.clear();
   }
 
   const MacroGrid& grid_;
   double crossing_cost_;
   LoadMap map_;
+  /// The whole scene, seen as the region under way.
+  Domain domain_;
+  Evaluator evaluator_;
   /// By region.
-  std::vector<std::unique_ptr<Domain>> domains_;
-  std::vector<std::unique_ptr<Evaluator>> evaluators_;
   std::vector<std::vector<RayTask>> waiting_;
+  std::size_t waiting_count_ = 0;
+  std::vector<RayTask> taken_;
   Step step_;
 };
 
@@ -111,9 +115,9 @@ LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
       trace.trace_block({x, y, std::min(x + kCoarseBlock, image.width),
                          std::min(y + kCoarseBlock, image.height)});
     }
-    // Row by row: what is under way stays little.
-    trace.finish();
+    if (trace.has_many_waiting()) trace.finish();
   }
+  trace.finish();
   return trace.map();
 }
 

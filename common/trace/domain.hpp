@@ -99,6 +99,8 @@ class Domain {
     domain.share_ = share;
     return domain;
   }
+  /// From here on only those of the grid's regions; not while rays are traced.
+  void confine_to(const RegionShare& share) { share_ = share; }
   bool borrows() const { return !borrowed_.empty(); }
   /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
   bool is_past_horizon(const RayTask& task) const;

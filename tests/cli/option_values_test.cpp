@@ -112,6 +112,7 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_shadows("--shadows", "horizon") == ShadowMode::kHorizon);
   CHECK(parse_shadows("--shadows", "forward") == ShadowMode::kForward);
   CHECK(parse_shadows("--shadows", "local") == ShadowMode::kLocal);
+  CHECK(parse_partition("--partition", "auto") == PartitionMode::kAuto);
   CHECK(parse_partition("--partition", "regular") == PartitionMode::kRegular);
   CHECK(parse_partition("--partition", "balanced") == PartitionMode::kBalanced);
   CHECK(parse_flow("--flow", "credit") == FlowMode::kCredit);

@@ -1,0 +1,49 @@
+#include "frontal/partition.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "space/rectilinear.hpp"
+#include "trace/coarse_load.hpp"
+
+namespace graycube {
+namespace {
+
+/// Cells of the coarse pre-render along each side of a macro-region, up to so many nodes (beyond: 2).
+constexpr std::uint32_t kFineCells = 4;
+constexpr std::uint32_t kFewNodes = 64;
+/// What a ray that comes in costs a node, in rays that it creates and primitives that it tests: it is decoded,
+/// stored and traced anew.
+constexpr double kCrossingCost = 1.5;
+/// The pre-render subdivides the whole scene: where nothing is asked for, there must be this many primary rays to
+/// each primitive.
+constexpr std::uint64_t kPrimaryRaysPerPrimitive = 2;
+
+std::uint64_t primary_rays(const ImageSize& image) {
+  return std::uint64_t{image.width} * image.height * image.samples * image.samples;
+}
+
+}  // namespace
+
+Partition partition_of(const Model& model, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
+                       const std::shared_ptr<const LightHorizons>& horizons) {
+  const ImageSize& image = model.settings.image;
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
+  const std::uint32_t fine = cube.nodes() <= kFewNodes ? kFineCells : 2;
+  const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
+  const bool too_costly = wanted == PartitionMode::kAuto &&
+                          primary_rays(image) < kPrimaryRaysPerPrimitive * model.primitives.size();
+  if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
+    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows)};
+  }
+  const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
+  const LoadMap load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
+  const RectilinearCuts cuts = balanced_cuts(load, columns, rows);
+  std::vector<std::int64_t> column_edges, row_edges;
+  for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
+  for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
+  return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges))};
+}
+
+}  // namespace graycube

@@ -1,0 +1,27 @@
+// Where the boundaries of the macro-regions go.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "csg/model.hpp"
+#include "proto/messages.hpp"
+#include "space/light_horizons.hpp"
+#include "space/macro_grid.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+struct Partition {
+  /// What was picked: never kAuto.
+  PartitionMode mode = PartitionMode::kRegular;
+  MacroGrid grid;
+};
+
+/// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse
+/// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
+/// the picture. `horizons` may be null.
+Partition partition_of(const Model& model, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
+                       const std::shared_ptr<const LightHorizons>& horizons);
+
+}  // namespace graycube

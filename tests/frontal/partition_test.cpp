@@ -1,0 +1,76 @@
+// What is picked where a command leaves the macro-regions' boundaries open.
+#include <catch2/catch.hpp>
+
+#include "csg/random_model.hpp"
+#include "frontal/preparation.hpp"
+#include "scene/write_scene.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+/// Many balls in a corner of the picture.
+Scene corner_scene() {
+  Scene scene = scene_of({node_of(SphereShape{{0, 0, 0}, 1}), node_of(SphereShape{{0, 1, 0}, 0.5}),
+                          node_of(SphereShape{{1, 0, 0}, 0.7})});
+  scene.settings.camera.eye = {0, 0, -10};
+  scene.settings.camera.look_at = {3, 2, 0};
+  scene.settings.camera.up = {0, 1, 0};
+  scene.settings.camera.projection = Projection::kPerspective;
+  scene.settings.camera.fov_degrees = 60;
+  scene.settings.image = {128, 96, 1};
+  scene.settings.lights = {{{1, 3, -9}, {1, 1, 1}, Falloff::kNone}};
+  return scene;
+}
+
+PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4) {
+  const std::string text = write_scene_text(scene);
+  PreparationWork work;
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  work.scene_text.assign(bytes, bytes + text.size());
+  work.options = options;
+  work.options.algorithm = Algorithm::kMacro;
+  work.cube = *Hypercube::of_size(nodes);
+  PreparationResult result = run(work);
+  REQUIRE(result.scene);
+  return *std::move(result.scene);
+}
+
+}  // namespace
+
+TEST_CASE("boundaries are placed by the work where nothing is asked for") {
+  const PreparedScene open = prepared(corner_scene(), {});
+  CHECK(open.partition == PartitionMode::kBalanced);
+  const PreparedScene balanced = prepared(corner_scene(), {.partition = PartitionMode::kBalanced});
+  const PreparedScene regular = prepared(corner_scene(), {.partition = PartitionMode::kRegular});
+  CHECK(open.grid == balanced.grid);
+  CHECK_FALSE(open.grid == regular.grid);
+  CHECK(regular.partition == PartitionMode::kRegular);
+  CHECK(choices_text(open) == "scatter 1, horizon shadows, balanced partition");
+}
+
+TEST_CASE("no pre-render is made where it would not pay") {
+  SECTION("a picture with fewer primary rays than the scene has work for") {
+    Scene scene = corner_scene();
+    scene.settings.image = {32, 32, 1};
+    CHECK(prepared(scene, {}).partition == PartitionMode::kBalanced);
+    for (int i = 0; i < 600; ++i) scene.objects.push_back(scene.objects.front());
+    CHECK(prepared(scene, {}).partition == PartitionMode::kRegular);
+    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition == PartitionMode::kBalanced);
+  }
+  SECTION("a picture too small for its cells, even where it is asked for") {
+    Scene scene = corner_scene();
+    scene.settings.image = {8, 8, 1};
+    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition == PartitionMode::kRegular);
+  }
+  SECTION("one node") { CHECK(prepared(corner_scene(), {}, 1).partition == PartitionMode::kRegular); }
+  SECTION("nodes that hold the whole scene and help each other") {
+    const PreparedScene local = prepared(corner_scene(), {.shadows = ShadowMode::kLocal});
+    CHECK_FALSE(local.replica.empty());
+    CHECK(local.partition == PartitionMode::kRegular);
+  }
+  SECTION("the queues of 1987") {
+    CHECK(prepared(corner_scene(), {.flow = FlowMode::kBlocking}).partition == PartitionMode::kRegular);
+  }
+}
