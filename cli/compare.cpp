@@ -80,6 +80,7 @@ ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
     row.why = problem.why;
     const bool deadlocked = problem.why.starts_with("deadlock: ");
     row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    row.statistics = failure.statistics();
     return row;
   }
   if (fetch_picture(farm, job) != reference) row.outcome = RowOutcome::kDifferent;

@@ -39,6 +39,10 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       batches_received_(nodes_, 0),
       assignments_sent_(nodes_, 0),
       reports_(nodes_) {
+  for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
+    reports_[rank].rank = rank;
+    reports_[rank].gray = cube_.label_of(Rank{rank}).value;
+  }
   if (is_roth()) return;
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
     const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));

@@ -74,6 +74,7 @@ class RenderJob {
 
   void set_report(const control::NodeReport& report);
   bool all_reported() const { return report_count_ == nodes_; }
+  /// By rank; of a node that has not reported only who it is.
   const std::vector<control::NodeStats>& reports() const { return reports_; }
   const Film& film() const { return film_; }
   std::uint32_t threads() const { return threads_; }

@@ -338,6 +338,7 @@ void each_field(auto& visit, Is<Failed> auto& m) {
   visit("job", m.job);
   visit("code", m.code);
   visit("errors", m.errors, {.length = kMaxErrorsListed});
+  visit("stats", m.stats, {.length = kMaxStatsBytes});
 }
 
 void each_field(auto&, Is<Bye> auto&) {}

@@ -476,6 +476,8 @@ struct Failed {
   std::uint32_t job = 0;
   FailureCode code = FailureCode::kFailed;
   std::vector<ErrorItem> errors{};
+  /// Of a job that ended in a deadlock: the statistics file.
+  std::optional<RawObject> stats{};
   friend bool operator==(const Failed&, const Failed&) = default;
 };
 

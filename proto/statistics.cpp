@@ -61,6 +61,7 @@ std::string statistics_json(const Statistics& s) {
   Json j;
   j["graycube"] = s.version;
   j["scene"] = s.scene;
+  if (!s.failed.empty()) j["failed"] = s.failed;
   j["algorithm"] = to_string(s.algorithm);
   j["nodes"] = s.nodes;
   j["threads"] = s.threads;

@@ -13,6 +13,8 @@ namespace graycube {
 
 struct Statistics {
   std::string version, scene;
+  /// Why there is no picture; empty when there is one.
+  std::string failed;
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
   std::array<std::uint32_t, 2> grid{1, 1};

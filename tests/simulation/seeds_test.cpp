@@ -137,6 +137,7 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
       ++deadlocks;
       CHECK(outcome.violations.empty());
       CHECK(outcome.failed->errors.front().why.starts_with("deadlock: node "));
+      CHECK(outcome.failed->stats);
     } else {
       check_same_picture(farm, outcome, 1, pictures.expected);
     }
