@@ -203,8 +203,9 @@ void Frontal::send(const PeerId& peer, const ControlMessage& message, Bytes payl
 }
 
 void Frontal::send_to_nodes(const ControlMessage& message) {
+  const Message encoded = Message::of_text(encode(message));
   for (const NodeRecord& n : nodes_) {
-    if (!n.peer.empty()) send(n.peer, message);
+    if (!n.peer.empty()) outgoing_.push_back({n.peer, encoded});
   }
 }
 

@@ -48,8 +48,9 @@ void Frontal::give_result(PreparationResult result) {
     running_->deadlocks.emplace(options_.cube);
   }
   running_->info.choices = choices_text(*result.scene);
+  if (running_->options.sums == SumsMode::kTree) running_->info.choices += ", sums by tree";
   running_->render.emplace(result.job, std::move(*result.scene), options_.cube, threads,
-                           options_.limits);
+                           options_.limits, running_->options.sums);
   running_->info.algorithm = running_->render->scene().algorithm;
   running_->info.tiles = static_cast<std::uint32_t>(running_->render->tiles());
   load_when_possible();
@@ -60,9 +61,10 @@ void Frontal::load_when_possible() {
   running_->is_loaded = true;
   running_->build_began_s = now_s_;
   running_->info.state = JobState::kBuilding;
-  const control::Load load = running_->render->load();
+  const std::string load = encode(running_->render->load());
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
-    send(nodes_[rank].peer, load, running_->render->take_slice(Rank{rank}));
+    outgoing_.push_back(
+        {nodes_[rank].peer, Message::of_text(load, running_->render->take_slice(Rank{rank}))});
   }
   report_progress(true);
 }
@@ -230,6 +232,7 @@ std::string Frontal::statistics(const std::string& failed) const {
   s.shadows = render.scene().shadows;
   s.partition = render.scene().partition;
   s.flow = render.scene().flow;
+  s.sums = render.sums();
   s.image = render.scene().settings.image;
   s.primitives = render.scene().primitives;
   s.objects = render.scene().objects;

@@ -35,11 +35,12 @@ inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 class RenderJob {
  public:
   RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
-            const FlowLimits& limits = {});
+            const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
   const PreparedScene& scene() const { return scene_; }
+  SumsMode sums() const { return sums_; }
   /// The slice for a node; given away once the node has it.
   Bytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
@@ -98,6 +99,7 @@ class RenderJob {
   Hypercube cube_;
   std::uint32_t nodes_, threads_;
   FlowLimits limits_;
+  SumsMode sums_;
   Film film_;
   TileLedger ledger_;
   std::vector<Rank> holder_;                     // of each tile handed out

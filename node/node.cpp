@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/check.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {
@@ -102,6 +103,10 @@ void Node::on_load(const control::Load& m, const Bytes& slice) {
   moves_ = 0;
   unbuilt_slice_ = slice;
   incarnations_.clear();
+  const bool is_tree = m.sums == SumsMode::kTree;
+  parent_ = is_tree ? cube_->tree_parent(id_.rank) : std::nullopt;
+  has_children_ = is_tree && !cube_->tree_children(id_.rank).empty();
+  merge_.expect_others(has_children_);
   stats_ = {};
   forget_rays();
 }
@@ -155,6 +160,7 @@ void Node::forget_rays() {
   rays_in_wait_ = 0;
   outbox_rays_ = 0;
   merge_.clear();
+  holds_others_light_ = false;
   ring_.reset();
   working_ = 0;
   contribution_sequence_ = 0;
@@ -247,6 +253,7 @@ void Node::on_neighbour(const Bytes& batch) {
         job_, "a batch from node " + std::to_string(s.sender) + " was lost on its link"});
   }
   if (header.type == BatchType::kRays) return on_rays(link, bit, batch, header);
+  if (header.type == BatchType::kContributions) return on_sums(link, batch);
   if (header.type == BatchType::kLinkCredit) {
     std::uint64_t bytes = 0;
     const auto result = decode_link_credit(batch, limits_, bytes);
@@ -292,6 +299,31 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
   stats_.rays_in += header.count;
   for (const RayTask& ray : rays) rays_.add(ray, bit);
   stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
+}
+
+/// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody
+/// here is at work.
+void Node::on_sums(const Link& link, const Bytes& batch) {
+  BatchLimits limits = limits_;
+  limits.pixel_count *= 1 + kAovPlanes;
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> contributions;
+  const auto result = decode_contributions(batch, limits, credits, contributions);
+  const auto* error = std::get_if<BatchError>(&result);
+  const bool is_child = has_children_ && cube_->tree_parent(link.peer) == id_.rank;
+  if (error != nullptr || !is_child || credits.size() > MergeBuffer::kMostPixels ||
+      contributions.size() > MergeBuffer::kMostPixels) {
+    drop("contributions", error != nullptr ? to_string(*error) : "not a child's, or too many");
+    return send_control(control::NodeError{
+        job_, "a broken batch of contributions came from node " + std::to_string(link.peer.value)});
+  }
+  ring_.message_received();
+  if (!merge_.add_gathered(credits, contributions)) {
+    flush_contributions();
+    GRAYCUBE_CHECK(merge_.add_gathered(credits, contributions), "no room in an empty buffer");
+  }
+  holds_others_light_ = true;
+  if (merge_.is_full()) flush_contributions();
 }
 
 void Node::on_signal(Link& link, const BatchHeader& header) {

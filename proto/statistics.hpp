@@ -23,6 +23,7 @@ struct Statistics {
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
+  SumsMode sums = SumsMode::kDirect;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

@@ -81,6 +81,7 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr) return;
   if (h->type == BatchType::kRays) rays_under_way_ += is_sent ? 1 : -1;
+  if (h->type == BatchType::kContributions) sums_under_way_ += is_sent ? 1 : -1;
   if (h->stamp.job != load_.job) return;
   if (h->type == BatchType::kRays) {
     if (!is_sent) return;
@@ -104,6 +105,7 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
 /// The token has spoken: nothing may be left anywhere.
 void Farm::check_quiet() {
   if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
+  if (sums_under_way_ != 0) outcome_.violations.push_back("the token ended with light under way between nodes");
   for (const Process& p : processes_) {
     if (p.working != 0) outcome_.violations.push_back("the token ended with an evaluator at work");
     if (p.node && p.node->wait_reason() != WaitReason::kIdle) {

@@ -65,6 +65,12 @@ void check_identity(const std::string& scene, const char* size = kSize, const Ar
     ways.push_back({"--algorithm", "macro", "-n", nodes, "--partition", "balanced"});
   }
   ways.push_back({"--algorithm", "macro", "-n", "4", "--flow", "blocking", "--queue", "65536"});
+  for (const char* nodes : {"1", "4", "16"}) {
+    ways.push_back({"--algorithm", "macro", "-n", nodes, "--sums", "tree"});
+  }
+  ways.push_back({"--algorithm", "macro", "-n", "8", "--sums", "tree", "--shadows", "local", "--threads", "2"});
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--sums", "tree", "--flow", "blocking", "--queue", "65536"});
+  ways.push_back({"--algorithm", "roth", "-n", "8", "--sums", "tree"});
   check_ways(scene, ways, size, also);
 }
 
@@ -126,6 +132,22 @@ TEST_CASE("a deadlock's report, row and bars show what the nodes did until then"
   CHECK(file_bytes(sandbox / "bars.svg").find(">deadlocked<") != std::string::npos);
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("with sums along the tree few batches of light reach the frontal") {
+  Sandbox sandbox;
+  for (const char* nodes : {"4", "16"}) {
+    const Outcome o =
+        sandbox.run({"render", scene_file("mirrors.json").string(), "--algorithm", "macro", "-n", nodes, "--sums",
+                     "tree", "-o", "out.exr", "--stats", "s.json", "-q"});
+    INFO(nodes << " nodes" << o.err);
+    REQUIRE(o.status == 0);
+    const auto stats = sandbox.json("s.json");
+    CHECK(stats["choices"]["sums"] == "tree");
+    CHECK(stats["messages"]["contribution_batches"] > 0);
+    CHECK(stats["messages"]["sum_batches"] > stats["messages"]["contribution_batches"]);
+    CHECK(stats["malformed_drops"] == 0);
+  }
 }
 
 TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "simulation/modelled_machine.hpp"
 #include "simulation/pictures.hpp"
 #include "topology/hypercube.hpp"
 
@@ -189,4 +190,51 @@ TEST_CASE("with replicas nothing is forwarded, and neighbours trace the tiles of
     CHECK(primary == 144 * 96);
   }
   CHECK(helped > 24);
+}
+
+TEST_CASE("sums along the tree give the serial picture, AOVs too, and only the root sends to the frontal") {
+  const std::string text = scene_text(48, 32);
+  const Picture expected = serial_picture(text, AovSet::all());
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const std::uint32_t nodes = 1u << (seed % 7);
+    control::JobOptions options = macro_with(static_cast<ShadowMode>(seed % 3), 1 + seed % 2);
+    if (seed % 11 == 0) options = with(Algorithm::kRoth);
+    options.sums = SumsMode::kTree;
+    options.aov = "depth,normal,albedo,object";
+    INFO("seed " << seed << ", " << nodes << " nodes, " << to_string(options.algorithm) << ", "
+                 << to_string(options.shadows));
+    RandomFarmOptions how = farm_of(nodes, seed);
+    if (seed % 2 == 0) how.replica_bytes = 0;
+    RandomFarm farm(how);
+    const Outcome outcome = farm.render(text, options);
+    check_same_picture(farm, outcome, 1, expected);
+    std::uint64_t primary = 0;
+    for (const control::NodeStats& n : outcome.reports) {
+      CHECK((n.contribution_batches > 0) == (n.rank == 0));
+      CHECK((n.sum_batches > 0) == (n.rank != 0 && n.sum_bytes > 0));
+      primary += n.primary;
+    }
+    CHECK(primary == 48 * 32);
+    CHECK(nlohmann::json::parse(outcome.done->stats.text)["choices"]["sums"] == "tree");
+  }
+}
+
+TEST_CASE("sums along the tree need at most four rounds of the token on 16 and 64 equal nodes") {
+  const std::string text = scene_text(96, 64);
+  const Picture expected = serial_picture(text);
+  for (const std::uint32_t nodes : {16u, 64u}) {
+    MachineFigures figures;
+    figures.costs[Unit::kPiece] = 5e-6;
+    figures.costs[Unit::kRay] = 2e-6;
+    figures.costs[Unit::kMessage] = 2e-5;
+    figures.link_us = 50;
+    ModelledMachine machine(figures);
+    Farm farm({.nodes = nodes}, machine);
+    control::JobOptions options = macro_with(ShadowMode::kHorizon, 1);
+    options.sums = SumsMode::kTree;
+    INFO(nodes << " nodes");
+    const Outcome outcome = farm.render(text, options);
+    check_same_picture(farm, outcome, 1, expected);
+    CHECK(outcome.rounds <= 4);
+  }
 }
