@@ -77,7 +77,7 @@ void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
 std::vector<NodeExit> NodeProcesses::reap() {
   std::vector<NodeExit> exits;
   for (;;) {
-    // They are the only children here. Asked one by one, a thousand of them cost more than all their light.
+    // They are the only children here; asked one by one, each message would cost as many calls as there are nodes.
     int status = 0;
     const pid_t pid = ::waitpid(-1, &status, WNOHANG);
     if (pid <= 0) return exits;

@@ -118,8 +118,7 @@ inline std::vector<ControlMessage> example_messages() {
       NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
       Done{9, stats},
       Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
-      Failed{9, FailureCode::kBadInput, {{"/objects/0/csg", "unknown type"}}, {}},
-      Failed{10, FailureCode::kFailed, {{"--flow blocking", "deadlock"}}, stats},
+      Failed{9, FailureCode::kFailed, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
   };
 }
