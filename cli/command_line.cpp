@@ -126,6 +126,8 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
   add(app, "--flow", "NAME", "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
       [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
+  add(app, "--sums", "NAME", "direct (default), or tree: nodes add up each other's light on its way",
+      [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
   add_common_options(app, o);
   add(app, "--aov", "NAMES", "Also of each first hit, in OUT.exr: depth,normal,albedo,object",
       [&o](const auto& text) { o.aov = parse_aov_list("--aov", text); });

@@ -64,7 +64,6 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
   macro("macro, scatter 2", {.scatter = 2});
   macro("macro, balance", {.partition = PartitionMode::kBalanced});
   macro("macro, all", {.shadows = ShadowMode::kHorizon, .partition = PartitionMode::kBalanced});
-  add("macro", "--algorithm macro", [](auto& o) { o.algorithm = Algorithm::kMacro; });
   add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
   return ways;
 }
@@ -82,6 +81,7 @@ ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
     row.why = problem.why;
     const bool deadlocked = problem.why.starts_with("deadlock: ");
     row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    row.statistics = failure.statistics();
     return row;
   }
   if (fetch_picture(farm, job) != reference) row.outcome = RowOutcome::kDifferent;

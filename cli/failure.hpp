@@ -19,18 +19,22 @@ struct Problem {
 /// Ends the command; main prints the problems and nothing else.
 class Failure : public std::exception {
  public:
-  Failure(ExitStatus status, std::vector<Problem> problems)
-      : status_(status), problems_(std::move(problems)) {}
+  /// `statistics`: see statistics().
+  Failure(ExitStatus status, std::vector<Problem> problems, std::string statistics = {})
+      : status_(status), problems_(std::move(problems)), statistics_(std::move(statistics)) {}
   Failure(ExitStatus status, Problem problem)
       : Failure(status, std::vector<Problem>{std::move(problem)}) {}
 
   ExitStatus status() const { return status_; }
   const std::vector<Problem>& problems() const { return problems_; }
+  /// Of a job that ended in a deadlock: the statistics file; else empty.
+  const std::string& statistics() const { return statistics_; }
   const char* what() const noexcept override { return "the command failed"; }
 
  private:
   ExitStatus status_;
   std::vector<Problem> problems_;
+  std::string statistics_;
 };
 
 /// A command line that means nothing: `graycube: usage: WHERE: WHY`, exit status 2.

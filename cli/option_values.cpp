@@ -149,6 +149,11 @@ FlowMode parse_flow(std::string_view option, std::string_view text) {
   return parse_choice<FlowMode>(option, text, choices);
 }
 
+SumsMode parse_sums(std::string_view option, std::string_view text) {
+  static constexpr std::array choices{SumsMode::kDirect, SumsMode::kTree};
+  return parse_choice<SumsMode>(option, text, choices);
+}
+
 double parse_angle(std::string_view option, std::string_view text) {
   constexpr double kMostTurns = 1e6;
   const auto value = number<double>(text);

@@ -38,6 +38,7 @@ ShadowMode parse_shadows(std::string_view option, std::string_view text);
 PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
+SumsMode parse_sums(std::string_view option, std::string_view text);
 
 /// A finite number.
 double parse_angle(std::string_view option, std::string_view text);

@@ -40,6 +40,13 @@ Rendered render_on_farm(const RenderCommand& command, SceneInput scene, FrontalP
   return rendered;
 }
 
+/// The nodes' times and queues of a render that ended in a deadlock are worth as much as a picture's.
+void write_stats_of_failure(const Outputs& outputs, const Failure& failure, Clock::time_point started) {
+  if (failure.statistics().empty()) return;
+  const double wall_s = std::chrono::duration<double>(Clock::now() - started).count();
+  write_stats(outputs, with_command_times(failure.statistics(), wall_s, own_cpu_seconds()));
+}
+
 void write_outputs(const RenderCommand& command, const Outputs& outputs, const std::string& scene,
                    Rendered& rendered, Clock::time_point started) {
   write_pictures(outputs, rendered.picture, scene);
@@ -81,7 +88,13 @@ ExitStatus run(const RenderCommand& command) {
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
   scene.scene = {};
-  Rendered rendered = render_on_farm(command, std::move(scene), frontal);
+  Rendered rendered;
+  try {
+    rendered = render_on_farm(command, std::move(scene), frontal);
+  } catch (const Failure& failure) {
+    write_stats_of_failure(outputs, failure, started);
+    throw;
+  }
   // The files are written while the farm stops; from here on an interrupt changes nothing any more.
   frontal.request_stop();
   write_outputs(command, outputs, name, rendered, started);

@@ -106,6 +106,7 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.shadows = command.options.shadows;
   s.partition = command.options.partition;
   s.flow = command.options.flow;
+  s.sums = command.options.sums;
   s.image = settings.image;
   s.render_s = outcome.render_s;
   s.token_rounds = outcome.rounds;

@@ -45,7 +45,13 @@ ExitStatus run(const SubmitCommand& command) {
   std::fflush(stdout);
   if (!command.waits) return ExitStatus::kDone;
   ProgressDisplay display(stderr, command.is_quiet);
-  const std::string stats = follow_job(farm, job, display);
+  std::string stats;
+  try {
+    stats = follow_job(farm, job, display);
+  } catch (const Failure& failure) {
+    if (!failure.statistics().empty()) write_stats(command.outputs, failure.statistics());
+    throw;
+  }
   display.clear();
   Picture picture;
   if (!command.outputs.exr.empty() || !command.outputs.png.empty()) {

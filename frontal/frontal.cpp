@@ -44,6 +44,10 @@ void Frontal::on_time(double now_s, double unix_s) {
     end_job(JobState::kFailed, FailureCode::kTimeout,
             {{"--timeout", "the render did not end in time"}});
   }
+  if (running_ && !running_->deadlock.empty() &&
+      now_s_ - running_->render_ended_s > kReportPatience_s) {
+    end_as_deadlocked();
+  }
   report_progress(false);
 }
 
@@ -170,7 +174,8 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
   } else if (const auto* report = std::get_if<control::NodeReport>(&message)) {
     if (report->job != render.id()) return;
     render.set_report(*report);
-    if (running_->is_finishing && render.all_reported()) complete();
+    if (!running_->is_finishing || !render.all_reported()) return;
+    running_->deadlock.empty() ? complete() : end_as_deadlocked();
   }
 }
 
@@ -198,8 +203,9 @@ void Frontal::send(const PeerId& peer, const ControlMessage& message, Bytes payl
 }
 
 void Frontal::send_to_nodes(const ControlMessage& message) {
+  const Message encoded = Message::of_text(encode(message));
   for (const NodeRecord& n : nodes_) {
-    if (!n.peer.empty()) send(n.peer, message);
+    if (!n.peer.empty()) outgoing_.push_back({n.peer, encoded});
   }
 }
 

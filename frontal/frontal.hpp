@@ -28,6 +28,8 @@ inline constexpr std::size_t kMaxQueuedJobs = 1000;
 /// Node processes in a row that may end before their hello; then the farm gives up.
 inline constexpr unsigned kMaxFailedStarts = 8;
 inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
+/// A deadlocked job waits so long for its nodes' reports.
+inline constexpr double kReportPatience_s = 5;
 /// Rows of a picture are sent in messages of about this size.
 inline constexpr std::size_t kPictureChunkBytes = std::size_t{8} << 20;
 
@@ -108,6 +110,8 @@ class Frontal {
     bool is_preparing = false;
     std::optional<RenderJob> render;
     std::optional<DeadlockWatch> deadlocks;
+    /// The cycle that was found, in words; from then on the job only waits for its nodes' reports.
+    std::string deadlock;
     bool is_loaded = false, is_started = false, is_finishing = false;
   };
 
@@ -144,12 +148,13 @@ class Frontal {
   void on_contributions(const Bytes& batch);
   void lend(Rank rank, const control::Borrow& m);
   void watch_for_deadlock(Rank rank, const control::WaitReport& m);
+  void end_as_deadlocked();
   void finish_when_complete();
   void complete();
   void end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors);
   void end_queued(std::size_t index, JobState state, FailureCode code, const std::string& why);
   void keep(EndedJob job, const Picture& picture);
-  std::string statistics() const;
+  std::string statistics(const std::string& failed = {}) const;
 
   FrontalOptions options_;
   JobStore& store_;

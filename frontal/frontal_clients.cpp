@@ -126,7 +126,9 @@ void Frontal::on_watch(const PeerId& peer, std::uint32_t job) {
     if (e.info.state == JobState::kDone) return send(peer, control::Done{job, {e.stats_json}});
     const FailureCode code = e.info.state == JobState::kCancelled ? FailureCode::kCancelled
                                                                   : FailureCode::kFailed;
-    return refuse(peer, job, code, "", e.info.message);
+    control::Failed failed{job, code, {{"", e.info.message}}, {}};
+    if (e.has_stats()) failed.stats = RawObject{e.stats_json};
+    return send(peer, failed);
   }
   watchers_[job].insert(peer);
   send(peer, progress_of(*info));

@@ -48,8 +48,9 @@ void Frontal::give_result(PreparationResult result) {
     running_->deadlocks.emplace(options_.cube);
   }
   running_->info.choices = choices_text(*result.scene);
+  if (running_->options.sums == SumsMode::kTree) running_->info.choices += ", sums by tree";
   running_->render.emplace(result.job, std::move(*result.scene), options_.cube, threads,
-                           options_.limits);
+                           options_.limits, running_->options.sums);
   running_->info.algorithm = running_->render->scene().algorithm;
   running_->info.tiles = static_cast<std::uint32_t>(running_->render->tiles());
   load_when_possible();
@@ -60,9 +61,10 @@ void Frontal::load_when_possible() {
   running_->is_loaded = true;
   running_->build_began_s = now_s_;
   running_->info.state = JobState::kBuilding;
-  const control::Load load = running_->render->load();
+  const std::string load = encode(running_->render->load());
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
-    send(nodes_[rank].peer, load, running_->render->take_slice(Rank{rank}));
+    outgoing_.push_back(
+        {nodes_[rank].peer, Message::of_text(load, running_->render->take_slice(Rank{rank}))});
   }
   report_progress(true);
 }
@@ -126,16 +128,23 @@ void Frontal::lend(Rank rank, const control::Borrow& m) {
 
 void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
   const RenderJob& render = *running_->render;
-  if (!running_->deadlocks || m.job != render.id() || m.epoch != render.epoch()) return;
+  const bool is_current = m.job == render.id() && m.epoch == render.epoch();
+  if (!running_->deadlocks || !is_current || running_->is_finishing) return;
   const std::vector<Rank> cycle = running_->deadlocks->add(rank, m, pings_);
   if (cycle.empty()) return;
   std::string way;
   for (const Rank r : cycle) way += "node " + std::to_string(r.value) + " waits for ";
-  end_job(JobState::kFailed, FailureCode::kFailed,
-          {{"--flow blocking", "deadlock: " + way + "node " + std::to_string(cycle.front().value) +
-                                   ", each for room in a full queue; " +
-                                   std::to_string(running_->deadlocks->stalled()) + " of " +
-                                   std::to_string(options_.cube.nodes()) + " nodes are blocked"}});
+  running_->deadlock = "deadlock: " + way + "node " + std::to_string(cycle.front().value) +
+                       ", each for room in a full queue; " +
+                       std::to_string(running_->deadlocks->stalled()) + " of " +
+                       std::to_string(options_.cube.nodes()) + " nodes are blocked";
+  running_->is_finishing = true;
+  running_->render_ended_s = now_s_;
+  send_to_nodes(control::Finish{render.id()});
+}
+
+void Frontal::end_as_deadlocked() {
+  end_job(JobState::kFailed, FailureCode::kFailed, {{"--flow blocking", running_->deadlock}});
 }
 
 void Frontal::finish_when_complete() {
@@ -159,10 +168,17 @@ void Frontal::complete() {
   keep(job, picture);
 }
 
-/// Ends the running job without a picture; the nodes drop it.
+/// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that, whatever
+/// else happens while it waits for reports.
 void Frontal::end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors) {
   if (running_->is_loaded) send_to_nodes(control::Finish{running_->info.job});
   EndedJob job{running_->info, "{}"};
+  if (!running_->deadlock.empty()) {
+    state = JobState::kFailed;
+    code = FailureCode::kFailed;
+    errors = {{"--flow blocking", running_->deadlock}};
+    job.stats_json = statistics(running_->deadlock);
+  }
   if (running_->is_preparing && !queue_.empty() && queue_.front().info.job == job.info.job) {
     queue_.pop_front();
   }
@@ -173,9 +189,9 @@ void Frontal::end_job(JobState state, FailureCode code, std::vector<control::Err
     job.info.message = (errors.front().where.empty() ? "" : errors.front().where + ": ") +
                        errors.front().why;
   }
-  for (const PeerId& peer : watchers_[job.info.job]) {
-    send(peer, control::Failed{job.info.job, code, errors});
-  }
+  control::Failed failed{job.info.job, code, std::move(errors), {}};
+  if (job.has_stats()) failed.stats = RawObject{job.stats_json};
+  for (const PeerId& peer : watchers_[job.info.job]) send(peer, failed);
   watchers_.erase(job.info.job);
   keep(std::move(job), {});
 }
@@ -200,9 +216,11 @@ void Frontal::keep(EndedJob job, const Picture& picture) {
   if (ended_.size() > kMaxEndedJobs) ended_.pop_front();
 }
 
-std::string Frontal::statistics() const {
+/// `failed`: why there is no picture.
+std::string Frontal::statistics(const std::string& failed) const {
   const RenderJob& render = *running_->render;
   Statistics s;
+  s.failed = failed;
   s.version = options_.version;
   s.scene = running_->info.scene;
   s.algorithm = render.scene().algorithm;
@@ -214,6 +232,7 @@ std::string Frontal::statistics() const {
   s.shadows = render.scene().shadows;
   s.partition = render.scene().partition;
   s.flow = render.scene().flow;
+  s.sums = render.sums();
   s.image = render.scene().settings.image;
   s.primitives = render.scene().primitives;
   s.objects = render.scene().objects;

@@ -17,7 +17,9 @@ namespace graycube {
 /// A job that has ended: done, failed or cancelled.
 struct EndedJob {
   control::JobInfo info;
+  /// "{}": nothing is known.
   std::string stats_json = "{}";
+  bool has_stats() const { return stats_json != "{}"; }
 };
 
 class JobStore {

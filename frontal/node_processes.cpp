@@ -76,16 +76,16 @@ void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
 
 std::vector<NodeExit> NodeProcesses::reap() {
   std::vector<NodeExit> exits;
-  for (auto it = running_.begin(); it != running_.end();) {
+  for (;;) {
+    // They are the only children here; asked one by one, each message would cost as many calls as there are nodes.
     int status = 0;
-    if (::waitpid(it->first, &status, WNOHANG) != it->first) {
-      ++it;
-      continue;
-    }
-    exits.push_back({it->second.rank, it->second.incarnation, description(status)});
-    it = running_.erase(it);
+    const pid_t pid = ::waitpid(-1, &status, WNOHANG);
+    if (pid <= 0) return exits;
+    const auto child = running_.find(pid);
+    if (child == running_.end()) continue;
+    exits.push_back({child->second.rank, child->second.incarnation, description(status)});
+    running_.erase(child);
   }
-  return exits;
 }
 
 }  // namespace graycube

@@ -20,13 +20,14 @@ std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
 }  // namespace
 
 RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
-                     std::uint32_t threads, const FlowLimits& limits)
+                     std::uint32_t threads, const FlowLimits& limits, SumsMode sums)
     : job_(job),
       scene_(std::move(scene)),
       cube_(cube),
       nodes_(cube.nodes()),
       threads_(threads),
       limits_(limits),
+      sums_(sums),
       film_(scene_.settings.image.width, scene_.settings.image.height,
             scene_.settings.image.samples * scene_.settings.image.samples,
             scene_.settings.aovs),
@@ -39,6 +40,10 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       batches_received_(nodes_, 0),
       assignments_sent_(nodes_, 0),
       reports_(nodes_) {
+  for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
+    reports_[rank].rank = rank;
+    reports_[rank].gray = cube_.label_of(Rank{rank}).value;
+  }
   if (is_roth()) return;
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
     const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));
@@ -75,6 +80,7 @@ control::Load RenderJob::load() const {
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.replica_bytes = scene_.replica.size();
+  m.sums = sums_;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(0) : limits_.window_tiles;
   m.batch_bytes = limits_.batch_bytes;

@@ -35,11 +35,12 @@ inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 class RenderJob {
  public:
   RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
-            const FlowLimits& limits = {});
+            const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
   const PreparedScene& scene() const { return scene_; }
+  SumsMode sums() const { return sums_; }
   /// The slice for a node; given away once the node has it.
   Bytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
@@ -74,6 +75,7 @@ class RenderJob {
 
   void set_report(const control::NodeReport& report);
   bool all_reported() const { return report_count_ == nodes_; }
+  /// By rank; of a node that has not reported only who it is.
   const std::vector<control::NodeStats>& reports() const { return reports_; }
   const Film& film() const { return film_; }
   std::uint32_t threads() const { return threads_; }
@@ -97,6 +99,7 @@ class RenderJob {
   Hypercube cube_;
   std::uint32_t nodes_, threads_;
   FlowLimits limits_;
+  SumsMode sums_;
   Film film_;
   TileLedger ledger_;
   std::vector<Rank> holder_;                     // of each tile handed out

@@ -4,11 +4,20 @@
 #include <utility>
 
 namespace graycube {
+namespace {
+
+/// Whether one record can't hold both.
+bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
+  return a.r > kMaxMergedLight - b.r || a.g > kMaxMergedLight - b.g || a.b > kMaxMergedLight - b.b;
+}
+
+}  // namespace
 
 std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
   // Fibonacci hashing: neighbours in a row of pixels fall far apart.
   constexpr std::uint32_t kGolden = 2654435769u;
-  for (std::size_t i = (key * kGolden) % kSlots;; i = (i + 1) % kSlots) {
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = (key * kGolden) & mask;; i = (i + 1) & mask) {
     Slot& slot = slots_[i];
     if (slot.generation != generation_) {
       slot = {key, next, generation_};
@@ -24,12 +33,26 @@ void MergeBuffer::Index::clear() {
   generation_ = 1;
 }
 
+void MergeBuffer::Index::resize(std::size_t keys) {
+  slots_ = std::vector<Slot>(2 * keys);
+  generation_ = 1;
+}
+
 MergeBuffer::MergeBuffer() { clear(); }
+
+void MergeBuffer::expect_others(bool others) {
+  const std::size_t most = others ? kMostPixels : kFullPixels;
+  full_ = others ? kFullOfOthers : kFullPixels;
+  if (most != std::exchange(most_, most)) {
+    pixels_.resize(most);
+    tiles_.resize(most);
+  }
+  clear();
+}
 
 void MergeBuffer::clear() {
   merged_ = {};
   merged_.contributions.reserve(kFullPixels);
-  in_entry_.clear();
   pixels_.clear();
   tiles_.clear();
 }
@@ -40,23 +63,31 @@ std::size_t MergeBuffer::add(std::span<const PixelReturn> returns, const TilePla
     const PixelReturn& r = returns[taken];
     // AOVs bring no credit: that of their ray follows with its light.
     if (r.pixel < plan.pixel_count()) add_credit(plan.tile_of_pixel(r.pixel), r.credit);
-    if (r.merged > 0) add_light(r);
+    if (r.merged > 0) add_light(r.pixel, r.light);
   }
   return taken;
+}
+
+bool MergeBuffer::add_gathered(std::span<const TileCredit> credits,
+                               std::span<const Contribution> contributions) {
+  if (merged_.credits.size() + credits.size() > most_ ||
+      merged_.contributions.size() + contributions.size() > most_) {
+    return false;
+  }
+  for (const TileCredit& c : credits) add_credit(c.tile, c.credit);
+  for (const Contribution& c : contributions) add_light(c.pixel, c.light);
+  return true;
 }
 
 std::size_t MergeBuffer::add_tile(std::span<const PixelReturn> returns, std::uint32_t tile,
                                   const TilePlan& plan) {
   auto& all = merged_.contributions;
-  const std::size_t room = is_full() ? 0 : kFullPixels - all.size();
+  const std::size_t room = is_full() ? 0 : full_ - all.size();
   const auto taken = returns.first(std::min(returns.size(), room));
   Credit credit;
   for (const PixelReturn& r : taken) {
     if (r.pixel < plan.pixel_count()) credit.add(r.credit);
-    if (r.merged > 0) {
-      all.push_back({r.pixel, r.light});
-      in_entry_.push_back(r.merged);
-    }
+    if (r.merged > 0) all.push_back({r.pixel, r.light});
   }
   if (!taken.empty()) add_credit(tile, credit);
   return taken.size();
@@ -75,17 +106,16 @@ void MergeBuffer::add_credit(std::uint32_t tile, const Credit& credit) {
   }
 }
 
-void MergeBuffer::add_light(const PixelReturn& r) {
+void MergeBuffer::add_light(std::uint32_t pixel, const FixedRgb& light) {
   auto& all = merged_.contributions;
   const auto next = static_cast<std::uint32_t>(all.size());
-  std::uint32_t& place = pixels_.place_of(r.pixel, next);
-  if (place != next && in_entry_[place] + r.merged > kMaxMergedContributions) place = next;
+  std::uint32_t& place = pixels_.place_of(pixel, next);
+  if (place != next && is_too_much(all[place].light, light)) place = next;
   if (place == next) {
-    all.push_back({r.pixel, {}});
-    in_entry_.push_back(0);
+    all.push_back({pixel, light});
+  } else {
+    all[place].light.add(light);
   }
-  all[place].light.add(r.light);
-  in_entry_[place] += r.merged;
 }
 
 MergeBuffer::Merged MergeBuffer::take() {

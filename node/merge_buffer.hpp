@@ -1,4 +1,5 @@
-// Contributions waiting to go to the frontal: those to one pixel are merged, credit is summed per tile.
+// Contributions waiting to go to the frontal, or to the parent in the tree of sums: those to one pixel are
+// merged, credit is summed per tile.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,30 @@ namespace graycube {
 
 class MergeBuffer {
  public:
-  /// So many pixels are gathered before they are sent.
+  /// So many pixels or tiles are gathered before they are sent.
   static constexpr std::size_t kFullPixels = 8192;
-  static_assert(contribution_batch_bytes(kFullPixels, kFullPixels) < kMaxContributionBatchBytes);
+  /// The same where other nodes' light comes too: the longer it waits, the more of it is merged.
+  static constexpr std::size_t kFullOfOthers = 32768;
+  /// What a buffer for other nodes' light may hold, and so all that a batch between nodes may.
+  static constexpr std::size_t kMostPixels = 2 * kFullOfOthers;
+  static_assert(contribution_batch_bytes(kMostPixels, kMostPixels) < kMaxContributionBatchBytes);
 
   MergeBuffer();
+  /// Empties it, and makes room for other nodes' light or gives that up.
+  void expect_others(bool others);
 
   /// Takes in returns until it is full or there are no more; says how many it took.
   std::size_t add(std::span<const PixelReturn> returns, const TilePlan& plan);
   /// The same for what came of a tile's primary rays, in which hardly a pixel comes twice: quicker, and what
   /// follows of a pixel by other ways is sent beside it.
   std::size_t add_tile(std::span<const PixelReturn> returns, std::uint32_t tile, const TilePlan& plan);
+  /// Takes in what another node has gathered: all of it, or nothing and false when that doesn't fit beside what
+  /// is here already.
+  [[nodiscard]] bool add_gathered(std::span<const TileCredit> credits,
+                                  std::span<const Contribution> contributions);
   bool is_empty() const { return merged_.credits.empty() && merged_.contributions.empty(); }
   bool is_full() const {
-    return merged_.contributions.size() == kFullPixels || merged_.credits.size() == kFullPixels;
+    return merged_.contributions.size() >= full_ || merged_.credits.size() >= full_;
   }
   void clear();
 
@@ -46,21 +57,22 @@ class MergeBuffer {
     std::uint32_t& place_of(std::uint32_t key, std::uint32_t next);
     void clear();
 
+    /// Forgets all; for so many keys at most, a power of two.
+    void resize(std::size_t keys);
+
    private:
-    static constexpr std::size_t kSlots = 2 * kFullPixels;
     struct Slot {
       std::uint32_t key = 0, place = 0, generation = 0;
     };
-    std::vector<Slot> slots_ = std::vector<Slot>(kSlots);
+    std::vector<Slot> slots_ = std::vector<Slot>(2 * kFullPixels);
     std::uint32_t generation_ = 1;
   };
 
   void add_credit(std::uint32_t tile, const Credit& credit);
-  void add_light(const PixelReturn& r);
+  void add_light(std::uint32_t pixel, const FixedRgb& light);
 
   Merged merged_;
-  /// How many contributions each entry holds already.
-  std::vector<std::uint32_t> in_entry_;
+  std::size_t full_ = kFullPixels, most_ = kFullPixels;
   Index pixels_, tiles_;
 };
 

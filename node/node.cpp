@@ -102,6 +102,10 @@ void Node::on_load(const control::Load& m, const Bytes& slice) {
   moves_ = 0;
   unbuilt_slice_ = slice;
   incarnations_.clear();
+  const bool is_tree = m.sums == SumsMode::kTree;
+  parent_ = is_tree ? cube_->tree_parent(id_.rank) : std::nullopt;
+  has_children_ = is_tree && !cube_->tree_children(id_.rank).empty();
+  merge_.expect_others(has_children_);
   stats_ = {};
   forget_rays();
 }
@@ -155,6 +159,7 @@ void Node::forget_rays() {
   rays_in_wait_ = 0;
   outbox_rays_ = 0;
   merge_.clear();
+  holds_others_light_ = false;
   ring_.reset();
   working_ = 0;
   contribution_sequence_ = 0;
@@ -215,93 +220,6 @@ void Node::on_relieved(const control::Relieved& m) {
   unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, m.tiles);
   ring_.work_was_taken();
   pass_token();
-}
-
-// ---- messages from neighbours
-
-void Node::on_neighbour(const Bytes& batch) {
-  const auto peeked = peek_header(batch);
-  if (const auto* error = std::get_if<BatchError>(&peeked)) {
-    return drop("batch", to_string(*error));
-  }
-  const auto& header = std::get<BatchHeader>(peeked);
-  if (!cube_) {
-    // A neighbour may have heard the frontal's welcome first. Anything else is for a dead predecessor.
-    const bool keep = header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
-    if (keep) early_greetings_.push_back(batch);
-    return;
-  }
-  const std::uint32_t bit = bit_of(Rank{header.stamp.sender});
-  if (bit >= links_.size()) return drop("batch", "not from a neighbour");
-  Link& link = links_[bit];
-  if (header.type == BatchType::kGreeting || header.type == BatchType::kGreetingAck) {
-    return on_signal(link, header);
-  }
-  const BatchStamp& s = header.stamp;
-  const bool stale = s.job != job_ || s.epoch != epoch_ || !plan_ ||
-                     (!incarnations_.empty() && incarnations_.size() > s.sender &&
-                      incarnations_[s.sender] != s.incarnation);
-  if (stale) return;
-  if (s.sequence != link.expected_sequence++) {
-    return send_control(control::NodeError{
-        job_, "a batch from node " + std::to_string(s.sender) + " was lost on its link"});
-  }
-  if (header.type == BatchType::kRays) return on_rays(link, bit, batch, header);
-  if (header.type == BatchType::kLinkCredit) {
-    std::uint64_t bytes = 0;
-    const auto result = decode_link_credit(batch, limits_, bytes);
-    if (std::holds_alternative<BatchError>(result)) return drop("grant", "malformed");
-    link.send_credit += bytes;
-    link.received += bytes;
-    if (is_blocking()) return send_stalled();
-    // Where all evaluators wait, none will come by to send the rest.
-    return send_rays(link, working_ == 0 && wait_reason() != WaitReason::kReady);
-  }
-  if (header.type == BatchType::kToken) {
-    TokenRecord r;
-    const auto result = decode_token(batch, limits_, r);
-    if (std::holds_alternative<BatchError>(result)) return drop("token", "malformed");
-    if (!ring_.token_arrived({r.black, r.count, r.round, r.hops, r.contribution_batches})) {
-      return drop("token", "none was due");
-    }
-    if (id_.rank.value == 0) {
-      send_control(control::TokenRound{job_, epoch_, r.round, r.hops, r.black, r.count});
-    }
-    return pass_token();
-  }
-  drop("batch", to_string(header.type));
-}
-
-void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header) {
-  std::vector<RayTask> rays;
-  const auto result = decode_rays(batch, limits_, rays);
-  if (const auto* error = std::get_if<BatchError>(&result)) {
-    // A broken batch can't be repaired, and what was in it is missing from the picture.
-    drop("rays", to_string(*error));
-    return send_control(control::NodeError{
-        job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
-  }
-  const bool mine = std::all_of(rays.begin(), rays.end(),
-                                [&](const RayTask& r) { return domain_->holds(r.region); });
-  if (!mine) {
-    drop("rays", "for another macro-region");
-    return send_control(control::NodeError{
-        job_, "node " + std::to_string(link.peer.value) + " sent rays for another node"});
-  }
-  ring_.message_received();
-  stats_.rays_in += header.count;
-  for (const RayTask& ray : rays) rays_.add(ray, bit);
-  stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
-}
-
-void Node::on_signal(Link& link, const BatchHeader& header) {
-  if (header.type == BatchType::kGreeting) {
-    outgoing_.push_back(
-        {link.peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreetingAck))});
-    return;
-  }
-  link.is_greeted = true;
-  send_ready_when_complete();
 }
 
 std::uint32_t Node::bit_of(Rank peer) const {

@@ -73,7 +73,7 @@ class Node {
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return state_ == State::kRendering; }
 
-  /// What is to be sent, in order; the caller sends all of it.
+  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are taken in.
   std::vector<Outgoing> take_outgoing();
   bool has_outgoing() const { return !outgoing_.empty(); }
   bool is_shut_down() const { return shut_down_; }
@@ -97,6 +97,7 @@ class Node {
   void on_ping(const control::Ping& m);
   void on_frontal_batch(const Bytes& batch);
   void on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header);
+  void on_sums(const Link& link, const Bytes& batch);
   void on_signal(Link& link, const BatchHeader& header);
   void drop(const char* what, std::string_view why);
 
@@ -164,6 +165,10 @@ class Node {
   std::uint64_t borrowed_bytes_ = 0, rays_in_wait_ = 0;
   std::uint64_t outbox_rays_ = 0;
   MergeBuffer merge_;
+  /// The tree of sums: where contributions go instead of to the frontal, and whether other nodes' come here.
+  std::optional<Rank> parent_;
+  bool has_children_ = false;
+  bool holds_others_light_ = false;
   TerminationRing ring_;
   unsigned working_ = 0;
   std::uint64_t contribution_sequence_ = 0;

@@ -75,15 +75,24 @@ void Node::grant_credit(Link& link) {
   link.ungranted = 0;
 }
 
+/// To the frontal, or to the parent in the tree of sums: then the token counts them as it counts rays.
 void Node::flush_contributions() {
   if (merge_.is_empty()) return;
   const MergeBuffer::Merged merged = merge_.take();
-  Bytes batch =
-      encode_contributions(stamp(contribution_sequence_++), merged.credits, merged.contributions);
-  ring_.contribution_batch_sent();
-  ++stats_.contribution_batches;
-  stats_.contribution_bytes += batch.size();
-  outgoing_.push_back({std::nullopt, Message::of_batch(std::move(batch))});
+  holds_others_light_ = false;
+  std::uint64_t& sequence =
+      parent_ ? links_[bit_of(*parent_)].next_sequence : contribution_sequence_;
+  Bytes batch = encode_contributions(stamp(sequence++), merged.credits, merged.contributions);
+  if (parent_) {
+    ring_.message_sent();
+    ++stats_.sum_batches;
+    stats_.sum_bytes += batch.size();
+  } else {
+    ring_.contribution_batch_sent();
+    ++stats_.contribution_batches;
+    stats_.contribution_bytes += batch.size();
+  }
+  outgoing_.push_back({parent_, Message::of_batch(std::move(batch))});
 }
 
 void Node::flush_on_idle() {
@@ -130,6 +139,11 @@ void Node::pass_token(bool is_pinged) {
   send_control(control::Terminated{job_, epoch_, v.rounds, v.hops, v.contribution_batches});
 }
 
-std::vector<Node::Outgoing> Node::take_outgoing() { return std::exchange(outgoing_, {}); }
+std::vector<Node::Outgoing> Node::take_outgoing() {
+  // No evaluator may come by to send on what others sent here.
+  const bool all_wait = working_ == 0 && wait_reason() != WaitReason::kReady;
+  if (holds_others_light_ && state_ == State::kRendering && all_wait) flush_on_idle();
+  return std::exchange(outgoing_, {});
+}
 
 }  // namespace graycube

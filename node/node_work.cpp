@@ -151,8 +151,10 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
   }
   std::span<const PixelReturn> returns = step.returns;
   while (!returns.empty()) {
-    returns = returns.subspan(tile ? merge_.add_tile(returns, *tile, *plan_)
-                                   : merge_.add(returns, *plan_));
+    // Where children's light for the same pixels will come, each has its one place.
+    returns = returns.subspan(tile && !has_children_
+                                  ? merge_.add_tile(returns, *tile, *plan_)
+                                  : merge_.add(returns, *plan_));
     if (merge_.is_full()) flush_contributions();
   }
   if (is_blocking()) {

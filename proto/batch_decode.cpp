@@ -11,9 +11,6 @@ namespace {
 
 using namespace batch_layout;
 
-/// A merged contribution holds at most this many units per component: 2^10 contributions of 2^52.
-constexpr std::int64_t kMaxMergedLight =
-    std::int64_t{kMaxMergedContributions} * static_cast<std::int64_t>(kMaxContribution * kFixedOne);
 /// A tile's credit never exceeds its number of primary rays, nor that the whole picture's.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 

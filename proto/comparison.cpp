@@ -21,8 +21,10 @@ Figures figures_of(const std::string& statistics) {
     return j.at(group).at(key).get<std::uint64_t>();
   };
   f.forwarded = count("forwarded", "shadow") + count("forwarded", "secondary");
-  f.messages = count("messages", "ray_batches") + count("messages", "contribution_batches");
-  f.message_bytes = count("messages", "ray_bytes") + count("messages", "contribution_bytes");
+  for (const char* kind : {"ray", "contribution", "sum"}) {
+    f.messages += count("messages", (std::string(kind) + "_batches").c_str());
+    f.message_bytes += count("messages", (std::string(kind) + "_bytes").c_str());
+  }
   f.light_bytes = count("messages", "contribution_bytes");
   f.rounds = count("token", "rounds");
   for (const Json& n : j.at("per_node")) {

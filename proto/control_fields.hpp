@@ -39,6 +39,7 @@ inline constexpr FieldLimits kFraction{.min = 0, .max = 1};
 
 inline constexpr FieldLimits kPlaneRange{.max = kAovPlanes, .has_default = true};
 inline constexpr FieldLimits kAovText{.has_default = true};
+inline constexpr FieldLimits kDefaulted{.has_default = true};
 
 constexpr FieldLimits at_least_one() { return {.min = 1}; }
 
@@ -67,6 +68,8 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("ray_bytes", m.ray_bytes);
   visit("contribution_batches", m.contribution_batches);
   visit("contribution_bytes", m.contribution_bytes);
+  visit("sum_batches", m.sum_batches, kDefaulted);
+  visit("sum_bytes", m.sum_bytes, kDefaulted);
   visit("non_finite", m.non_finite);
   visit("clamped", m.clamped);
   visit("malformed_drops", m.malformed_drops);
@@ -78,7 +81,6 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
-  constexpr FieldLimits kDefaulted{.has_default = true};
   visit("algorithm", m.algorithm, kDefaulted);
   visit("grain", m.grain, kDefaulted);
   visit("shadows", m.shadows, kDefaulted);
@@ -93,6 +95,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("samples", m.samples, {.min = 1, .max = kMaxSamples});
   visit("max_depth", m.max_depth, {.max = kMaxDepth});
   visit("aov", m.aov, kAovText);
+  visit("sums", m.sums, kDefaulted);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -227,6 +230,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("horizon_bytes", m.horizon_bytes);
   visit("borrow_bytes", m.borrow_bytes);
   visit("replica_bytes", m.replica_bytes);
+  visit("sums", m.sums, kDefaulted);
 }
 
 void each_field(auto& visit, Is<Lend> auto& m) {
@@ -338,6 +342,7 @@ void each_field(auto& visit, Is<Failed> auto& m) {
   visit("job", m.job);
   visit("code", m.code);
   visit("errors", m.errors, {.length = kMaxErrorsListed});
+  visit("stats", m.stats, {.length = kMaxStatsBytes});
 }
 
 void each_field(auto&, Is<Bye> auto&) {}

@@ -33,6 +33,10 @@ struct Names<FlowMode> {
   static constexpr std::array<std::string_view, 2> kAll{"credit", "blocking"};
 };
 template <>
+struct Names<SumsMode> {
+  static constexpr std::array<std::string_view, 2> kAll{"direct", "tree"};
+};
+template <>
 struct Names<JobState> {
   static constexpr std::array<std::string_view, 7> kAll{
       "queued", "loading", "building", "rendering", "done", "failed", "cancelled"};

@@ -38,6 +38,8 @@ enum class Grain : std::uint8_t { kPixel, kLine, kTile };
 enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
 enum class PartitionMode : std::uint8_t { kRegular, kBalanced, kAuto };
 enum class FlowMode : std::uint8_t { kCredit, kBlocking };
+/// How contributions reach the frontal: from each node by itself, or added up along the hypercube's tree.
+enum class SumsMode : std::uint8_t { kDirect, kTree };
 enum class JobState : std::uint8_t {
   kQueued,
   kLoading,
@@ -66,6 +68,7 @@ std::string_view to_string(Grain value);
 std::string_view to_string(ShadowMode value);
 std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
+std::string_view to_string(SumsMode value);
 std::string_view to_string(JobState value);
 std::string_view to_string(NodeState value);
 std::string_view to_string(FailureCode value);
@@ -89,6 +92,8 @@ struct NodeStats {
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
   std::uint64_t skipped_by_horizon = 0, forwarded_shadow = 0, forwarded_secondary = 0;
   std::uint64_t ray_batches = 0, ray_bytes = 0, contribution_batches = 0, contribution_bytes = 0;
+  /// Contributions sent to the parent in the tree of sums; those above went to the frontal.
+  std::uint64_t sum_batches = 0, sum_bytes = 0;
   /// Components of contributions mended while rounding; batches and messages refused.
   std::uint64_t non_finite = 0, clamped = 0, malformed_drops = 0;
   /// Most rays that lay in the outboxes at a time.
@@ -123,6 +128,7 @@ struct JobOptions {
   std::optional<std::uint32_t> width{}, height{}, samples{}, max_depth{};
   /// Names as parse_aovs reads them.
   std::string aov{};
+  SumsMode sums = SumsMode::kDirect;
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
 
@@ -294,6 +300,7 @@ struct Load {
   /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
   std::uint64_t borrow_bytes = 0;
   std::uint64_t replica_bytes = 0;
+  SumsMode sums = SumsMode::kDirect;
   friend bool operator==(const Load&, const Load&) = default;
 };
 
@@ -476,6 +483,8 @@ struct Failed {
   std::uint32_t job = 0;
   FailureCode code = FailureCode::kFailed;
   std::vector<ErrorItem> errors{};
+  /// Of a job that ended in a deadlock: the statistics file.
+  std::optional<RawObject> stats{};
   friend bool operator==(const Failed&, const Failed&) = default;
 };
 

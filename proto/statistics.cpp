@@ -61,6 +61,7 @@ std::string statistics_json(const Statistics& s) {
   Json j;
   j["graycube"] = s.version;
   j["scene"] = s.scene;
+  if (!s.failed.empty()) j["failed"] = s.failed;
   j["algorithm"] = to_string(s.algorithm);
   j["nodes"] = s.nodes;
   j["threads"] = s.threads;
@@ -72,7 +73,8 @@ std::string statistics_json(const Statistics& s) {
   j["choices"] = {{"scatter", s.scatter},
                   {"shadows", to_string(s.shadows)},
                   {"partition", to_string(s.partition)},
-                  {"flow", to_string(s.flow)}};
+                  {"flow", to_string(s.flow)},
+                  {"sums", to_string(s.sums)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
   j["frontal_cpu_s"] = s.frontal_cpu_s;
@@ -90,7 +92,9 @@ std::string statistics_json(const Statistics& s) {
   j["messages"] = {{"ray_batches", sum(&NodeStats::ray_batches)},
                    {"ray_bytes", sum(&NodeStats::ray_bytes)},
                    {"contribution_batches", sum(&NodeStats::contribution_batches)},
-                   {"contribution_bytes", sum(&NodeStats::contribution_bytes)}};
+                   {"contribution_bytes", sum(&NodeStats::contribution_bytes)},
+                   {"sum_batches", sum(&NodeStats::sum_batches)},
+                   {"sum_bytes", sum(&NodeStats::sum_bytes)}};
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
   for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);

@@ -13,6 +13,8 @@ namespace graycube {
 
 struct Statistics {
   std::string version, scene;
+  /// Why there is no picture; empty when there is one.
+  std::string failed;
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
   std::array<std::uint32_t, 2> grid{1, 1};
@@ -21,6 +23,7 @@ struct Statistics {
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
+  SumsMode sums = SumsMode::kDirect;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

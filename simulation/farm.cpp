@@ -315,6 +315,7 @@ Outcome Farm::render(const std::string& scene_text, const control::JobOptions& o
   outcome_ = {};
   reports_ = 0;
   is_over_ = false;
+  has_failed_ = false;
   render_began_s_ = -1;
   const double began_s = timeline_.now_s();
   const auto text = std::as_bytes(std::span(scene_text.data(), scene_text.size()));

@@ -127,8 +127,10 @@ class Farm {
   double frontal_cpu_s_ = 0;
   std::vector<Process> processes_;
   std::map<PeerId, Rank> peers_;
-  std::int64_t rays_under_way_ = 0;
-  bool is_over_ = false;
+  /// Batches of rays, and of light between nodes.
+  std::int64_t rays_under_way_ = 0, sums_under_way_ = 0;
+  /// The token has found the end; the nodes were told to report without that.
+  bool is_over_ = false, has_failed_ = false;
   std::optional<std::pair<Rank, double>> kill_;
   double render_began_s_ = 0, last_change_s_ = 0;
   /// What the running job was loaded with.

@@ -25,7 +25,7 @@ void Farm::watch_time(Process& p) {
   const bool is_rendering = p.node->is_rendering();
   const unsigned waiting = p.node->threads() - std::min(p.active, p.node->threads());
   if (reason == p.reason && is_rendering == p.is_rendering && waiting == p.waiting) return;
-  if (!outcome_.failed) last_change_s_ = timeline_.now_s();
+  if (!has_failed_) last_change_s_ = timeline_.now_s();
   if (is_rendering && !p.is_rendering && render_began_s_ < 0) render_began_s_ = last_change_s_;
   p.reason = reason;
   p.is_rendering = is_rendering;
@@ -34,7 +34,7 @@ void Farm::watch_time(Process& p) {
 }
 
 void Farm::fill_in(Process& p, control::NodeStats& stats) {
-  const double end_s = outcome_.failed ? last_change_s_ : timeline_.now_s();
+  const double end_s = has_failed_ ? last_change_s_ : timeline_.now_s();
   p.clock.update(moment(end_s), p.reason, p.waiting, false);
   p.is_rendering = false;
   stats.cpu_s = std::exchange(p.cpu_s, 0);
@@ -51,6 +51,9 @@ void Farm::watch_to_node(const Message& message) {
   const auto decoded = decode(message.text());
   const auto* m = std::get_if<ControlMessage>(&decoded);
   if (m == nullptr) return;
+  if (std::holds_alternative<control::Finish>(*m)) {
+    has_failed_ = !is_over_ && load_.algorithm == Algorithm::kMacro;
+  }
   if (const auto* load = std::get_if<control::Load>(m)) {
     load_ = *load;
     for (Process& p : processes_) std::ranges::fill(p.unreturned, 0);
@@ -78,6 +81,7 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr) return;
   if (h->type == BatchType::kRays) rays_under_way_ += is_sent ? 1 : -1;
+  if (h->type == BatchType::kContributions) sums_under_way_ += is_sent ? 1 : -1;
   if (h->stamp.job != load_.job) return;
   if (h->type == BatchType::kRays) {
     if (!is_sent) return;
@@ -101,6 +105,7 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
 /// The token has spoken: nothing may be left anywhere.
 void Farm::check_quiet() {
   if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
+  if (sums_under_way_ != 0) outcome_.violations.push_back("the token ended with light under way between nodes");
   for (const Process& p : processes_) {
     if (p.working != 0) outcome_.violations.push_back("the token ended with an evaluator at work");
     if (p.node && p.node->wait_reason() != WaitReason::kIdle) {

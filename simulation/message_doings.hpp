@@ -27,7 +27,11 @@ inline PerUnit receiving(const Message& message) {
   doings[Unit::kNodeCall] = 1;
   const auto header = peek_header(message.frame);
   const auto* h = std::get_if<BatchHeader>(&header);
-  if (h != nullptr && h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
+  if (h == nullptr) return doings;
+  if (h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
+  if (h->type == BatchType::kContributions) {
+    doings[Unit::kFrontalByte] = static_cast<double>(message.frame.size());
+  }
   return doings;
 }
 

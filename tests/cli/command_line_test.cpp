@@ -22,7 +22,7 @@ TEST_CASE("every option of render arrives") {
       {"render",      "a.json", "-o",        "b.exr",     "--png",       "c.png",       "--stats",
        "d.json",      "-n",     "16",        "--threads", "3",           "--algorithm", "macro",
        "--grain",     "line",   "--shadows", "forward",   "--partition", "regular",     "--scatter",
-       "1",           "--flow", "credit",    "--size",    "64x32",       "--samples",   "2",
+       "1",           "--flow", "credit",    "--sums",    "tree",        "--size",    "64x32",       "--samples",   "2",
        "--max-depth", "7",      "--timeout", "2.5",       "--quiet"}));
   CHECK(c.scene == "a.json");
   CHECK(c.outputs.exr == "b.exr");
@@ -34,6 +34,7 @@ TEST_CASE("every option of render arrives") {
   CHECK(c.options.algorithm == Algorithm::kMacro);
   CHECK(c.options.grain == Grain::kLine);
   CHECK(c.options.shadows == ShadowMode::kForward);
+  CHECK(c.options.sums == SumsMode::kTree);
   CHECK(c.options.width == 64u);
   CHECK(c.options.height == 32u);
   CHECK(c.options.samples == 2u);
@@ -143,7 +144,7 @@ TEST_CASE("help names every command, and a command's help its options") {
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
   for (const char* option : {"--png", "--nodes", "--threads", "--algorithm", "--grain", "--shadows",
-                             "--partition", "--scatter", "--flow", "--size", "--samples",
+                             "--partition", "--scatter", "--flow", "--sums", "--size", "--samples",
                              "--max-depth", "--stats", "--timeout", "--quiet"}) {
     CHECK(render.find(option) != std::string::npos);
   }

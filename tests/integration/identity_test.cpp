@@ -1,5 +1,6 @@
 // One scene, one picture: byte for byte, whatever computes it.
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <cstdlib>
 
 #include "integration/sandbox.hpp"
@@ -64,6 +65,12 @@ void check_identity(const std::string& scene, const char* size = kSize, const Ar
     ways.push_back({"--algorithm", "macro", "-n", nodes, "--partition", "balanced"});
   }
   ways.push_back({"--algorithm", "macro", "-n", "4", "--flow", "blocking", "--queue", "65536"});
+  for (const char* nodes : {"1", "4", "16"}) {
+    ways.push_back({"--algorithm", "macro", "-n", nodes, "--sums", "tree"});
+  }
+  ways.push_back({"--algorithm", "macro", "-n", "8", "--sums", "tree", "--shadows", "local", "--threads", "2"});
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--sums", "tree", "--flow", "blocking", "--queue", "65536"});
+  ways.push_back({"--algorithm", "roth", "-n", "8", "--sums", "tree"});
   check_ways(scene, ways, size, also);
 }
 
@@ -85,6 +92,62 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
   CHECK(json.out.starts_with("{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a deadlock's report, row and bars show what the nodes did until then") {
+  Sandbox sandbox;
+  const std::string scene = scene_file("mirrors.json").string();
+  const Outcome o = sandbox.run({"render", scene, "--algorithm", "macro", "-n", "16", "--shadows", "forward",
+                                 "--flow", "blocking", "--queue", "4", "--stats", "dead.json", "-q"});
+  INFO(o.err);
+  REQUIRE(o.status == 1);
+  CHECK(o.err.starts_with("graycube: render: --flow blocking: deadlock: node "));
+  CHECK(lines_of(o.err).size() == 1);
+  CHECK(sandbox.files() == std::vector<std::string>{"dead.json"});
+  const auto stats = sandbox.json("dead.json");
+  CHECK(stats["failed"].get<std::string>().starts_with("deadlock: node "));
+  CHECK(stats["balance"]["blocked_fraction"] > 0.1);
+  CHECK(stats["balance"]["blocked_fraction"] <= 1);
+  CHECK(stats["wall_s"] >= stats["phases"]["render_s"]);
+  REQUIRE(stats["per_node"].size() == 16);
+  std::uint64_t queue_peak = 0;
+  for (const auto& node : stats["per_node"]) {
+    CHECK(node["pid"] > 0);
+    queue_peak = std::max(queue_peak, node["queue_peak"].get<std::uint64_t>());
+  }
+  CHECK(queue_peak > 0);
+  CHECK(queue_peak <= 4);
+
+  const Outcome compared = sandbox.run({"compare", scene, "-n", "16", "--size", "128x128", "--queue", "4", "--json",
+                                        "--plot", "bars.svg", "-q"});
+  INFO(compared.err);
+  REQUIRE(compared.status == 0);
+  const auto rows = nlohmann::json::parse(compared.out)["rows"];
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [](const auto& r) { return r["name"] == "macro as in 1987"; });
+  REQUIRE(row != rows.end());
+  REQUIRE((*row)["outcome"] == "deadlocked");
+  CHECK((*row)["statistics"]["balance"]["blocked_fraction"] > 0.1);
+  // Its bars are drawn, and it is said why there is no picture.
+  CHECK(file_bytes(sandbox / "bars.svg").find(">deadlocked<") != std::string::npos);
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("with sums along the tree few batches of light reach the frontal") {
+  Sandbox sandbox;
+  for (const char* nodes : {"4", "16"}) {
+    const Outcome o =
+        sandbox.run({"render", scene_file("mirrors.json").string(), "--algorithm", "macro", "-n", nodes, "--sums",
+                     "tree", "-o", "out.exr", "--stats", "s.json", "-q"});
+    INFO(nodes << " nodes" << o.err);
+    REQUIRE(o.status == 0);
+    const auto stats = sandbox.json("s.json");
+    CHECK(stats["choices"]["sums"] == "tree");
+    CHECK(stats["messages"]["contribution_batches"] > 0);
+    CHECK(stats["messages"]["sum_batches"] > stats["messages"]["contribution_batches"]);
+    CHECK(stats["malformed_drops"] == 0);
+  }
 }
 
 TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {

@@ -63,15 +63,76 @@ TEST_CASE("what is merged sums up to what came in, through many fillings") {
   }
 }
 
-TEST_CASE("a pixel that comes again is one contribution, until it would hold too many") {
+TEST_CASE("a pixel that comes again is one contribution, until a record can't hold it") {
+  for (const bool others : {false, true}) {
+    MergeBuffer buffer;
+    buffer.expect_others(others);
+    const PixelReturn half{9, kMaxMergedContributions / 2, {1, 2, kMaxMergedLight / 2}, Credit{}};
+    const std::vector<PixelReturn> returns(3, half);
+    REQUIRE(buffer.add(returns, kPlan) == 3);
+    if (others) {
+      const Contribution once{9, half.light};
+      REQUIRE(buffer.add_gathered({}, std::vector(2, once)));
+    } else {
+      REQUIRE(buffer.add(std::span(returns).first(2), kPlan) == 2);
+    }
+    const MergeBuffer::Merged merged = buffer.take();
+    REQUIRE(merged.contributions.size() == 3);
+    CHECK(merged.contributions[0].light == FixedRgb{2, 4, kMaxMergedLight});
+    CHECK(merged.contributions[2].light == half.light);
+  }
+}
+
+TEST_CASE("what children have gathered is added to what is here, exactly") {
+  std::mt19937_64 random(3);
+  for (const std::uint32_t pixels : {5u, 4000u, 65536u, 4u * 65536u}) {
+    INFO(pixels << " pixels, those beyond 65536 for AOVs");
+    std::vector<MergeBuffer> children(3);
+    MergeBuffer parent;
+    parent.expect_others(true);
+    Totals came, sent;
+    const auto pass_on = [&](const MergeBuffer::Merged& m) {
+      if (!parent.add_gathered(m.credits, m.contributions)) {
+        sent.add(parent.take());
+        REQUIRE(parent.add_gathered(m.credits, m.contributions));
+      }
+      if (parent.is_full()) sent.add(parent.take());
+    };
+    for (int step = 0; step < 60; ++step) {
+      std::vector<PixelReturn> returns;
+      for (std::size_t i = random() % 3000; i > 0; --i) returns.push_back(some_return(random, pixels));
+      for (const PixelReturn& r : returns) came.add(r);
+      if (step % 4 == 3) {
+        feed(parent, returns, sent);
+        continue;
+      }
+      MergeBuffer& child = children[static_cast<std::size_t>(step % 4)];
+      std::span<const PixelReturn> rest = returns;
+      while (!rest.empty()) {
+        rest = rest.subspan(child.add(rest, kPlan));
+        if (child.is_full()) pass_on(child.take());
+      }
+    }
+    for (MergeBuffer& child : children) pass_on(child.take());
+    const MergeBuffer::Merged last = parent.take();
+    if (pixels < 5000) CHECK(last.contributions.size() <= pixels);
+    sent.add(last);
+    CHECK(sent == came);
+  }
+}
+
+TEST_CASE("gathered light that doesn't fit is left, and what is here stays as it is") {
   MergeBuffer buffer;
-  const PixelReturn half{9, kMaxMergedContributions / 2, {1, 2, 3}, Credit{}};
-  const std::vector<PixelReturn> returns(5, half);
-  REQUIRE(buffer.add(returns, kPlan) == 5);
-  const MergeBuffer::Merged merged = buffer.take();
-  REQUIRE(merged.contributions.size() == 3);
-  CHECK(merged.contributions[0].light.b == 6);
-  CHECK(merged.contributions[2].light.b == 3);
+  buffer.expect_others(true);
+  std::vector<Contribution> many(MergeBuffer::kMostPixels);
+  for (std::uint32_t i = 0; i < many.size(); ++i) many[i] = {i, {i, 1, 1}};
+  REQUIRE(buffer.add_gathered({}, many));
+  CHECK(buffer.is_full());
+  CHECK_FALSE(buffer.add_gathered({}, std::vector{Contribution{7, {1, 1, 1}}}));
+  CHECK(buffer.take().contributions == many);
+  buffer.expect_others(false);
+  CHECK_FALSE(buffer.add_gathered({}, many));
+  CHECK(buffer.is_empty());
 }
 
 TEST_CASE("a tile's light comes with exactly its credit, also when the buffer fills within the tile") {

@@ -25,6 +25,8 @@ inline control::NodeStats example_stats() {
   s.shadow = 157297;
   s.reflection = 20349;
   s.refraction = 10879;
+  s.sum_batches = 17;
+  s.sum_bytes = 170000;
   s.malformed_drops = 1;
   s.outbox_peak = 12345;
   s.memory_bytes = 1ull << 33;
@@ -50,6 +52,7 @@ inline control::JobOptions example_options() {
   o.samples = 2;
   o.max_depth = 0;
   o.aov = "depth,object";
+  o.sums = SumsMode::kTree;
   return o;
 }
 
@@ -92,7 +95,7 @@ inline std::vector<ControlMessage> example_messages() {
       Goodbye{},
       Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
       Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
-           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28, 4096},
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28, 4096, SumsMode::kTree},
       Lend{9, 1, 3},
       Relieved{9, 1, 12},
       Prepare{9, 2},
@@ -115,7 +118,7 @@ inline std::vector<ControlMessage> example_messages() {
       NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
       Done{9, stats},
       Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
-      Failed{9, FailureCode::kBadInput, {{"/objects/0/csg", "unknown type"}}},
+      Failed{9, FailureCode::kFailed, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
   };
 }

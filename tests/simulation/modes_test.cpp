@@ -1,7 +1,10 @@
 // Every way in which macro can work, on simulated farms, by seed: the serial picture each time.
 #include <catch2/catch.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
 #include <regex>
 
+#include "simulation/modelled_machine.hpp"
 #include "simulation/pictures.hpp"
 #include "topology/hypercube.hpp"
 
@@ -36,7 +39,55 @@ std::vector<Rank> cycle_in(const std::string& message) {
   return cycle;
 }
 
+nlohmann::json stats_of_failure(const Outcome& outcome) {
+  REQUIRE(outcome.failed->stats);
+  return nlohmann::json::parse(outcome.failed->stats->text);
+}
+
+/// Rank 1 is not heard for long after some moment.
+class LateNode : public RandomMachine {
+ public:
+  explicit LateNode(std::uint64_t seed) : RandomMachine({.seed = seed}) {}
+  double arrival_s(Place from, Place to, std::size_t bytes, double now_s) override {
+    if (!from && to == Rank{0}) told_s.push_back(now_s);
+    const bool is_late = from == Rank{1} && !to && now_s >= late_from_s;
+    return RandomMachine::arrival_s(from, to, bytes, now_s) + (is_late ? 10 * kReportPatience_s : 0);
+  }
+
+  double late_from_s = std::numeric_limits<double>::infinity();
+  /// When the frontal sent something to rank 0.
+  std::vector<double> told_s;
+};
+
 }  // namespace
+
+TEST_CASE("a deadlock is told, with the other nodes' reports, when one node's doesn't come") {
+  const std::string text = scene_text(36, 24);
+  control::JobOptions options = macro_with(ShadowMode::kForward, 1);
+  options.flow = FlowMode::kBlocking;
+  options.queue = 1;
+  int deadlocks = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    INFO("seed " << seed);
+    LateNode first(seed), again(seed);
+    const Outcome heard = Farm({.nodes = 4}, first).render(text, options);
+    if (!heard.failed) continue;
+    ++deadlocks;
+    // The last that a node hears is `finish`, once for its report and once when the job has ended.
+    REQUIRE(first.told_s.size() > 2);
+    again.late_from_s = first.told_s[first.told_s.size() - 2];
+    const Outcome outcome = Farm({.nodes = 4}, again).render(text, options);
+    REQUIRE(outcome.failed);
+    CHECK(outcome.failed->errors == heard.failed->errors);
+    const nlohmann::json stats = stats_of_failure(outcome);
+    REQUIRE(stats["per_node"].size() == 4);
+    for (std::uint32_t rank = 0; rank < 4; ++rank) {
+      CHECK(stats["per_node"][rank]["rank"] == rank);
+      CHECK((stats["per_node"][rank]["pid"] == 0) == (rank == 1));
+    }
+  }
+  CHECK(deadlocks > 2);
+}
 
 TEST_CASE("scattered regions, horizons and borrowed models give the serial picture") {
   const std::string text = scene_text(36, 24);
@@ -103,6 +154,13 @@ TEST_CASE("blocking queues give the serial picture or a deadlock, which is repor
     CHECK(cycle.front() == cycle.back());
     const Hypercube cube = *Hypercube::of_size(nodes);
     for (std::size_t i = 1; i < cycle.size(); ++i) CHECK(cube.link_between(cycle[i - 1], cycle[i]));
+    // Each node has told how far it got.
+    const nlohmann::json stats = stats_of_failure(outcome);
+    CHECK(stats["failed"] == why);
+    CHECK(stats["balance"]["blocked_fraction"] > 0);
+    CHECK(stats["rays"]["primary"] > 0);
+    REQUIRE(stats["per_node"].size() == nodes);
+    for (const Rank r : cycle) CHECK(stats["per_node"][r.value]["queue_peak"] > 0);
     // The farm is still good for another job.
     check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), 2, expected);
   }
@@ -132,4 +190,51 @@ TEST_CASE("with replicas nothing is forwarded, and neighbours trace the tiles of
     CHECK(primary == 144 * 96);
   }
   CHECK(helped > 24);
+}
+
+TEST_CASE("sums along the tree give the serial picture, AOVs too, and only the root sends to the frontal") {
+  const std::string text = scene_text(48, 32);
+  const Picture expected = serial_picture(text, AovSet::all());
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const std::uint32_t nodes = 1u << (seed % 7);
+    control::JobOptions options = macro_with(static_cast<ShadowMode>(seed % 3), 1 + seed % 2);
+    if (seed % 11 == 0) options = with(Algorithm::kRoth);
+    options.sums = SumsMode::kTree;
+    options.aov = "depth,normal,albedo,object";
+    INFO("seed " << seed << ", " << nodes << " nodes, " << to_string(options.algorithm) << ", "
+                 << to_string(options.shadows));
+    RandomFarmOptions how = farm_of(nodes, seed);
+    if (seed % 2 == 0) how.replica_bytes = 0;
+    RandomFarm farm(how);
+    const Outcome outcome = farm.render(text, options);
+    check_same_picture(farm, outcome, 1, expected);
+    std::uint64_t primary = 0;
+    for (const control::NodeStats& n : outcome.reports) {
+      CHECK((n.contribution_batches > 0) == (n.rank == 0));
+      CHECK((n.sum_batches > 0) == (n.rank != 0 && n.sum_bytes > 0));
+      primary += n.primary;
+    }
+    CHECK(primary == 48 * 32);
+    CHECK(nlohmann::json::parse(outcome.done->stats.text)["choices"]["sums"] == "tree");
+  }
+}
+
+TEST_CASE("sums along the tree need at most four rounds of the token on 16 and 64 equal nodes") {
+  const std::string text = scene_text(96, 64);
+  const Picture expected = serial_picture(text);
+  for (const std::uint32_t nodes : {16u, 64u}) {
+    MachineFigures figures;
+    figures.costs[Unit::kPiece] = 5e-6;
+    figures.costs[Unit::kRay] = 2e-6;
+    figures.costs[Unit::kMessage] = 2e-5;
+    figures.link_us = 50;
+    ModelledMachine machine(figures);
+    Farm farm({.nodes = nodes}, machine);
+    control::JobOptions options = macro_with(ShadowMode::kHorizon, 1);
+    options.sums = SumsMode::kTree;
+    INFO(nodes << " nodes");
+    const Outcome outcome = farm.render(text, options);
+    check_same_picture(farm, outcome, 1, expected);
+    CHECK(outcome.rounds <= 4);
+  }
 }

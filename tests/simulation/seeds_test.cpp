@@ -51,9 +51,10 @@ struct Trial {
   bool is_square = false;  ///< larger: small pictures can't be cut by load
 
   std::string name() const {
-    if (job.algorithm == Algorithm::kRoth) return "roth " + std::string(to_string(job.grain));
-    return "macro " + std::string(to_string(job.shadows)) + " " +
-           std::string(to_string(job.partition)) + " " + std::string(to_string(job.flow));
+    const std::string sums = " " + std::string(to_string(job.sums));
+    if (job.algorithm == Algorithm::kRoth) return "roth " + std::string(to_string(job.grain)) + sums;
+    return "macro " + std::string(to_string(job.shadows)) + " " + std::string(to_string(job.partition)) + " " +
+           std::string(to_string(job.flow)) + sums;
   }
 };
 
@@ -88,6 +89,7 @@ Trial trial_of(std::uint64_t seed) {
     t.farm.heartbeat_s = 1;
   }
   if (below(2) == 0) t.farm.replica_bytes = 0;
+  if (below(2) == 0) t.job.sums = SumsMode::kTree;
   return t;
 }
 
@@ -137,14 +139,16 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
       ++deadlocks;
       CHECK(outcome.violations.empty());
       CHECK(outcome.failed->errors.front().why.starts_with("deadlock: node "));
+      CHECK(outcome.failed->stats);
     } else {
       check_same_picture(farm, outcome, 1, pictures.expected);
     }
     check_bounds(t, outcome, pictures.pixels);
   }
   if (only != 0 || last < kSeeds) return;
-  // Grains, and shadows × partition × flow: the seeds reach them all, and where credit runs out and queues fill.
-  CHECK(ways.size() == 3 + 3 * 2 * 2);
+  // Grains, and shadows × partition × flow, each with either sums: the seeds reach them all, and where credit runs
+  // out and queues fill.
+  CHECK(ways.size() == 2 * (3 + 3 * 2 * 2));
   CHECK(deadlocks > 5);
   CHECK(beyond_credit > last / 4);
 }

@@ -1,0 +1,121 @@
+// What a node's brain does with its neighbours' batches.
+#include <algorithm>
+
+#include "geometry/check.hpp"
+#include "node/node.hpp"
+#include "proto/control.hpp"
+
+namespace graycube {
+
+void Node::on_neighbour(const Bytes& batch) {
+  const auto peeked = peek_header(batch);
+  if (const auto* error = std::get_if<BatchError>(&peeked)) {
+    return drop("batch", to_string(*error));
+  }
+  const auto& header = std::get<BatchHeader>(peeked);
+  if (!cube_) {
+    // A neighbour may have heard the frontal's welcome first. Anything else is for a dead predecessor.
+    const bool keep = header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
+    if (keep) early_greetings_.push_back(batch);
+    return;
+  }
+  const std::uint32_t bit = bit_of(Rank{header.stamp.sender});
+  if (bit >= links_.size()) return drop("batch", "not from a neighbour");
+  Link& link = links_[bit];
+  if (header.type == BatchType::kGreeting || header.type == BatchType::kGreetingAck) {
+    return on_signal(link, header);
+  }
+  const BatchStamp& s = header.stamp;
+  const bool stale = s.job != job_ || s.epoch != epoch_ || !plan_ ||
+                     (!incarnations_.empty() && incarnations_.size() > s.sender &&
+                      incarnations_[s.sender] != s.incarnation);
+  if (stale) return;
+  if (s.sequence != link.expected_sequence++) {
+    return send_control(control::NodeError{
+        job_, "a batch from node " + std::to_string(s.sender) + " was lost on its link"});
+  }
+  if (header.type == BatchType::kRays) return on_rays(link, bit, batch, header);
+  if (header.type == BatchType::kContributions) return on_sums(link, batch);
+  if (header.type == BatchType::kLinkCredit) {
+    std::uint64_t bytes = 0;
+    const auto result = decode_link_credit(batch, limits_, bytes);
+    if (std::holds_alternative<BatchError>(result)) return drop("grant", "malformed");
+    link.send_credit += bytes;
+    link.received += bytes;
+    if (is_blocking()) return send_stalled();
+    // Where all evaluators wait, none will come by to send the rest.
+    return send_rays(link, working_ == 0 && wait_reason() != WaitReason::kReady);
+  }
+  if (header.type == BatchType::kToken) {
+    TokenRecord r;
+    const auto result = decode_token(batch, limits_, r);
+    if (std::holds_alternative<BatchError>(result)) return drop("token", "malformed");
+    if (!ring_.token_arrived({r.black, r.count, r.round, r.hops, r.contribution_batches})) {
+      return drop("token", "none was due");
+    }
+    if (id_.rank.value == 0) {
+      send_control(control::TokenRound{job_, epoch_, r.round, r.hops, r.black, r.count});
+    }
+    return pass_token();
+  }
+  drop("batch", to_string(header.type));
+}
+
+void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header) {
+  std::vector<RayTask> rays;
+  const auto result = decode_rays(batch, limits_, rays);
+  if (const auto* error = std::get_if<BatchError>(&result)) {
+    // A broken batch can't be repaired, and what was in it is missing from the picture.
+    drop("rays", to_string(*error));
+    return send_control(control::NodeError{
+        job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
+  }
+  const bool mine = std::all_of(rays.begin(), rays.end(),
+                                [&](const RayTask& r) { return domain_->holds(r.region); });
+  if (!mine) {
+    drop("rays", "for another macro-region");
+    return send_control(control::NodeError{
+        job_, "node " + std::to_string(link.peer.value) + " sent rays for another node"});
+  }
+  ring_.message_received();
+  stats_.rays_in += header.count;
+  for (const RayTask& ray : rays) rays_.add(ray, bit);
+  stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
+}
+
+/// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody
+/// here is at work.
+void Node::on_sums(const Link& link, const Bytes& batch) {
+  BatchLimits limits = limits_;
+  limits.pixel_count *= 1 + kAovPlanes;
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> contributions;
+  const auto result = decode_contributions(batch, limits, credits, contributions);
+  const auto* error = std::get_if<BatchError>(&result);
+  const bool is_child = has_children_ && cube_->tree_parent(link.peer) == id_.rank;
+  if (error != nullptr || !is_child || credits.size() > MergeBuffer::kMostPixels ||
+      contributions.size() > MergeBuffer::kMostPixels) {
+    drop("contributions", error != nullptr ? to_string(*error) : "not a child's, or too many");
+    return send_control(control::NodeError{
+        job_, "a broken batch of contributions came from node " + std::to_string(link.peer.value)});
+  }
+  ring_.message_received();
+  if (!merge_.add_gathered(credits, contributions)) {
+    flush_contributions();
+    GRAYCUBE_CHECK(merge_.add_gathered(credits, contributions), "no room in an empty buffer");
+  }
+  holds_others_light_ = true;
+  if (merge_.is_full()) flush_contributions();
+}
+
+void Node::on_signal(Link& link, const BatchHeader& header) {
+  if (header.type == BatchType::kGreeting) {
+    outgoing_.push_back(
+        {link.peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreetingAck))});
+    return;
+  }
+  link.is_greeted = true;
+  send_ready_when_complete();
+}
+
+}  // namespace graycube
