@@ -46,55 +46,6 @@ std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m) {
   return map;
 }
 
-void BrlcadTreeBuilder::leaf(std::string name, std::optional<Affine> matrix) {
-  Operand& o = stack_.emplace_back();
-  o.tree.name = std::move(name);
-  o.tree.matrix = matrix;
-  ++leaves_;
-}
-
-bool BrlcadTreeBuilder::operation(BrlcadTree::Op op) {
-  using Op = BrlcadTree::Op;
-  const std::size_t operands = op == Op::kNot ? 1 : 2;
-  if (op == Op::kLeaf || stack_.size() < operands) return false;
-  std::vector<Operand> taken(operands);
-  for (std::size_t i = operands; i-- > 0;) {
-    taken[i] = std::move(stack_.back());
-    stack_.pop_back();
-  }
-  Operand result;
-  result.tree.op = op;
-  for (std::size_t i = 0; i < operands; ++i) {
-    BrlcadTree& child = taken[i].tree;
-    auto& children = result.tree.children;
-    // The right chain only when it is short: however a chain leans, building it stays quick.
-    const bool is_short = child.children.size() <= std::max<std::size_t>(64, children.size());
-    const bool is_chain = child.op == op && (i == 0 ? op != Op::kXor && op != Op::kNot
-                                                    : is_short && (op == Op::kUnion ||
-                                                                   op == Op::kIntersection));
-    if (!is_chain) {
-      result.depth = std::max(result.depth, taken[i].depth + 1);
-      children.push_back(std::move(child));
-    } else if (children.empty()) {
-      result.depth = std::max(result.depth, taken[i].depth);
-      children = std::move(child.children);
-    } else {
-      result.depth = std::max(result.depth, taken[i].depth);
-      std::move(child.children.begin(), child.children.end(), std::back_inserter(children));
-    }
-  }
-  if (result.depth > kMaxBrlcadTreeDepth) return false;
-  stack_.push_back(std::move(result));
-  return true;
-}
-
-std::optional<BrlcadTree> BrlcadTreeBuilder::finish() {
-  if (stack_.size() != 1) return std::nullopt;
-  BrlcadTree tree = std::move(stack_.back().tree);
-  stack_.clear();
-  return tree;
-}
-
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves, std::size_t per_curve) {
   BrlcadMesh mesh;
   mesh.vertices = points;
