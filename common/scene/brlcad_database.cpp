@@ -93,6 +93,33 @@ void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_v
   }
 }
 
+namespace {
+
+/// {low high r g b}, any number of them.
+void add_color_ranges(std::string_view table, std::vector<BrlcadColorRange>& colors) {
+  constexpr std::size_t kMostDigits = 9;
+  std::array<long, 5> entry{};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < table.size();) {
+    const std::size_t from = table.find_first_of("-0123456789", at);
+    if (from == std::string_view::npos) break;
+    at = std::min(table.find_first_not_of("-0123456789", from), table.size());
+    const auto v = parse_brlcad_integer(table.substr(from, std::min(at - from, kMostDigits)));
+    entry[count++] = v.value_or(0);
+    if (count < entry.size()) continue;
+    count = 0;
+    BrlcadColorRange& range = colors.emplace_back(BrlcadColorRange{entry[0], entry[1], {}});
+    for (std::size_t i = 0; i < 3; ++i) range.rgb[i] = static_cast<int>(std::clamp(entry[2 + i], 0l, 255l));
+  }
+}
+
+}  // namespace
+
+void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value) {
+  if (name == "title") database.title = value;
+  if (name == "regionid_colortable") add_color_ranges(value, database.colors);
+}
+
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report) {
   if (bytes.size() > kMaxBrlcadBytes) {
     report.error("", "the file has more than " + std::to_string(kMaxBrlcadBytes) + " bytes");

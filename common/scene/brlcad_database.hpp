@@ -120,6 +120,8 @@ BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
 
 /// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean nothing here.
 void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_view value);
+/// The same for the attributes of the database itself, `_GLOBAL`: `title` and `regionid_colortable`.
+void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value);
 /// "r/g/b" or "r g b", 0 … 255 each; nothing otherwise.
 std::optional<std::array<int, 3>> parse_brlcad_rgb(std::string_view text);
 

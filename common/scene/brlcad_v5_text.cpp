@@ -103,12 +103,14 @@ class V5TextReader {
   }
 
   void attributes(const Words& words) {
-    if (words[2] == "_GLOBAL") return;
     BrlcadObject* object = database_.find(words[2]);
     BrlcadComb* comb = object != nullptr ? std::get_if<BrlcadComb>(&object->value) : nullptr;
-    if (comb == nullptr) return;
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
-      set_brlcad_attribute(*comb, words[i], words[i + 1]);
+      if (words[2] == "_GLOBAL") {
+        set_brlcad_global(database_, words[i], words[i + 1]);
+      } else if (comb != nullptr) {
+        set_brlcad_attribute(*comb, words[i], words[i + 1]);
+      }
     }
   }
 

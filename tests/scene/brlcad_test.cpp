@@ -151,6 +151,24 @@ TEST_CASE("colours and shaders are inherited, and an upper one that insists wins
   CHECK(color_of("shader {mirror} inherit yes", "shader {glass}").transmit == 0);
 }
 
+TEST_CASE("the colours of regions by their numbers are read alike from text and binary") {
+  const std::string table = "{1000 1999 10 20 30} {-1 5 300 -4 7} {3 4}";
+  V5Binary g;
+  g.attributes_only("_GLOBAL", "regionid_colortable" + std::string(1, '\0') + table + std::string(2, '\0'));
+  const std::string text = "title t\nattr set {_GLOBAL} {regionid_colortable} {" + table + "}\n";
+  for (const std::string& bytes : {g.bytes(), text}) {
+    BrlcadReport report;
+    const BrlcadDatabase database = read_brlcad_database(bytes, report);
+    REQUIRE_FALSE(report.has_errors());
+    REQUIRE(database.colors.size() == 2);
+    CHECK(database.colors[0].low == 1000);
+    CHECK(database.colors[0].high == 1999);
+    CHECK(database.colors[0].rgb == std::array<int, 3>{10, 20, 30});
+    CHECK(database.colors[1].low == -1);
+    CHECK(database.colors[1].rgb == std::array<int, 3>{255, 0, 7});
+  }
+}
+
 TEST_CASE("a lamp shines, and an unknown shader is plastic with one warning") {
   const std::string text =
       "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput t ell V {9 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
