@@ -288,6 +288,7 @@ class BinaryReader {
       case 20: return BrlcadKind::kEhy;
       case 21: return BrlcadKind::kEto;
       case 30: return BrlcadKind::kBot;
+      case 35: return BrlcadKind::kSuperell;
       case 38: return BrlcadKind::kHyp;
       default: return std::nullopt;
     }

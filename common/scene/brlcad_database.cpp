@@ -30,6 +30,7 @@ std::size_t brlcad_value_count(BrlcadKind kind) {
     case BrlcadKind::kEto: return 11;
     case BrlcadKind::kEhy: return 12;
     case BrlcadKind::kPart: return 8;
+    case BrlcadKind::kSuperell: return 14;
     default: return 0;
   }
 }

@@ -42,6 +42,7 @@ enum class BrlcadKind : std::uint8_t {
   kPipe,  // points: position, inner, outer diameter, bend radius
   kArs,   // mesh
   kBot,   // mesh
+  kSuperell,  // V A B C, exponents n and e
 };
 
 struct BrlcadMesh {

@@ -32,6 +32,7 @@ constexpr Key kEpa[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"r_1", 1}, {"r_2", 1}};
 constexpr Key kEhy[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"r_1", 1}, {"r_2", 1}, {"c", 1}};
 constexpr Key kHyp[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"b", 1}, {"bnr", 1}};
 constexpr Key kEto[] = {{"V", 3}, {"N", 3}, {"C", 3}, {"r", 1}, {"r_d", 1}};
+constexpr Key kSuperell[] = {{"V", 3}, {"A", 3}, {"B", 3}, {"C", 3}, {"n", 1}, {"e", 1}};
 constexpr Key kPart[] = {{"V", 3}, {"H", 3}, {"r_v", 1}, {"r_h", 1}};
 
 constexpr Layout kLayouts[] = {
@@ -42,6 +43,7 @@ constexpr Layout kLayouts[] = {
     {"rhc", BrlcadKind::kRhc, kRhc},    {"epa", BrlcadKind::kEpa, kEpa},
     {"ehy", BrlcadKind::kEhy, kEhy},    {"hyp", BrlcadKind::kHyp, kHyp},
     {"eto", BrlcadKind::kEto, kEto},    {"part", BrlcadKind::kPart, kPart},
+    {"superell", BrlcadKind::kSuperell, kSuperell},
 };
 
 using Words = std::vector<std::string>;

@@ -328,6 +328,21 @@ TEST_CASE("what can't be read is refused by name or line") {
   CHECK(error_of(std::string("v\x01\0\0\0\0\x01\x35 and then", 17)).find("byte 8") == 0);
 }
 
+TEST_CASE("a superell is an ellipsoid where its exponents say so, and refused otherwise") {
+  const auto text = [](const char* kind, const char* exponents) {
+    return std::string("put s ") + kind + " V {1 2 3} A {3 0 0} B {0 2 0} C {0 0 1}" + exponents + "\n" +
+           "put r comb region yes tree {l s}\n";
+  };
+  CHECK(scene_of(text("superell", " n 1 e 1"), {"r"}) == scene_of(text("ell", ""), {"r"}));
+  CHECK(error_of(text("superell", " n 1 e 0.5"), {"r"}) ==
+        "s: superell with other exponents than n = e = 1 is not supported");
+  CHECK(error_of(text("superell", " n 1"), {"r"}).find("expected e with 1 numbers") != std::string::npos);
+  V5Binary g;
+  g.solid("s", 35, {1, 2, 3, 3, 0, 0, 0, 2, 0, 0, 0, 1, 1, 1});
+  g.comb("r", {"s"}, "\x01", {}, {}, std::string("region\0R\0", 9));
+  CHECK(scene_of(g.bytes(), {"r"}) == scene_of(text("ell", ""), {"r"}));
+}
+
 TEST_CASE("a missing member is left out, with a warning") {
   const BrlcadResult result =
       read_brlcad(kV4Head + v4_sphere("s", 0, 0, 0, 1) + v4_region("r") + v4_member('u', "s") + v4_member('-', "gone"));
