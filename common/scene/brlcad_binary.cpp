@@ -158,7 +158,11 @@ class BinaryReader {
       return fail(name + ": compressed in a way that can't be undone");
     }
     constexpr unsigned kBrlcad = 1, kAttributesOnly = 2;
-    if (major == kAttributesOnly && name == "_GLOBAL") return global(attributes.bytes);
+    if (major == kAttributesOnly && name == "_GLOBAL") {
+      each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
+        set_brlcad_global(database_, key, value);
+      });
+    }
     if (major != kBrlcad || name.empty()) return;
     BrlcadObject object{name, where(), BrlcadForeign{}};
     BigReader b(body.bytes);
@@ -185,34 +189,6 @@ class BinaryReader {
       const std::string_view value = r.text();
       if (!r.ok()) break;
       visit(key, value);
-    }
-  }
-
-  /// regionid_colortable: {low high r g b} in lines.
-  void global(std::string_view attributes) {
-    each_attribute(attributes, [&](std::string_view key, std::string_view value) {
-      if (key == "title") database_.title = value;
-      if (key == "regionid_colortable") color_table(value);
-    });
-  }
-  void color_table(std::string_view table) {
-    long entry[5];
-    std::size_t count = 0;
-    for (std::size_t at = 0; at < table.size();) {
-      const std::size_t from = table.find_first_of("-0123456789", at);
-      if (from == std::string_view::npos) break;
-      const std::size_t to = std::min(table.find_first_not_of("-0123456789", from), table.size());
-      long v = 0;
-      for (const char c : table.substr(from, std::min<std::size_t>(to - from, 9))) {
-        if (c != '-') v = 10 * v + (c - '0');
-      }
-      entry[count++] = table[from] == '-' ? -v : v;
-      if (count == 5) {
-        const auto channel = [&](std::size_t i) { return static_cast<int>(std::min(255l, std::max(0l, entry[i]))); };
-        database_.colors.push_back({entry[0], entry[1], {channel(2), channel(3), channel(4)}});
-        count = 0;
-      }
-      at = to;
     }
   }
 
@@ -312,6 +288,7 @@ class BinaryReader {
       case 20: return BrlcadKind::kEhy;
       case 21: return BrlcadKind::kEto;
       case 30: return BrlcadKind::kBot;
+      case 35: return BrlcadKind::kSuperell;
       case 38: return BrlcadKind::kHyp;
       default: return std::nullopt;
     }

@@ -30,6 +30,7 @@ std::size_t brlcad_value_count(BrlcadKind kind) {
     case BrlcadKind::kEto: return 11;
     case BrlcadKind::kEhy: return 12;
     case BrlcadKind::kPart: return 8;
+    case BrlcadKind::kSuperell: return 14;
     default: return 0;
   }
 }
@@ -44,55 +45,6 @@ std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m) {
   }
   if (!map.is_finite() || !map.inverse()) return std::nullopt;
   return map;
-}
-
-void BrlcadTreeBuilder::leaf(std::string name, std::optional<Affine> matrix) {
-  Operand& o = stack_.emplace_back();
-  o.tree.name = std::move(name);
-  o.tree.matrix = matrix;
-  ++leaves_;
-}
-
-bool BrlcadTreeBuilder::operation(BrlcadTree::Op op) {
-  using Op = BrlcadTree::Op;
-  const std::size_t operands = op == Op::kNot ? 1 : 2;
-  if (op == Op::kLeaf || stack_.size() < operands) return false;
-  std::vector<Operand> taken(operands);
-  for (std::size_t i = operands; i-- > 0;) {
-    taken[i] = std::move(stack_.back());
-    stack_.pop_back();
-  }
-  Operand result;
-  result.tree.op = op;
-  for (std::size_t i = 0; i < operands; ++i) {
-    BrlcadTree& child = taken[i].tree;
-    auto& children = result.tree.children;
-    // The right chain only when it is short: however a chain leans, building it stays quick.
-    const bool is_short = child.children.size() <= std::max<std::size_t>(64, children.size());
-    const bool is_chain = child.op == op && (i == 0 ? op != Op::kXor && op != Op::kNot
-                                                    : is_short && (op == Op::kUnion ||
-                                                                   op == Op::kIntersection));
-    if (!is_chain) {
-      result.depth = std::max(result.depth, taken[i].depth + 1);
-      children.push_back(std::move(child));
-    } else if (children.empty()) {
-      result.depth = std::max(result.depth, taken[i].depth);
-      children = std::move(child.children);
-    } else {
-      result.depth = std::max(result.depth, taken[i].depth);
-      std::move(child.children.begin(), child.children.end(), std::back_inserter(children));
-    }
-  }
-  if (result.depth > kMaxBrlcadTreeDepth) return false;
-  stack_.push_back(std::move(result));
-  return true;
-}
-
-std::optional<BrlcadTree> BrlcadTreeBuilder::finish() {
-  if (stack_.size() != 1) return std::nullopt;
-  BrlcadTree tree = std::move(stack_.back().tree);
-  stack_.clear();
-  return tree;
 }
 
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves, std::size_t per_curve) {
@@ -140,6 +92,33 @@ void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_v
   } else if (name == "oshader" || name == "shader") {
     comb.shader = value;
   }
+}
+
+namespace {
+
+/// {low high r g b}, any number of them.
+void add_color_ranges(std::string_view table, std::vector<BrlcadColorRange>& colors) {
+  constexpr std::size_t kMostDigits = 9;
+  std::array<long, 5> entry{};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < table.size();) {
+    const std::size_t from = table.find_first_of("-0123456789", at);
+    if (from == std::string_view::npos) break;
+    at = std::min(table.find_first_not_of("-0123456789", from), table.size());
+    const auto v = parse_brlcad_integer(table.substr(from, std::min(at - from, kMostDigits)));
+    entry[count++] = v.value_or(0);
+    if (count < entry.size()) continue;
+    count = 0;
+    BrlcadColorRange& range = colors.emplace_back(BrlcadColorRange{entry[0], entry[1], {}});
+    for (std::size_t i = 0; i < 3; ++i) range.rgb[i] = static_cast<int>(std::clamp(entry[2 + i], 0l, 255l));
+  }
+}
+
+}  // namespace
+
+void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value) {
+  if (name == "title") database.title = value;
+  if (name == "regionid_colortable") add_color_ranges(value, database.colors);
 }
 
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report) {

@@ -15,6 +15,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 #include "scene/brlcad_report.hpp"
+#include "scene/brlcad_tree.hpp"
 
 namespace graycube {
 
@@ -23,9 +24,6 @@ inline constexpr std::size_t kMaxBrlcadObjects = std::size_t{1} << 22;
 /// Numbers of one arbn or pipe; vertices, and faces, of one mesh.
 inline constexpr std::size_t kMaxBrlcadNumbers = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxBrlcadVertices = std::size_t{1} << 24;
-/// Members of one combination, and levels of its tree once chains of one operation are flat.
-inline constexpr std::size_t kMaxBrlcadMembers = std::size_t{1} << 20;
-inline constexpr std::size_t kMaxBrlcadTreeDepth = 100;
 
 enum class BrlcadKind : std::uint8_t {
   kArb8,  // 8 corners
@@ -44,6 +42,7 @@ enum class BrlcadKind : std::uint8_t {
   kPipe,  // points: position, inner, outer diameter, bend radius
   kArs,   // mesh
   kBot,   // mesh
+  kSuperell,  // V A B C, exponents n and e
 };
 
 struct BrlcadMesh {
@@ -60,16 +59,6 @@ struct BrlcadSolid {
 /// A kind that isn't read, by its name.
 struct BrlcadForeign {
   std::string kind;
-};
-
-struct BrlcadTree {
-  /// Unions and intersections of two or more, a difference of the first and the others, either and not both,
-  /// the complement of one.
-  enum class Op : std::uint8_t { kLeaf, kUnion, kIntersection, kDifference, kXor, kNot };
-  Op op = Op::kLeaf;
-  std::string name;
-  std::optional<Affine> matrix;
-  std::vector<BrlcadTree> children;
 };
 
 struct BrlcadComb {
@@ -118,26 +107,6 @@ std::size_t brlcad_value_count(BrlcadKind kind);
 /// A 4 × 4 matrix by rows, its last element dividing; nothing when it is no invertible affine map.
 std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m);
 
-/// Builds a tree from its operations in postfix order. Chains of unions, of intersections and of differences
-/// from one solid become one node.
-class BrlcadTreeBuilder {
- public:
-  void leaf(std::string name, std::optional<Affine> matrix);
-  /// Two operands, or one for kNot. False when there aren't as many, or the tree gets too deep.
-  [[nodiscard]] bool operation(BrlcadTree::Op op);
-  /// The tree, when exactly one operand is left.
-  std::optional<BrlcadTree> finish();
-  std::size_t leaves() const { return leaves_; }
-
- private:
-  struct Operand {
-    BrlcadTree tree;
-    std::size_t depth = 1;
-  };
-  std::vector<Operand> stack_;
-  std::size_t leaves_ = 0;
-};
-
 /// The points of an ars: `curves` polylines of `points` points each, the first and the last of them
 /// collapsed to a point, as a mesh.
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves, std::size_t per_curve);
@@ -152,6 +121,8 @@ BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
 
 /// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean nothing here.
 void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_view value);
+/// The same for the attributes of the database itself, `_GLOBAL`: `title` and `regionid_colortable`.
+void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value);
 /// "r/g/b" or "r g b", 0 … 255 each; nothing otherwise.
 std::optional<std::array<int, 3>> parse_brlcad_rgb(std::string_view text);
 

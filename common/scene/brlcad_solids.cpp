@@ -135,6 +135,15 @@ BrlcadNode ellipsoid(const Vec3& center, std::array<Vec3, 3> axes, double grow) 
   return built(node_of(EllipsoidShape{center, axes}));
 }
 
+/// (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1: only what is an ellipsoid. rt itself never looks at the exponents when
+/// it shoots rays (superell.c: a quadric of its own), so there is nothing that others could be held against.
+BrlcadNode superell(const Values& p, double grow) {
+  if (p.number(12) == 1 && p.number(13) == 1) {
+    return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
+  }
+  return refusal("superell with other exponents than n = e = 1 is not supported");
+}
+
 /// A cone between two circles about an axis, or a cylinder; the larger end's radius is above 0.
 CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double top_radius) {
   if (base_radius < top_radius) return round_cone(top, top_radius, base, base_radius);
@@ -444,6 +453,7 @@ BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double 
     case BrlcadKind::kArb8: return arb(p, grow);
     case BrlcadKind::kTgc: return tgc(p, grow);
     case BrlcadKind::kEll: return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
+    case BrlcadKind::kSuperell: return superell(p, grow);
     case BrlcadKind::kTor: return torus(p, grow);
     case BrlcadKind::kHalf: return half(p, grow);
     case BrlcadKind::kRpc: return trough(p, false, grow);

@@ -1,6 +1,7 @@
 // BRL-CAD's text of version 5: a Tcl script of `put NAME KIND KEY VALUE …`, `attr set NAME KEY VALUE …`, `title`,
 // `units` and `color`.
 #include <span>
+#include <unordered_map>
 
 #include "scene/brlcad_database.hpp"
 #include "scene/brlcad_words.hpp"
@@ -31,6 +32,7 @@ constexpr Key kEpa[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"r_1", 1}, {"r_2", 1}};
 constexpr Key kEhy[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"r_1", 1}, {"r_2", 1}, {"c", 1}};
 constexpr Key kHyp[] = {{"V", 3}, {"H", 3}, {"A", 3}, {"b", 1}, {"bnr", 1}};
 constexpr Key kEto[] = {{"V", 3}, {"N", 3}, {"C", 3}, {"r", 1}, {"r_d", 1}};
+constexpr Key kSuperell[] = {{"V", 3}, {"A", 3}, {"B", 3}, {"C", 3}, {"n", 1}, {"e", 1}};
 constexpr Key kPart[] = {{"V", 3}, {"H", 3}, {"r_v", 1}, {"r_h", 1}};
 
 constexpr Layout kLayouts[] = {
@@ -41,6 +43,7 @@ constexpr Layout kLayouts[] = {
     {"rhc", BrlcadKind::kRhc, kRhc},    {"epa", BrlcadKind::kEpa, kEpa},
     {"ehy", BrlcadKind::kEhy, kEhy},    {"hyp", BrlcadKind::kHyp, kHyp},
     {"eto", BrlcadKind::kEto, kEto},    {"part", BrlcadKind::kPart, kPart},
+    {"superell", BrlcadKind::kSuperell, kSuperell},
 };
 
 using Words = std::vector<std::string>;
@@ -70,8 +73,6 @@ class V5TextReader {
 
  private:
   static constexpr std::size_t kMaxWords = 4 * kMaxBrlcadNumbers;
-  /// Bytes read for one combination's tree, over all levels: some seconds.
-  static constexpr std::uint64_t kMaxTreeBytes = std::uint64_t{1} << 31;
 
   std::string where() const { return "line " + std::to_string(line_); }
   void fail(const std::string& name, const std::string& why) {
@@ -104,12 +105,14 @@ class V5TextReader {
   }
 
   void attributes(const Words& words) {
-    if (words[2] == "_GLOBAL") return;
     BrlcadObject* object = database_.find(words[2]);
     BrlcadComb* comb = object != nullptr ? std::get_if<BrlcadComb>(&object->value) : nullptr;
-    if (comb == nullptr) return;
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
-      set_brlcad_attribute(*comb, words[i], words[i + 1]);
+      if (words[2] == "_GLOBAL") {
+        set_brlcad_global(database_, words[i], words[i + 1]);
+      } else if (comb != nullptr) {
+        set_brlcad_attribute(*comb, words[i], words[i + 1]);
+      }
     }
   }
 
@@ -136,23 +139,10 @@ class V5TextReader {
     return nullptr;
   }
 
-  /// Appends the numbers of a value; false when there aren't `count` of them.
-  static bool append_numbers(const std::string& text, std::size_t count, std::vector<double>& out) {
-    TclWords words(text);
-    std::string word;
-    while (words.next(word)) {
-      const auto v = parse_brlcad_number(word);
-      if (!v || count == 0) return false;
-      out.push_back(*v);
-      --count;
-    }
-    return count == 0 && !words.is_broken();
-  }
-
   bool numbers_of(const Words& words, const std::string& key, std::size_t count,
                   std::vector<double>& out) {
     const std::string* value = value_of(words, key);
-    if (value != nullptr && append_numbers(*value, count, out)) return true;
+    if (value != nullptr && append_brlcad_numbers(*value, count, out)) return true;
     fail(words[1], "expected " + key + " with " + std::to_string(count) + " numbers");
     return false;
   }
@@ -170,21 +160,16 @@ class V5TextReader {
     return BrlcadForeign{words[2]};
   }
 
-  /// How many of KEY0, KEY1, … there are.
-  static std::size_t count_of(const Words& words, const std::string& key) {
-    std::size_t n = 0;
-    while (n < kMaxBrlcadNumbers && 3 + 2 * n < words.size() &&
-           has_key(words, key + std::to_string(n), 2 * n)) {
-      ++n;
+  /// The values of KEY0, KEY1, …, as many as there are.
+  static std::vector<const std::string*> values_of(const Words& words, const std::string& key) {
+    std::unordered_map<std::string_view, const std::string*> values;
+    for (std::size_t i = 3; i + 1 < words.size(); i += 2) values.emplace(words[i], &words[i + 1]);
+    std::vector<const std::string*> list;
+    for (;;) {
+      const auto found = values.find(key + std::to_string(list.size()));
+      if (found == values.end()) return list;
+      list.push_back(found->second);
     }
-    return n;
-  }
-  /// Keys are numbered in order: the search goes on from where this one would be.
-  static bool has_key(const Words& words, const std::string& key, std::size_t from) {
-    for (std::size_t i = 3 + from / 2 * 2; i + 1 < words.size(); i += 2) {
-      if (words[i] == key) return true;
-    }
-    return false;
   }
 
   std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> varying(const Words& words) {
@@ -198,7 +183,7 @@ class V5TextReader {
     BrlcadSolid solid{BrlcadKind::kArbn, {}, {}};
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
       if (words[i].size() < 2 || words[i][0] != 'P' || solid.values.size() >= kMaxBrlcadNumbers) continue;
-      if (!append_numbers(words[i + 1], 4, solid.values)) {
+      if (!append_brlcad_numbers(words[i + 1], 4, solid.values)) {
         fail(words[1], "expected " + words[i] + " with 4 numbers");
         break;
       }
@@ -221,7 +206,7 @@ class V5TextReader {
                                  : words[i] == "O" + number ? 4
                                  : words[i] == "R" + number ? 5
                                                             : 6;
-        if (slot == 6 || !append_numbers(words[i + 1], is_place ? 3 : 1, v)) {
+        if (slot == 6 || !append_brlcad_numbers(words[i + 1], is_place ? 3 : 1, v)) {
           fail(words[1], "expected V" + number + ", O" + number + ", I" + number + " and R" + number);
           return solid;
         }
@@ -237,7 +222,7 @@ class V5TextReader {
   bool triples(const std::string& name, const std::string& text, std::vector<double>& out) {
     TclWords words(text);
     for (std::string word; words.next(word);) {
-      if (out.size() / 3 >= kMaxBrlcadVertices || !append_numbers(word, 3, out)) {
+      if (out.size() / 3 >= kMaxBrlcadVertices || !append_brlcad_numbers(word, 3, out)) {
         fail(name, "expected a list of three numbers each");
         return false;
       }
@@ -253,23 +238,23 @@ class V5TextReader {
   BrlcadSolid ars(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kArs, {}, {}};
     std::vector<double> numbers;
-    const std::size_t curves = count_of(words, "C");
+    const auto curves = values_of(words, "C");
     std::size_t per_curve = 0;
-    for (std::size_t c = 0; c < curves; ++c) {
+    for (const std::string* curve : curves) {
       const std::size_t before = numbers.size();
-      if (!triples(words[1], *value_of(words, "C" + std::to_string(c)), numbers)) return solid;
+      if (!triples(words[1], *curve, numbers)) return solid;
       const std::size_t count = (numbers.size() - before) / 3;
-      if (c == 0) per_curve = count;
+      if (curve == curves.front()) per_curve = count;
       if (count != per_curve) {
         fail(words[1], "its curves differ in their number of points");
         return solid;
       }
     }
-    if (curves < 2 || per_curve < 3) {
+    if (curves.size() < 2 || per_curve < 3) {
       fail(words[1], "expected two curves or more of three points or more");
       return solid;
     }
-    solid.mesh = brlcad_ars_mesh(points_of(numbers), curves, per_curve);
+    solid.mesh = brlcad_ars_mesh(points_of(numbers), curves.size(), per_curve);
     return solid;
   }
 
@@ -318,93 +303,16 @@ class V5TextReader {
   }
 
   std::optional<BrlcadTree> tree(const std::string& name, const std::string& text) {
-    BrlcadTreeBuilder builder;
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) return std::nullopt;
-    tree_bytes_ = 0;
-    if (!tree_node(name, text, builder, 0)) return std::nullopt;
-    return builder.finish();
-  }
-
-  static std::optional<BrlcadTree::Op> operation_of(std::string_view word) {
-    using Op = BrlcadTree::Op;
-    if (word == "u") return Op::kUnion;
-    if (word == "n" || word == "+") return Op::kIntersection;
-    if (word == "-") return Op::kDifference;
-    if (word == "^") return Op::kXor;
-    if (word == "!") return Op::kNot;
-    return std::nullopt;
-  }
-
-  /// {l NAME MATRIX?} or {OP LEFT RIGHT}. Left operands are followed without recursion: long unions lean
-  /// there.
-  bool tree_node(const std::string& name, const std::string& text, BrlcadTreeBuilder& builder,
-                 std::size_t depth) {
-    struct Pending {
-      BrlcadTree::Op op;
-      std::string right;
-    };
-    std::vector<Pending> pending;
-    std::string node = text;
-    for (;;) {
-      // Each level reads what is below it again.
-      tree_bytes_ += node.size();
-      if (tree_bytes_ > kMaxTreeBytes) {
-        fail(name, "its tree is too long, or too lopsided, to be read in this form");
-        return false;
-      }
-      const auto words = tcl_list(node, 4);
-      if (!words || words->empty()) return wrong_tree(name);
-      if (words->front() == "l") {
-        if (words->size() < 2 || words->size() > 3) return wrong_tree(name);
-        if (!leaf(name, *words, builder)) return false;
-        break;
-      }
-      const auto op = operation_of(words->front());
-      const std::size_t operands = op == BrlcadTree::Op::kNot ? 1 : 2;
-      if (!op || words->size() != operands + 1) return wrong_tree(name);
-      pending.push_back({*op, operands == 2 ? (*words)[2] : std::string()});
-      node = (*words)[1];
-    }
-    for (std::size_t i = pending.size(); i-- > 0;) {
-      const Pending& p = pending[i];
-      if (p.op != BrlcadTree::Op::kNot) {
-        if (depth >= kMaxBrlcadTreeDepth) return wrong_tree(name);
-        if (!tree_node(name, p.right, builder, depth + 1)) return false;
-      }
-      if (!builder.operation(p.op)) return wrong_tree(name);
-    }
-    return true;
-  }
-
-  bool leaf(const std::string& name, const Words& words, BrlcadTreeBuilder& builder) {
-    std::optional<Affine> matrix;
-    if (words.size() == 3) {
-      std::vector<double> numbers;
-      std::array<double, 16> m{};
-      const bool is_good = append_numbers(words[2], 16, numbers);
-      if (is_good) std::copy(numbers.begin(), numbers.end(), m.begin());
-      matrix = is_good ? brlcad_matrix(m) : std::nullopt;
-      if (!matrix) {
-        fail(name, "the matrix of its member " + words[1] + " is no invertible affine map");
-        return false;
-      }
-    }
-    builder.leaf(words[1], matrix);
-    if (builder.leaves() <= kMaxBrlcadMembers) return true;
-    fail(name, "more than " + std::to_string(kMaxBrlcadMembers) + " members");
-    return false;
-  }
-
-  bool wrong_tree(const std::string& name) {
-    fail(name, "its tree is no Boolean tree of BRL-CAD's, or deeper than " +
-                   std::to_string(kMaxBrlcadTreeDepth) + " levels");
-    return false;
+    std::string problem;
+    auto tree = read_brlcad_tree_text(text, problem);
+    if (!tree) fail(name, problem);
+    return tree;
   }
 
   TclWords script_;
   BrlcadReport& report_;
   std::size_t line_ = 1;
-  std::uint64_t tree_bytes_ = 0;
   BrlcadDatabase database_;
 };
 

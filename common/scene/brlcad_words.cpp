@@ -36,7 +36,7 @@ void TclWords::skip_blanks() {
     if (is_continued) {
       take();
       take();
-    } else if (is_blank(c) || c == '\0' || (ends_ == Ends::kAtText && c == '\n')) {
+    } else if (is_blank(c) || c == '\0' || (ends_ != Ends::kAtLine && c == '\n')) {
       take();
     } else {
       return;
@@ -102,12 +102,16 @@ bool TclWords::next(std::string& word) {
   const char first = text_[at_];
   const bool is_script = ends_ == Ends::kAtLine;
   if (is_script && (first == '\n' || first == ';')) return false;
+  if (first == '}' && ends_ == Ends::kAtBrace) return false;
   if (first == '{') return braced(word);
   if (first == '"') return quoted(word);
   word.clear();
+  std::size_t braces = 0;
   for (; !at_end(); take()) {
     const char c = text_[at_];
     if (is_blank(c) || c == '\n' || c == '\0' || (is_script && c == ';')) break;
+    if (c == '{') ++braces;
+    if (c == '}' && ends_ == Ends::kAtBrace && braces-- == 0) break;
     if (c == '\\' && at_ + 1 < text_.size()) {
       if (text_[at_ + 1] == '\n' || text_[at_ + 1] == '\r') break;
       take();
@@ -117,15 +121,16 @@ bool TclWords::next(std::string& word) {
   return true;
 }
 
-std::optional<std::vector<std::string>> tcl_list(std::string_view text, std::size_t most) {
-  TclWords words(text);
-  std::vector<std::string> list;
-  for (std::string word; words.next(word);) {
-    if (list.size() == most) return std::nullopt;
-    list.push_back(word);
-  }
-  if (words.is_broken()) return std::nullopt;
-  return list;
+bool TclWords::take_brace(char brace) {
+  skip_blanks();
+  if (at_end() || text_[at_] != brace) return false;
+  take();
+  return true;
+}
+
+bool TclWords::at_end_of_list() {
+  skip_blanks();
+  return at_end();
 }
 
 std::optional<double> parse_brlcad_number(std::string_view word) {
@@ -133,6 +138,16 @@ std::optional<double> parse_brlcad_number(std::string_view word) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 std::optional<long> parse_brlcad_integer(std::string_view word) { return parse_number<long>(word); }
+
+bool append_brlcad_numbers(std::string_view list, std::size_t count, std::vector<double>& out) {
+  TclWords words(list);
+  for (std::string word; words.next(word); --count) {
+    const auto v = parse_brlcad_number(word);
+    if (!v || count == 0) return false;
+    out.push_back(*v);
+  }
+  return count == 0 && !words.is_broken();
+}
 
 std::vector<std::string_view> blank_separated(std::string_view line, std::size_t most) {
   std::vector<std::string_view> words;

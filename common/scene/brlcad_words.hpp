@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,10 +11,11 @@
 namespace graycube {
 
 /// Cuts Tcl words off a text: `{braced, nested}` as they are, `"quoted"`, or bare; backslashes escape one
-/// character in the last two. In a script, words end with their line or at a semicolon.
+/// character in the last two. In a script (kAtLine), words end with their line or at a semicolon. Lists in lists are read
+/// in one pass by kAtBrace: words end at the brace that closes the list.
 class TclWords {
  public:
-  enum class Ends : bool { kAtLine, kAtText };
+  enum class Ends : std::uint8_t { kAtLine, kAtText, kAtBrace };
 
   explicit TclWords(std::string_view text, Ends ends = Ends::kAtText) : text_(text), ends_(ends) {}
 
@@ -22,6 +24,11 @@ class TclWords {
   /// A script's next line with words on it; false at the text's end.
   bool next_line();
   bool is_broken() const { return is_broken_; }
+  /// Goes into the list that is the next word, or out of the list whose words are done; false when what comes is something
+  /// else. For kAtBrace.
+  bool open_list() { return take_brace('{'); }
+  bool close_list() { return take_brace('}'); }
+  bool at_end_of_list();
   /// From 1.
   std::size_t line() const { return line_; }
 
@@ -29,6 +36,7 @@ class TclWords {
   bool at_end() const { return at_ >= text_.size(); }
   void skip_blanks();
   void take();
+  bool take_brace(char brace);
   bool braced(std::string& word);
   bool quoted(std::string& word);
 
@@ -38,12 +46,11 @@ class TclWords {
   bool is_broken_ = false, is_on_line_ = false;
 };
 
-/// All words of a list; nothing when one has no end or there are more than `most`.
-std::optional<std::vector<std::string>> tcl_list(std::string_view text, std::size_t most);
-
 /// A finite number that is the whole word (a leading + is fine); nothing otherwise.
 std::optional<double> parse_brlcad_number(std::string_view word);
 std::optional<long> parse_brlcad_integer(std::string_view word);
+/// Appends the numbers of a Tcl list; false when there aren't `count` of them.
+bool append_brlcad_numbers(std::string_view list, std::size_t count, std::vector<double>& out);
 
 /// Words between blanks.
 std::vector<std::string_view> blank_separated(std::string_view line, std::size_t most);

@@ -1,5 +1,4 @@
-// Fills a JsonTree from CBOR (RFC 8949). What our writer writes is read in one plain loop; at the first thing that is wrong or
-// unusual that gives up, and nlohmann's parser reads the bytes again: it decides what is CBOR here, and words what is wrong.
+// Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser: it decides what is CBOR here, and words what is wrong.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/cbor_fast_reader.hpp"
 #include "scene/json_tree.hpp"
 #include "scene/tracked_text.hpp"
 
@@ -31,50 +31,6 @@ class CborEvents {
                     Json::input_format_t::cbor, true);
     // Also after a failure, so that pointers to what was read stay right.
     while (!open_.empty()) close();
-  }
-
-  /// False for anything but heads with a length, doubles, singles, and no end but the right one; the tree then
-  /// holds anything.
-  bool parse_fast() {
-    const char* at = bytes_.data() + kCborMagic.size();
-    const char* const end = bytes_.data() + bytes_.size();
-    std::vector<Level> levels;
-    do {
-      const bool wants_key = !levels.empty() && levels.back().is_map && key_.begin == 0;
-      reached_ = at;
-      Head head;
-      if (!read_head(reached_, end, head)) return false;
-      if (wants_key && head.major != kText) return false;
-      if (head.major == kText) {
-        if (head.argument > kMaxJsonString || static_cast<std::size_t>(end - reached_) < head.argument) return false;
-        const Text text{static_cast<std::uint32_t>(offset()), static_cast<std::uint32_t>(head.argument), false};
-        reached_ += head.argument;
-        at = reached_;
-        if (wants_key) {
-          key_ = text;
-          continue;
-        }
-        add_unchecked(JsonKind::kString, std::uint64_t{text.begin} << 32 | text.length, levels);
-      } else if (head.major == kArray || head.major == kMap) {
-        at = reached_;
-        if (levels.size() >= kMaxJsonNesting) return false;
-        const auto self = static_cast<JsonIndex>(tree_.values_.size());
-        add_unchecked(head.major == kMap ? JsonKind::kObject : JsonKind::kArray, 0, levels);
-        levels.push_back({self, head.argument, head.major == kMap});
-      } else {
-        JsonKind kind = JsonKind::kNumber;
-        double number = 0;
-        if (!scalar_of(head, kind, number)) return false;
-        at = reached_;
-        add_unchecked(kind, kind == JsonKind::kNumber ? std::bit_cast<std::uint64_t>(number) : 0, levels);
-      }
-      if (tree_.values_.size() >= kMaxCborValues) return false;
-      while (!levels.empty() && levels.back().left == 0) {
-        tree_.values_[levels.back().self].next = static_cast<JsonIndex>(tree_.values_.size());
-        levels.pop_back();
-      }
-    } while (!levels.empty());
-    return at == end;
   }
 
   bool null() { return add(JsonKind::kNull) != nullptr; }
@@ -116,63 +72,6 @@ class CborEvents {
     std::uint32_t begin = 0, length = 0;
     bool decoded = false;
   };
-
-  enum Major : std::uint8_t { kUnsigned = 0, kNegative = 1, kText = 3, kArray = 4, kMap = 5, kSimple = 7 };
-  /// The first bytes of a value.
-  struct Head {
-    std::uint8_t major = 0, info = 0;
-    std::uint64_t argument = 0;
-  };
-  struct Level {
-    JsonIndex self;
-    /// Elements or members still to come.
-    std::uint64_t left;
-    bool is_map;
-  };
-
-  static bool read_head(const char*& at, const char* end, Head& head) {
-    if (at == end) return false;
-    const auto first = static_cast<std::uint8_t>(*at++);
-    head = {static_cast<std::uint8_t>(first >> 5), static_cast<std::uint8_t>(first & 31), first & 31u};
-    if (head.info < 24) return true;
-    if (head.info > 27) return false;
-    const int count = 1 << (head.info - 24);
-    if (end - at < count) return false;
-    head.argument = 0;
-    for (int i = 0; i < count; ++i) head.argument = head.argument << 8 | static_cast<std::uint8_t>(*at++);
-    return true;
-  }
-
-  static bool scalar_of(const Head& head, JsonKind& kind, double& number) {
-    if (head.major == kUnsigned) {
-      number = static_cast<double>(head.argument);
-    } else if (head.major == kNegative) {
-      number = static_cast<double>(-1 - static_cast<std::int64_t>(head.argument));
-      return head.argument >> 63 == 0;
-    } else if (head.major != kSimple) {
-      return false;
-    } else if (head.info == 27) {
-      number = std::bit_cast<double>(head.argument);
-    } else if (head.info == 26) {
-      number = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(head.argument)));
-    } else if (head.info >= 20 && head.info <= 22) {
-      kind = head.info == 20 ? JsonKind::kFalse : head.info == 21 ? JsonKind::kTrue : JsonKind::kNull;
-    } else {
-      return false;
-    }
-    return std::isfinite(number);
-  }
-
-  void add_unchecked(JsonKind kind, std::uint64_t payload, std::vector<Level>& levels) {
-    const auto self = static_cast<JsonIndex>(tree_.values_.size());
-    if (!levels.empty()) {
-      ++tree_.values_[levels.back().self].payload;
-      --levels.back().left;
-    }
-    tree_.values_.push_back({payload, static_cast<std::uint32_t>(offset()), self + 1, key_.begin,
-                             static_cast<std::uint16_t>(key_.length), kind, false, false});
-    key_ = {};
-  }
 
   /// Just behind the last byte that the library has read.
   std::size_t offset() const { return static_cast<std::size_t>(reached_ - bytes_.data()); }
@@ -246,7 +145,7 @@ void JsonTree::read_cbor() {
   // Values take two bytes and more, mostly; what is reserved in excess is never touched.
   constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
   values_.reserve(std::min(text_.size() / 2 + 1, kMaxReserved));
-  was_read_fast_ = CborEvents(text_, *this).parse_fast();
+  was_read_fast_ = FastCborReader(*this).read_whole();
   if (was_read_fast_) return;
   values_.clear();
   CborEvents(text_, *this).parse();

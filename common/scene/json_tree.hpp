@@ -54,6 +54,9 @@ class JsonTree {
   /// Without padding behind the text only the careful parser can read it, at a third of the
   /// speed. Both give the same tree and the same errors.
   explicit JsonTree(std::string_view text);
+  /// Reads nothing yet: for a FastCborReader, which a text must be for that begins with kCborMagic.
+  struct Unread {};
+  JsonTree(std::string_view text, Unread) : text_(text), was_read_fast_(true), is_cbor_(true) {}
   explicit JsonTree(const PaddedText& text);
 
   /// Whether the text was CBOR: maps with keys that are texts, arrays, texts, finite numbers, true, false and null; no other
@@ -95,6 +98,7 @@ class JsonTree {
   friend class JsonEvents;
   friend class FastJsonReader;
   friend class CborEvents;
+  friend class FastCborReader;
 
   JsonTree(std::string_view text, const PaddedText* padded);
   /// False on whatever it doesn't take; the tree then holds anything.

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scene/cbor_fast_reader.hpp"
 #include "scene/error_report.hpp"
 #include "scene/expansion.hpp"
 #include "scene/json_access.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr std::uint32_t kFormatVersion = 1;
 static_assert(kMaxSceneBytes <= kMaxJsonBytes);
+/// Of {"csg": {"type": …}} in CBOR.
+constexpr std::size_t kLeastObjectBytes = 12;
 
 /// The keys of the file's root.
 enum RootKey : std::size_t {
@@ -51,15 +54,27 @@ class SceneReader {
  public:
   SceneReader(const PaddedText& text, const MeshLoader& load)
       : text_(text.view()), tree_(text), errors_(tree_), json_(tree_, errors_) {
-    if (!load) return;
-    load_mesh_ = [this, &load](std::string_view file) {
-      used_files_ = true;
-      return load(file);
-    };
+    set_loader(load);
+  }
+  /// For read_in_pieces().
+  SceneReader(std::string_view cbor, const MeshLoader& load)
+      : text_(cbor), tree_(cbor, JsonTree::Unread{}), errors_(tree_), json_(tree_, errors_) {
+    set_loader(load);
+    pieces_.emplace(tree_);
+  }
+
+  /// Without the whole tree, which is more than half of the work; nothing when anything is wrong or unusual, for which
+  /// the whole tree is needed.
+  std::optional<ReadResult> read_in_pieces() {
+    if (!pieces_->read_up_to(kRootRules[kObjects].name)) return std::nullopt;
+    json_.members(0, "a scene", kRootRules, root_);
+    read_root();
+    if (!errors_.empty() || !pieces_->is_at_end()) return std::nullopt;
+    return ReadResult{std::move(scene_), {}, used_files_, true};
   }
 
   ReadResult read() {
-    if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}, false};
+    if (tree_.syntax_error()) return {std::nullopt, {syntax_error()}};
     json_.members(0, "a scene", kRootRules, root_);
     if (tree_.kind(0) == JsonKind::kObject) read_root();
     if (!errors_.empty()) return {std::nullopt, errors_.take(text_), used_files_};
@@ -67,6 +82,14 @@ class SceneReader {
   }
 
  private:
+  void set_loader(const MeshLoader& load) {
+    if (!load) return;
+    load_mesh_ = [this, &load](std::string_view file) {
+      used_files_ = true;
+      return load(file);
+    };
+  }
+
   SceneError syntax_error() const {
     const auto& error = *tree_.syntax_error();
     if (tree_.is_cbor()) {
@@ -137,12 +160,15 @@ class SceneReader {
       json_.wrong(list, "at most " + std::to_string(kMaxObjects) + " objects");
       return;
     }
-    scene_.objects.resize(tree_.size(list));
+    // In pieces the number is only a claim.
+    if (pieces_ && tree_.size(list) > text_.size() / kLeastObjectBytes) return give_up(list);
+    scene_.objects.reserve(tree_.size(list));
     // Objects without refs need no expansion of their own: one summary holds them all.
     TreeSummary plain;
     JsonIndex at = tree_.first_child(list);
-    for (auto& object : scene_.objects) {
-      TreeSummary summary = read_object(csg, at, object);
+    for (std::uint32_t i = 0; i < tree_.size(list); ++i) {
+      if (pieces_ && (!errors_.empty() || !pieces_->read_element(at))) return give_up(list);
+      TreeSummary summary = read_object(csg, at, scene_.objects.emplace_back());
       at = tree_.next(at);
       if (!summary.uses.empty()) {
         objects.push_back(std::move(summary));
@@ -154,6 +180,8 @@ class SceneReader {
     objects.push_back(std::move(plain));
     check_expansion(tree_, errors_, shape_names_, shapes, objects, list);
   }
+
+  void give_up(JsonIndex at) { errors_.add(at, "unusual"); }
 
   TreeSummary read_object(CsgReader& csg, JsonIndex at, SceneObject& out) {
     enum : std::size_t { kName, kMaterial, kCsg, kKeys };
@@ -169,6 +197,7 @@ class SceneReader {
 
   std::string_view text_;
   JsonTree tree_;
+  std::optional<FastCborReader> pieces_;
   ErrorReport errors_;
   JsonAccess json_;
   std::array<JsonIndex, kRootKeys> root_{};
@@ -178,7 +207,7 @@ class SceneReader {
   Scene scene_;
 };
 
-ReadResult failure(std::string message) { return {std::nullopt, {{"", std::move(message)}}, false}; }
+ReadResult failure(std::string message) { return {std::nullopt, {{"", std::move(message)}}}; }
 
 std::string too_large() {
   return "the file is larger than " + std::to_string(kMaxSceneBytes) + " bytes";
@@ -188,6 +217,9 @@ std::string too_large() {
 
 ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load) {
   if (json.view().size() > kMaxSceneBytes) return failure(too_large());
+  if (json.view().starts_with(kCborMagic)) {
+    if (auto quick = SceneReader(json.view(), load).read_in_pieces()) return std::move(*quick);
+  }
   return SceneReader(json, load).read();
 }
 

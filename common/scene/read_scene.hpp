@@ -45,6 +45,8 @@ struct ReadResult {
   std::vector<SceneError> errors;
   /// A mesh came from a file of its own: the text alone isn't the scene.
   bool used_files = false;
+  /// An object at a time, without the tree of the whole text: CBOR as our writer writes it, without errors.
+  bool was_read_in_pieces = false;
 };
 
 /// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds. `load` opens the files that

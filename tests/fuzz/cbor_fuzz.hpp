@@ -26,6 +26,23 @@ inline void check_same_meaning(const JsonTree& a, const JsonTree& b) {
   }
 }
 
+/// A root without a length isn't read in pieces: the scene must be the same. `cbor` has no syntax errors.
+inline void check_whole_is_same(const std::string& cbor, const ReadResult& read) {
+  const auto root = static_cast<unsigned char>(cbor[kCborMagic.size()]);
+  constexpr unsigned kEmptyMap = 0xA0, kFullMap = 0xB7;
+  if (root < kEmptyMap || root > kFullMap) return;
+  std::string whole = cbor + '\xFF';
+  whole[kCborMagic.size()] = '\xBF';
+  const ReadResult again = read_scene_text(whole);
+  GRAYCUBE_CHECK(!again.was_read_in_pieces, "read in pieces");
+  GRAYCUBE_CHECK(again.scene == read.scene && again.errors.size() == read.errors.size(), "%zu errors, not %zu",
+                 again.errors.size(), read.errors.size());
+  for (std::size_t i = 0; i < read.errors.size(); ++i) {
+    GRAYCUBE_CHECK(again.errors[i].pointer == read.errors[i].pointer && again.errors[i].message == read.errors[i].message,
+                   "%s, not %s", again.errors[i].message.c_str(), read.errors[i].message.c_str());
+  }
+}
+
 /// Whether the bytes, which the magic is put before, were accepted as CBOR.
 inline bool fuzz_cbor(std::string_view bytes) {
   const std::string text = std::string(kCborMagic) + std::string(bytes);
@@ -34,6 +51,7 @@ inline bool fuzz_cbor(std::string_view bytes) {
   const ReadResult read = read_scene_text(text);
   GRAYCUBE_CHECK(read.scene.has_value() == read.errors.empty(), "%zu errors", read.errors.size());
   if (tree.syntax_error()) return false;
+  check_whole_is_same(text, read);
   const std::string written = cbor_of(tree);
   GRAYCUBE_CHECK(written.size() <= text.size(), "%zu bytes of %zu", written.size(), text.size());
   const JsonTree again(written);

@@ -77,6 +77,13 @@ class V5Binary {
   }
   void object(const std::string& name, int minor, const std::string& body, const std::string& attributes,
               unsigned compression = 0) {
+    object(1, name, minor, body, attributes, compression);
+  }
+  void attributes_only(const std::string& name, const std::string& attributes) { object(2, name, 0, {}, attributes, 0); }
+
+ private:
+  void object(int major, const std::string& name, int minor, const std::string& body, const std::string& attributes,
+              unsigned compression) {
     unsigned width = 1u << width_code;
     unsigned code = width_code;
     if (width == 1 && body.size() + attributes.size() > 200) width = 2, code = 1;
@@ -90,12 +97,11 @@ class V5Binary {
     head += static_cast<char>(0x20 | code << 6 | code << 3);
     head += static_cast<char>(attributes.empty() ? 0 : 0x20 | code << 6);
     head += static_cast<char>(0x20 | code << 6 | compression);
-    head += '\x01';
+    head += static_cast<char>(major);
     head += static_cast<char>(minor);
     bytes_ += head + big(length, width) + rest + '\x35';
   }
 
- private:
   std::string bytes_;
 };
 

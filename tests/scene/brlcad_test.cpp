@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "scene/brlcad_database.hpp"
 #include "scene/brlcad_model.hpp"
@@ -148,6 +149,24 @@ TEST_CASE("colours and shaders are inherited, and an upper one that insists wins
   CHECK(color_of("shader {mirror {re 0.5}}", "").reflect == 0.5);
   CHECK(color_of("shader mirror", "shader {glass tr=0.25}").transmit == 0.25);
   CHECK(color_of("shader {mirror} inherit yes", "shader {glass}").transmit == 0);
+}
+
+TEST_CASE("the colours of regions by their numbers are read alike from text and binary") {
+  const std::string table = "{1000 1999 10 20 30} {-1 5 300 -4 7} {3 4}";
+  V5Binary g;
+  g.attributes_only("_GLOBAL", "regionid_colortable" + std::string(1, '\0') + table + std::string(2, '\0'));
+  const std::string text = "title t\nattr set {_GLOBAL} {regionid_colortable} {" + table + "}\n";
+  for (const std::string& bytes : {g.bytes(), text}) {
+    BrlcadReport report;
+    const BrlcadDatabase database = read_brlcad_database(bytes, report);
+    REQUIRE_FALSE(report.has_errors());
+    REQUIRE(database.colors.size() == 2);
+    CHECK(database.colors[0].low == 1000);
+    CHECK(database.colors[0].high == 1999);
+    CHECK(database.colors[0].rgb == std::array<int, 3>{10, 20, 30});
+    CHECK(database.colors[1].low == -1);
+    CHECK(database.colors[1].rgb == std::array<int, 3>{255, 0, 7});
+  }
 }
 
 TEST_CASE("a lamp shines, and an unknown shader is plastic with one warning") {
@@ -309,6 +328,21 @@ TEST_CASE("what can't be read is refused by name or line") {
   CHECK(error_of(std::string("v\x01\0\0\0\0\x01\x35 and then", 17)).find("byte 8") == 0);
 }
 
+TEST_CASE("a superell is an ellipsoid where its exponents say so, and refused otherwise") {
+  const auto text = [](const char* kind, const char* exponents) {
+    return std::string("put s ") + kind + " V {1 2 3} A {3 0 0} B {0 2 0} C {0 0 1}" + exponents + "\n" +
+           "put r comb region yes tree {l s}\n";
+  };
+  CHECK(scene_of(text("superell", " n 1 e 1"), {"r"}) == scene_of(text("ell", ""), {"r"}));
+  CHECK(error_of(text("superell", " n 1 e 0.5"), {"r"}) ==
+        "s: superell with other exponents than n = e = 1 is not supported");
+  CHECK(error_of(text("superell", " n 1"), {"r"}).find("expected e with 1 numbers") != std::string::npos);
+  V5Binary g;
+  g.solid("s", 35, {1, 2, 3, 3, 0, 0, 0, 2, 0, 0, 0, 1, 1, 1});
+  g.comb("r", {"s"}, "\x01", {}, {}, std::string("region\0R\0", 9));
+  CHECK(scene_of(g.bytes(), {"r"}) == scene_of(text("ell", ""), {"r"}));
+}
+
 TEST_CASE("a missing member is left out, with a warning") {
   const BrlcadResult result =
       read_brlcad(kV4Head + v4_sphere("s", 0, 0, 0, 1) + v4_region("r") + v4_member('u', "s") + v4_member('-', "gone"));
@@ -329,13 +363,94 @@ TEST_CASE("exclusive or and complement are what they say") {
   CHECK_FALSE(holds(rest, 1, 0, 0));
 }
 
-TEST_CASE("trees of thousands of members are read, however they lean") {
-  std::string left = "{l s}", right = "{l s}";
-  for (int i = 0; i < 3000; ++i) left = "{u " + left + " {l s}}";
-  for (int i = 0; i < 80; ++i) right = "{u {l s} " + right + "}";
-  const std::string head = "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput r comb region yes tree ";
-  CHECK(scene_of(head + left + "\n").objects.size() == 1);
-  CHECK(scene_of(head + right + "\n").objects.size() == 1);
+TEST_CASE("trees of 100 000 members are read, however they lean") {
+  // Read in anything but linear time, these would take minutes.
+  constexpr std::size_t kMembers = 100000;
+  const auto repeated = [](const std::string& text) {
+    std::string all;
+    for (std::size_t i = 1; i < kMembers; ++i) all += text;
+    return all;
+  };
+  for (const std::string op : {"u", "+"}) {
+    const std::string left = repeated("{" + op + " ") + "{l first}" + repeated(" {l s}}");
+    const std::string right = repeated("{" + op + " {l s} ") + "{l last}" + repeated("}");
+    for (const std::string& text : {left, right}) {
+      BrlcadReport report;
+      const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree " + text + "\n", report);
+      REQUIRE_FALSE(report.has_errors());
+      const auto& tree = std::get<BrlcadComb>(database.find("r")->value).tree;
+      REQUIRE(tree);
+      REQUIRE(tree->children.size() == kMembers);
+      CHECK(tree->children.front().name == (text == left ? "first" : "s"));
+      CHECK(tree->children.back().name == (text == left ? "s" : "last"));
+    }
+  }
+  const std::string minus = repeated("{- ") + "{l first}" + repeated(" {l s}}");
+  BrlcadReport report;
+  const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree " + minus + "\n", report);
+  REQUIRE_FALSE(report.has_errors());
+  CHECK(std::get<BrlcadComb>(database.find("r")->value).tree->children.size() == kMembers);
+  // And so is the scene that they make.
+  const std::string sphere = "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n";
+  const Scene scene = scene_of(sphere + "put r comb region yes tree " + repeated("{u {l s} ") + "{l s}" + repeated("}") + "\n");
+  REQUIRE(scene.objects.size() == 1);
+  CHECK(std::get<OperationNode>(scene.objects[0].csg.value).children.size() == kMembers);
+}
+
+TEST_CASE("members keep their order in chains that lean both ways") {
+  // A random binary tree of unions over m0, m1, …; its chain is flat, so the members are all that's left.
+  std::mt19937 random(7);
+  const auto chain = [&](const auto& self, int first, int count) -> std::string {
+    if (count == 1) return "{l m" + std::to_string(first) + "}";
+    const int left = 1 + static_cast<int>(random() % static_cast<unsigned>(count - 1));
+    const std::string a = self(self, first, left), b = self(self, first + left, count - left);
+    return "{u " + a + " " + b + "}";
+  };
+  for (int trial = 0; trial < 50; ++trial) {
+    BrlcadReport report;
+    const BrlcadDatabase database =
+        read_brlcad_database("put r comb region yes tree " + chain(chain, 0, 200) + "\n", report);
+    REQUIRE_FALSE(report.has_errors());
+    const auto& tree = std::get<BrlcadComb>(database.find("r")->value).tree;
+    REQUIRE(tree);
+    REQUIRE(tree->children.size() == 200);
+    for (std::size_t i = 0; i < 200; ++i) REQUIRE(tree->children[i].name == "m" + std::to_string(i));
+  }
+}
+
+TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is no tree is refused") {
+  const auto read = [](const std::string& tree) {
+    BrlcadReport report;
+    const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree {" + tree + "}\n", report);
+    const auto errors = report.take_errors();
+    return std::make_pair(std::get<BrlcadComb>(database.find("r")->value).tree,
+                          errors.empty() ? std::string() : errors.front().where + ": " + errors.front().text);
+  };
+  const auto [tree, problem] = read(" - {l {a {b} c}}\n { ^ {l d{e}f} { ! {l \"g h\" {1 0 0 4 0 1 0 0 0 0 1 0 0 0 0 1} } } } ");
+  CHECK(problem.empty());
+  REQUIRE(tree);
+  CHECK(tree->op == BrlcadTree::Op::kDifference);
+  REQUIRE(tree->children.size() == 2);
+  CHECK(tree->children[0].name == "a {b} c");
+  REQUIRE(tree->children[1].children.size() == 2);
+  CHECK(tree->children[1].children[0].name == "d{e}f");
+  const BrlcadTree& complement = tree->children[1].children[1];
+  CHECK(complement.op == BrlcadTree::Op::kNot);
+  CHECK(complement.children[0].name == "g h");
+  CHECK(complement.children[0].matrix->m[0][3] == 4);
+  CHECK(read("l i\\ j").first->name == "i j");
+
+  for (const char* text : {"u {l a}", "u {l a} {l b} {l c}", "! {l a} {l b}", "x {l a} {l b}", "l", "l a {1 0} b", "u l a",
+                           "{l a}", "{}", "u {l a} {}", "u {l a} {l b} c"}) {
+    INFO(text);
+    const auto [nothing, why] = read(text);
+    CHECK_FALSE(nothing);
+    CHECK(why.find("line 1: ") == 0);
+  }
+  CHECK(read("l a {1 2 3}").second == "line 1: r: the matrix of its member a is no invertible affine map");
+  std::string deep = "l s";
+  for (std::size_t i = 0; i <= kMaxBrlcadTreeDepth; ++i) deep = "- {l s} {" + deep + "}";
+  CHECK(read(deep).second.find("deeper than 100 levels") != std::string::npos);
 }
 
 TEST_CASE("a view script and a quaternion give the axes of rt") {
@@ -368,9 +483,14 @@ TEST_CASE("a view script and a quaternion give the axes of rt") {
 }
 
 TEST_CASE("Tcl words are cut as Tcl does") {
-  CHECK(*tcl_list("a {b {c d}} \"e f\" g\\ h", 9) == std::vector<std::string>{"a", "b {c d}", "e f", "g h"});
-  CHECK_FALSE(tcl_list("{a", 9));
-  CHECK_FALSE(tcl_list("a b c", 2));
+  const auto words_of = [](TclWords words) {
+    std::vector<std::string> list;
+    for (std::string word; words.next(word);) list.push_back(word);
+    if (words.is_broken()) list.push_back("broken");
+    return list;
+  };
+  CHECK(words_of(TclWords("a {b {c d}} \"e f\" g\\ h")) == std::vector<std::string>{"a", "b {c d}", "e f", "g h"});
+  CHECK(words_of(TclWords("{a")) == std::vector<std::string>{"broken"});
   TclWords script("a b\n# c\n\n d ; e\\\n f\n", TclWords::Ends::kAtLine);
   std::vector<std::vector<std::string>> lines;
   while (script.next_line()) {

@@ -31,6 +31,7 @@ TEST_CASE("a scene is the same from CBOR as from JSON") {
   const ReadResult a = read_scene_text(json), b = read_scene_text(cbor);
   REQUIRE(a.scene.has_value() == b.scene.has_value());
   if (a.scene) CHECK(*a.scene == *b.scene);
+  CHECK(b.was_read_in_pieces == b.scene.has_value());
 }
 
 TEST_CASE("numbers take their shortest exact form") {
@@ -60,6 +61,25 @@ TEST_CASE("a scene's errors have the same pointers and words in CBOR") {
     CHECK(a[i].message == b[i].message);
     CHECK(b[i].line == 0);
   }
+}
+
+TEST_CASE("objects that come before what they use are read from the whole tree") {
+  const std::string json = R"({"graycube": 1, "image": {"width": 8, "height": 8}, "lights": [],
+    "camera": {"type": "perspective", "eye": [0,0,0], "look_at": [0,0,1], "up": [0,1,0], "fov": 40},
+    "objects": [{"material": "m", "csg": {"type": "sphere", "center": [1,2,3], "radius": 1}}], "materials": {"m": {}}})";
+  const ReadResult read = read_scene_text(cbor_of_text(json));
+  REQUIRE(read.scene);
+  CHECK_FALSE(read.was_read_in_pieces);
+  CHECK(*read.scene == *read_scene_text(json).scene);
+}
+
+TEST_CASE("a list of objects that claims more than it holds takes no memory for them") {
+  std::string cbor = cbor_of_text(R"({"graycube": 1, "objects": []})");
+  REQUIRE(cbor.back() == '\x80');
+  cbor.back() = '\x9A';
+  const auto errors = read_scene_text(cbor + "\x00\xFF\xFF\xFF"s).errors;
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].message.find("byte ") == 0);
 }
 
 TEST_CASE("what JSON doesn't have is refused") {

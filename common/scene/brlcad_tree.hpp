@@ -1,0 +1,62 @@
+// The Boolean tree of one BRL-CAD combination: built from operations in postfix order, or read from Tcl text.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/affine.hpp"
+
+namespace graycube {
+
+/// Members of one combination, and levels of its tree once chains of one operation are flat.
+inline constexpr std::size_t kMaxBrlcadMembers = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxBrlcadTreeDepth = 100;
+
+struct BrlcadTree {
+  /// Unions and intersections of two or more, a difference of the first and the others, either and not both,
+  /// the complement of one.
+  enum class Op : std::uint8_t { kLeaf, kUnion, kIntersection, kDifference, kXor, kNot };
+  Op op = Op::kLeaf;
+  std::string name;
+  std::optional<Affine> matrix;
+  std::vector<BrlcadTree> children;
+};
+
+/// Builds a tree from its operations in postfix order. Chains of unions, of intersections and of differences
+/// from one solid become one node. However a chain leans, each member is moved a logarithmic number of
+/// times at most, and once if it leans to one side.
+class BrlcadTreeBuilder {
+ public:
+  void leaf(std::string name, std::optional<Affine> matrix);
+  /// Two operands, or one for kNot. False when there aren't as many, or the tree gets too deep.
+  [[nodiscard]] bool operation(BrlcadTree::Op op);
+  /// The tree, when exactly one operand is left.
+  std::optional<BrlcadTree> finish();
+  std::size_t leaves() const { return leaves_; }
+
+ private:
+  /// A tree whose root has more children before its first: `front`, the foremost last.
+  struct Operand {
+    BrlcadTree tree;
+    std::vector<BrlcadTree> front;
+    std::size_t depth = 1;
+
+    std::size_t children() const { return front.size() + tree.children.size(); }
+  };
+  Operand take();
+  static BrlcadTree settled(Operand operand);
+  static Operand alone_under(BrlcadTree::Op op, Operand operand);
+  static Operand joined(Operand left, Operand right);
+
+  std::vector<Operand> stack_;
+  std::size_t leaves_ = 0;
+};
+
+/// Reads {l NAME MATRIX?} or {OP LEFT RIGHT}, without the outermost braces, in one pass; the operations are u, n or +, -, ^
+/// and ! (of one operand). Nothing when the text is something else, and then `problem` says what.
+std::optional<BrlcadTree> read_brlcad_tree_text(std::string_view text, std::string& problem);
+
+}  // namespace graycube

@@ -1,0 +1,111 @@
+// Reads a combination's tree from Tcl text. Each byte is looked at once, however deep the lists nest: levels live on a
+// stack here, and words are cut where their level ends.
+#include <algorithm>
+#include <array>
+
+#include "scene/brlcad_database.hpp"
+#include "scene/brlcad_words.hpp"
+
+namespace graycube {
+namespace {
+
+using Op = BrlcadTree::Op;
+
+class TreeTextReader {
+ public:
+  TreeTextReader(std::string_view text, std::string& problem)
+      : words_(text, TclWords::Ends::kAtBrace), problem_(problem) {}
+
+  std::optional<BrlcadTree> read() {
+    do {
+      if (!head()) return std::nullopt;
+    } while (!is_whole_);
+    std::optional<BrlcadTree> tree = words_.at_end_of_list() ? builder_.finish() : std::nullopt;
+    if (!tree) wrong_tree();
+    return tree;
+  }
+
+ private:
+  /// An operation that waits for operands, and how many have come.
+  struct Level {
+    Op op;
+    std::uint8_t operands;
+  };
+
+  static std::optional<Op> operation_of(std::string_view word) {
+    if (word == "u") return Op::kUnion;
+    if (word == "n" || word == "+") return Op::kIntersection;
+    if (word == "-") return Op::kDifference;
+    if (word == "^") return Op::kXor;
+    if (word == "!") return Op::kNot;
+    return std::nullopt;
+  }
+
+  bool wrong_tree() {
+    problem_ = "its tree is no Boolean tree of BRL-CAD's, or deeper than " +
+               std::to_string(kMaxBrlcadTreeDepth) + " levels";
+    return false;
+  }
+  bool too_many() {
+    problem_ = "more than " + std::to_string(kMaxBrlcadMembers) + " members";
+    return false;
+  }
+
+  /// A node's first word and, of a leaf, the others; then up to the next node's first word.
+  bool head() {
+    std::string word;
+    if (!words_.next(word)) return wrong_tree();
+    if (word == "l") return leaf() && tail();
+    const auto op = operation_of(word);
+    if (!op || !words_.open_list()) return wrong_tree();
+    // An operation of two operands has a member of its own.
+    if (levels_.size() >= kMaxBrlcadMembers) return too_many();
+    levels_.push_back({*op, 0});
+    return true;
+  }
+
+  bool leaf() {
+    std::string name, matrix;
+    if (!words_.next(name)) return wrong_tree();
+    std::optional<Affine> map;
+    if (words_.next(matrix)) {
+      std::vector<double> numbers;
+      std::array<double, 16> m{};
+      if (append_brlcad_numbers(matrix, 16, numbers)) std::copy(numbers.begin(), numbers.end(), m.begin());
+      map = brlcad_matrix(m);
+      if (!map) {
+        problem_ = "the matrix of its member " + name + " is no invertible affine map";
+        return false;
+      }
+    }
+    builder_.leaf(std::move(name), map);
+    return builder_.leaves() <= kMaxBrlcadMembers || too_many();
+  }
+
+  /// Behind a node: ends what ends with it.
+  bool tail() {
+    while (!levels_.empty()) {
+      Level& level = levels_.back();
+      if (!words_.close_list()) return wrong_tree();
+      if (++level.operands < (level.op == Op::kNot ? 1 : 2)) return words_.open_list() || wrong_tree();
+      if (!builder_.operation(level.op)) return wrong_tree();
+      levels_.pop_back();
+    }
+    is_whole_ = true;
+    return true;
+  }
+
+  TclWords words_;
+  std::string& problem_;
+  BrlcadTreeBuilder builder_;
+  std::vector<Level> levels_;
+  bool is_whole_ = false;
+};
+
+}  // namespace
+
+std::optional<BrlcadTree> read_brlcad_tree_text(std::string_view text, std::string& problem) {
+  return TreeTextReader(text, problem).read();
+}
+
+}  // namespace graycube
