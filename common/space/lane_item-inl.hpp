@@ -21,13 +21,15 @@ class LaneItem {
   /// To be called before the item's groups: which of a packet's rays may meet the bounds of each literal.
   void look_at(const SurfaceTree& tree, const SurfaceItem& item, const CullingPacket& p, Mask rays) {
     const auto literals = tree.literals_of(item);
+    has_near_ = false;
+    if (literals.size() == 1) return;  // the tree has seen to its bounds
     for (std::size_t i = 0; i < literals.size(); ++i) {
       const Literal& l = literals[i];
-      // The tree has seen to a single literal's bounds.
-      if (literals.size() == 1 || !crossings::has_bounds(l.kind)) {
+      if (!crossings::has_bounds(l.kind) || (literals.size() <= kFewLiterals && is_cheap(l.kind))) {
         near_[i] = rays;
         continue;
       }
+      has_near_ = true;
       near_[i] = meet_box([&](std::size_t side, std::size_t a) { return static_cast<float>(l.v[3 * side + a]); }, p,
                           rays);
     }
@@ -48,27 +50,32 @@ class LaneItem {
     Doubles end = hn::Load(d, t1 + first);
     if (item.cell != SurfaceItem::kAllSpace) clip_to_cell(tree.cell_of(item), rays, begin, end);
     LaneInterval common = LaneInterval::whole();
-    is_convex = item.is_flat() && item.is_simple;
+    const bool is_flat = item.is_flat();
+    is_convex = is_flat && item.is_simple;
     second_count_ = 0;
     const auto literals = tree.literals_of(item);
     for (std::size_t i = 0; i < literals.size(); ++i) {
-      const bool confines = item.is_flat() && !literals[i].is_inverted;
-      const std::uint32_t wanted = lanes_wanted & (near_[i] >> first);
-      if (confines) lanes_wanted = wanted;
-      if (lanes_wanted == 0) return 0;
-      if (wanted == 0) {
-        hn::Store(every(csg::kInf), d, enter[i]);
-        hn::Store(every(-csg::kInf), d, leave[i]);
-        continue;
+      const Literal& literal = literals[i];
+      const bool confines = is_flat && !literal.is_inverted;
+      std::uint32_t wanted = lanes_wanted;
+      if (has_near_) {
+        wanted &= near_[i] >> first;
+        if (confines) lanes_wanted = wanted;
+        if (lanes_wanted == 0) return 0;
+        if (wanted == 0) {
+          hn::Store(every(csg::kInf), d, enter[i]);
+          hn::Store(every(-csg::kInf), d, leave[i]);
+          continue;
+        }
       }
       scratch.counts.primitives_tested += static_cast<unsigned>(__builtin_popcount(wanted));
       LaneInterval own;
-      if (crossings::has_lane_interval(literals[i].kind)) {
-        own = lane_interval_of(literals[i], tree.model(), rays);
+      if (item.is_simple || crossings::has_lane_interval(literal.kind)) {
+        own = lane_interval_of(literal, tree.model(), rays);
         hn::Store(own.enter, d, enter[i]);
         hn::Store(own.leave, d, leave[i]);
       } else {
-        own = one_by_one(tree.model(), literals[i], i, packet, first, wanted);
+        own = one_by_one(tree.model(), literal, i, packet, first, wanted);
       }
       if (!confines) {
         is_convex = false;
@@ -104,8 +111,8 @@ class LaneItem {
   template <typename Visit>
   bool crossings(const SurfaceTree& tree, const SurfaceItem& item, std::size_t lane, double t0,
                  double t1, Visit&& visit) const {
-    if (!item.is_flat() || !item.is_simple) {
-      return tree.event_crossings(item, events_of(tree.literals_of(item).size(), lane, t0, t1), visit);
+    if (!item.is_flat() || !item.is_simple) [[unlikely]] {
+      return event_crossings(tree, item, lane, t0, t1, visit);
     }
     const auto literals = tree.literals_of(item);
     std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
@@ -167,18 +174,29 @@ class LaneItem {
     return {hn::Load(d, enter[index]), hn::Load(d, last)};
   }
 
-  crossings::FewEvents events_of(std::size_t literals, std::size_t lane, double t0, double t1) const {
+  /// Of items that aren't simple conjunctions. Apart, so that the way of most items is short.
+  template <typename Visit>
+  HWY_NOINLINE bool event_crossings(const SurfaceTree& tree, const SurfaceItem& item, std::size_t lane, double t0,
+                                    double t1, Visit&& visit) const {
     crossings::FewEvents events(t0, t1);
-    for (std::uint32_t i = 0; i < literals; ++i) events.add(i, enter[i][lane], leave[i][lane]);
+    for (std::uint32_t i = 0; i < item.literal_count; ++i) events.add(i, enter[i][lane], leave[i][lane]);
     for (std::size_t i = 0; i < second_count_; ++i) {
       const Second& s = seconds_[i];
       if (s.lane == lane) events.add(s.literal, s.enter, s.leave);
     }
-    return events;
+    return tree.event_crossings(item, events, visit);
   }
 
-  /// By literal: rays that may meet its bounds.
+  /// Kinds that cost little more than their bounds. Of few literals all are mostly met.
+  static bool is_cheap(PrimitiveKind kind) {
+    return kind == PrimitiveKind::kCylinder || kind == PrimitiveKind::kEllipsoid ||
+           kind == PrimitiveKind::kParallelepiped;
+  }
+  static constexpr std::size_t kFewLiterals = 4;
+
+  /// By literal: rays that may meet its bounds. Unless `has_near_`, all may.
   std::array<Mask, crossings::kMaxFlatLiterals> near_;
+  bool has_near_ = false;
   std::size_t second_count_ = 0;
   std::array<Second, crossings::kMaxFlatLiterals * kMaxLanes> seconds_;
 
