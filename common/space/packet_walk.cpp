@@ -65,7 +65,8 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
       const bool wins_ties = (any >> i & 1) != 0 && it.object < found[i].object;
       end[i] = wins_ties ? std::nextafter(t1[i], Aabb::kInf) : t1[i];
     }
-    MeshPacket::crossings(tree.mesh_of(it), packet, p, rays, end, scratch, [&](std::size_t i, double t, bool entering) {
+    MeshPacket mesh(tree.mesh_of(it), packet, p, rays, end, true, scratch);
+    mesh.crossings<Order::kNearestFirst>([&](std::size_t i, double t, bool entering) {
       found[i] = {t, literal.primitive, it.object, entering != swaps};
       shorten(i);
       return false;
@@ -141,12 +142,12 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
     const SurfaceItem& it = tree.items()[index];
     const std::uint32_t primitive = tree.literals_of(it).front().primitive;
     Mask ended = 0;
-    MeshPacket::crossings(tree.mesh_of(it), packet, p, rays, packet.t1.data(), scratch,
-                          [&](std::size_t i, double t, bool entering) {
-                            if (passes(i, Crossing{t, primitive, it.object, entering})) return true;
-                            ended |= Mask{1} << i;
-                            return false;
-                          });
+    MeshPacket mesh(tree.mesh_of(it), packet, p, rays, packet.t1.data(), it.is_opaque, scratch);
+    mesh.crossings<Order::kAny>([&](std::size_t i, double t, bool entering) {
+      if (passes(i, Crossing{t, primitive, it.object, entering})) return true;
+      ended |= Mask{1} << i;
+      return false;
+    });
     if (ended != 0) end_rays(index, ended);
   };
   LaneItem lanes;
