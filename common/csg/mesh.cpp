@@ -21,10 +21,6 @@ struct Mesh::Data {
 
 namespace {
 
-void sort_by_parameter(std::vector<MeshCut>& cuts) {
-  std::sort(cuts.begin(), cuts.end(), [](const MeshCut& a, const MeshCut& b) { return a.t < b.t; });
-}
-
 /// Of sorted cuts, before which the winding number is as given.
 Spans spans_of(const std::vector<MeshCut>& cuts, std::int32_t winding) {
   Spans spans;
@@ -58,15 +54,40 @@ Mesh::Mesh(TriangleMesh surface) : data_(std::make_shared<const Data>(std::move(
 
 const TriangleMesh& Mesh::surface() const { return data_->surface; }
 const Aabb& Mesh::bounds() const { return data_->bounds; }
+const MeshTree& Mesh::tree() const { return data_->tree; }
 
 std::size_t Mesh::memory_bytes() const {
   return sizeof(Data) + data_->surface.points.size() * sizeof(Vec3) +
          data_->surface.triangles.size() * sizeof(Triangle) + data_->tree.memory_bytes();
 }
 
+void Mesh::sort_by_parameter(std::vector<MeshCut>& cuts) {
+  if (cuts.size() < 2) return;
+  std::sort(cuts.begin(), cuts.end(), [](const MeshCut& a, const MeshCut& b) { return a.t < b.t; });
+}
+
+bool Mesh::is_before_bounds(const Ray& ray, double t) const {
+  // Far more than rounding, of the bounds and of the parameters of what lies in them.
+  constexpr double kShare = 1e-6;
+  const Aabb& box = data_->bounds;
+  double enter = -csg::kInf;
+  for (int a = 0; a < 3; ++a) {
+    if (ray.direction[a] == 0) continue;
+    const double margin = kShare * (max_abs(box.lo) + max_abs(box.hi) + max_abs(ray.origin));
+    const double at = ray.direction[a] > 0 ? box.lo[a] - margin : box.hi[a] + margin;
+    const double reached = (at - ray.origin[a]) / ray.direction[a];
+    if (reached > enter) enter = reached;
+  }
+  return t < enter;
+}
+
 void Mesh::cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) const {
+  cuts_between(ray, from, csg::kInf, cuts);
+}
+
+void Mesh::cuts_between(const Ray& ray, double from, double below, std::vector<MeshCut>& cuts) const {
   cuts.clear();
-  add_cuts(data_->tree, csg::MeshLine(ray), ray, from, csg::kInf, cuts);
+  add_cuts(data_->tree, csg::MeshLine(ray), ray, from, below, cuts);
   sort_by_parameter(cuts);
 }
 
@@ -81,9 +102,7 @@ Spans Mesh::spans(const Ray& ray) const {
 
 Spans Mesh::spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const {
   cuts_ahead(ray, 0, cuts);
-  std::int32_t winding = 0;
-  for (const MeshCut& c : cuts) winding -= c.count;
-  return spans_of(cuts, winding);
+  return spans_of(cuts, winding_before(cuts));
 }
 
 bool Mesh::contains(const Vec3& point) const {

@@ -27,6 +27,7 @@ class Mesh {
 
   const TriangleMesh& surface() const;
   const Aabb& bounds() const;
+  const MeshTree& tree() const;
   std::size_t memory_bytes() const;
 
   /// As spans_along of csg/primitive.hpp, and so on.
@@ -38,17 +39,20 @@ class Mesh {
   /// Replaces `cuts` by those at t ≥ from ≥ 0, in order of t. Since all counts of a line add up to zero, the winding
   /// number at `from` is what they lack.
   void cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) const;
+  /// The same for from ≤ t < below.
+  void cuts_between(const Ray& ray, double from, double below, std::vector<MeshCut>& cuts) const;
 
   /// As spans, but from t = 0 on: a span that the ray starts in enters at −infinity. `cuts` is scratch space.
   Spans spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const;
 
-  /// Calls visit(t, entering) where the line crosses the surface in [t0, t1), 0 ≤ t0, in order, until it returns false;
-  /// false then. `cuts` is scratch space.
+  /// Whether the line reaches the mesh's bounds after t only, surely: then all its cuts are ahead of t, and their sum, the
+  /// winding number there, is 0.
+  bool is_before_bounds(const Ray& ray, double t) const;
+
+  /// Calls visit(t, entering) where cuts given in order cross the surface before t1, until it returns false; false then.
+  /// `winding`: the number before the first cut.
   template <typename Visit>
-  bool crossings(const Ray& ray, double t0, double t1, std::vector<MeshCut>& cuts, Visit&& visit) const {
-    cuts_ahead(ray, t0, cuts);
-    std::int32_t winding = 0;
-    for (const MeshCut& c : cuts) winding -= c.count;
+  static bool visit_crossings(const std::vector<MeshCut>& cuts, std::int32_t winding, double t1, Visit&& visit) {
     for (std::size_t i = 0; i < cuts.size();) {
       const double t = cuts[i].t;
       const bool was_inside = winding != 0;
@@ -57,6 +61,25 @@ class Mesh {
       if ((winding != 0) != was_inside && !visit(t, winding != 0)) return false;
     }
     return true;
+  }
+  /// What the winding number is before cuts of which those behind have the opposite sum.
+  static std::int32_t winding_before(const std::vector<MeshCut>& cuts) {
+    std::int32_t winding = 0;
+    for (const MeshCut& c : cuts) winding -= c.count;
+    return winding;
+  }
+  static void sort_by_parameter(std::vector<MeshCut>& cuts);
+
+  /// Calls visit(t, entering) where the line crosses the surface in [t0, t1), 0 ≤ t0, in order, until it returns false;
+  /// false then. `cuts` is scratch space.
+  template <typename Visit>
+  bool crossings(const Ray& ray, double t0, double t1, std::vector<MeshCut>& cuts, Visit&& visit) const {
+    if (is_before_bounds(ray, t0)) {
+      cuts_between(ray, t0, t1, cuts);
+      return visit_crossings(cuts, 0, t1, visit);
+    }
+    cuts_ahead(ray, t0, cuts);
+    return visit_crossings(cuts, winding_before(cuts), t1, visit);
   }
 
   /// Whether the two are copies of one.

@@ -16,11 +16,12 @@
 #include "csg/sphere.hpp"
 #include "space/crossings.hpp"
 #include "space/mailbox.hpp"
+#include "space/masked_program.hpp"
 
 namespace graycube {
 
 /// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more look their
-/// primitive up.
+/// primitive up, and have its bounds here, grown, as floats: lower corner, upper corner.
 struct alignas(64) Literal {
   std::array<double, 6> v{};
   std::uint32_t primitive = 0;
@@ -109,18 +110,59 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
 /// Kinds whose intervals packet_intervals-inl.hpp computes.
 inline bool has_lane_interval(PrimitiveKind kind) {
   switch (kind) {
+    case PrimitiveKind::kTorus:
+    case PrimitiveKind::kEllipticCone:
+    case PrimitiveKind::kEllipticTorus:
+    case PrimitiveKind::kQuadric:
+    case PrimitiveKind::kMesh: return false;
+    default: return true;
+  }
+}
+/// Kinds that a line may be inside of twice.
+inline bool may_have_two_intervals(PrimitiveKind kind) { return !has_lane_interval(kind); }
+
+/// Kinds that look their primitive up; their literals hold bounds.
+inline bool has_bounds(PrimitiveKind kind) {
+  switch (kind) {
     case PrimitiveKind::kSphere:
-    case PrimitiveKind::kEllipsoid:
     case PrimitiveKind::kBox:
-    case PrimitiveKind::kParallelepiped:
-    case PrimitiveKind::kCylinder:
-    case PrimitiveKind::kHalfSpace: return true;
-    default: return false;
+    case PrimitiveKind::kHalfSpace: return false;
+    default: return true;
   }
 }
 
-/// Literals whose intervals fit on the stack; larger programs take the general way.
-inline constexpr std::size_t kMaxFlatLiterals = 32;
+/// False only when the line passes the literal's bounds, surely, or is in them before t0 or after t1 only. For kinds
+/// with has_bounds.
+inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, double t1) {
+  const double error = 1e-12 * max_abs(ray.ray.origin);
+  for (int a = 0; a < 3; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const double inverse = ray.inverse[a];
+    const double lo = (literal.v[axis] - error - ray.ray.origin[a]) * inverse;
+    const double hi = (literal.v[axis + 3] + error - ray.ray.origin[a]) * inverse;
+    // Written so that a NaN, of a line in a plane of the bounds, says nothing.
+    const double enter = inverse > 0 ? lo : hi;
+    const double leave = inverse > 0 ? hi : lo;
+    if (enter > t0) t0 = enter;
+    if (leave < t1) t1 = leave;
+  }
+  return !(t0 > t1 + 1e-12 * std::fabs(t1));
+}
+
+/// Calls add(enter, leave) for the literal's intervals along the line; the kind isn't a mesh.
+template <typename Add>
+void each_interval(const Literal& literal, const Model& model, const PreparedRay& ray, Add&& add) {
+  Ends ends;
+  if (!may_have_two_intervals(literal.kind)) {
+    interval_of(literal, model, ray, ends);
+    return add(ends.enter, ends.leave);
+  }
+  const Spans spans = spans_along(model.primitives[literal.primitive], model.data(), ray.ray);
+  for (int i = 0; i < spans.count; ++i) {
+    const auto& s = spans.interval[static_cast<std::size_t>(i)];
+    add(s.enter, s.leave);
+  }
+}
 
 /// The primitive of the first literal whose own membership changes at t; interval(i) gives literal i's.
 template <typename IntervalOf>
@@ -181,12 +223,21 @@ struct SurfaceItem {
   /// General programs: first of the tree's nodes; kFlat for a conjunction or its complement.
   std::uint32_t first_node = kFlat;
   std::uint32_t node_count = 0;
+  /// Of programs with MaskedProgram: the first of the tree's operations, node_count − literal_count of them.
+  std::uint32_t first_operation = 0;
   /// The literals are those of the complement, which is a conjunction: entering and leaving swap.
   bool is_complement = false;
   /// No crossing of it lets light through.
   bool is_opaque = true;
-  /// Flat, of few literals, of kinds whose intervals are computed for several rays at once.
-  bool has_lanes = false;
+  /// Of few literals, none of them a mesh: solved without taking memory, several rays at once.
+  bool is_small = false;
+  /// Each literal is inside of one interval of any line.
+  bool is_simple = false;
+
+  /// The whole of one mesh.
+  bool is_mesh = false;
+
+  bool is_flat() const { return first_node == kFlat; }
 };
 
 }  // namespace graycube

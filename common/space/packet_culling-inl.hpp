@@ -184,9 +184,10 @@ HWY_INLINE std::uint32_t meet_all(const WideNode& node, const CullingPacket& p,
   return mask;
 }
 
-/// Which of the rays may meet one box of a node? By the arithmetic of `meet`.
-HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingPacket& p,
-                          Mask rays) {
+/// Which of the rays may meet a box? By the arithmetic of `meet`. plane(side, axis) gives the box's planes, lower ones
+/// at side 0.
+template <typename PlaneOf>
+HWY_INLINE Mask meet_box(PlaneOf&& plane, const CullingPacket& p, Mask rays) {
   const FloatLanes d;
   const std::size_t lanes = hn::Lanes(d);
   Mask mask = 0;
@@ -196,8 +197,8 @@ HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingP
     auto to = hn::Load(d, p.last.data() + i);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto near_inverse = hn::Load(d, p.near_inverse[a].data() + i);
-      auto near_plane = hn::Set(d, node.planes[p.near_side[a]][a][slot]);
-      auto far_plane = hn::Set(d, node.planes[1 - p.near_side[a]][a][slot]);
+      auto near_plane = hn::Set(d, plane(p.near_side[a], a));
+      auto far_plane = hn::Set(d, plane(1 - p.near_side[a], a));
       if (p.is_mixed[a]) {  // near_side is 1 then
         const auto upward = hn::Gt(near_inverse, hn::Zero(d));
         const auto upper = near_plane;
@@ -217,6 +218,11 @@ HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingP
     mask |= (met & ((Mask{1} << lanes) - 1)) << i;
   }
   return mask & rays;
+}
+
+/// Which of the rays may meet one box of a node?
+HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingPacket& p, Mask rays) {
+  return meet_box([&](std::size_t side, std::size_t a) { return node.planes[side][a][slot]; }, p, rays);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,6 @@
 // The intervals of a literal along several rays at once: one ray a lane. Every lane goes through the very
-// expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp and csg/cylinder.hpp in doubles, so that
-// it gets the bits that interval_of gives for its ray.
+// expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp, csg/cylinder.hpp and csg/cone.cpp in doubles, so
+// that it gets the bits that interval_of gives for its ray.
 #if defined(GRAYCUBE_SPACE_PACKET_INTERVALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
 #undef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
@@ -88,19 +88,33 @@ HWY_INLINE void clip_lanes_to_any_slab(LaneInterval& i, double lo, double hi, Do
   i.leave = hn::IfThenElse(crosses, clipped.leave, i.leave);
 }
 
-HWY_INLINE LaneInterval lanes_half_space(double offset, Doubles o, Doubles d) {
+/// As csg::clip_to_half_space.
+HWY_INLINE void clip_lanes_to_half_space(LaneInterval& i, double offset, Doubles o, Doubles d) {
   const Doubles inverse = hn::Div(every(1.0), d);
   const Doubles t = hn::Mul(hn::Sub(every(offset), o), inverse);
   const LaneMask crosses = hn::IsFinite(inverse);
   const LaneMask upward = hn::Gt(d, hn::Zero(Lanes()));
-  LaneInterval i = LaneInterval::whole();
+  const LaneMask leaves = hn::And(hn::And(crosses, upward), hn::Lt(t, i.leave));
+  const LaneMask enters = hn::And(hn::AndNot(upward, crosses), hn::Gt(t, i.enter));
+  i.leave = hn::IfThenElse(leaves, t, i.leave);
+  i.enter = hn::IfThenElse(enters, t, i.enter);
   i.make_empty(hn::AndNot(crosses, hn::Gt(o, every(offset))));
-  LaneInterval below = LaneInterval::whole();
-  LaneInterval above = below;
-  below.leave_before(t);
-  above.enter_after(t);
-  i.leave = hn::IfThenElse(hn::And(crosses, upward), below.leave, i.leave);
-  i.enter = hn::IfThenElse(hn::AndNot(upward, crosses), above.enter, i.enter);
+}
+
+HWY_INLINE LaneInterval lanes_half_space(double offset, Doubles o, Doubles d) {
+  LaneInterval i = LaneInterval::whole();
+  clip_lanes_to_half_space(i, offset, o, d);
+  return i;
+}
+
+/// Ends early where all lanes' intervals are empty.
+HWY_INLINE LaneInterval lanes_polyhedron(std::span<const Plane> faces, const LaneRays& rays) {
+  LaneInterval i = LaneInterval::whole();
+  for (const Plane& f : faces) {
+    const LaneVec n = every(f.normal.x, f.normal.y, f.normal.z);
+    clip_lanes_to_half_space(i, f.offset, lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
+    if (hn::AllFalse(Lanes(), hn::Le(i.enter, i.leave))) break;
+  }
   return i;
 }
 
@@ -156,6 +170,82 @@ HWY_INLINE LaneInterval lanes_parallelepiped(const Primitive& p, const LaneRays&
   return i;
 }
 
+HWY_INLINE Doubles lanes_fmin(Doubles a, Doubles b) {
+  return hn::IfThenElse(hn::IsNaN(b), a, hn::IfThenElse(hn::Lt(a, b), a, b));
+}
+HWY_INLINE Doubles lanes_fmax(Doubles a, Doubles b) {
+  return hn::IfThenElse(hn::IsNaN(b), a, hn::IfThenElse(hn::Gt(a, b), a, b));
+}
+
+/// As csg::cone_interval's: the part of the lines with w + t·wd ≥ 0.
+HWY_INLINE LaneInterval lanes_positive_nappe(Doubles w, Doubles wd) {
+  const Doubles zero = hn::Zero(Lanes());
+  const Doubles apex = hn::Div(hn::Neg(w), wd);
+  const LaneMask level = hn::Eq(wd, zero);
+  const LaneMask upward = hn::Gt(wd, zero);
+  LaneInterval i{hn::IfThenElse(upward, apex, every(-csg::kInf)), hn::IfThenElse(upward, every(csg::kInf), apex)};
+  i.enter = hn::IfThenElse(level, every(-csg::kInf), i.enter);
+  i.leave = hn::IfThenElse(level, every(csg::kInf), i.leave);
+  i.make_empty(hn::AndNot(hn::Ge(w, zero), level));
+  return i;
+}
+
+HWY_INLINE LaneInterval choose(LaneMask mask, const LaneInterval& yes, const LaneInterval& no) {
+  return {hn::IfThenElse(mask, yes.enter, no.enter), hn::IfThenElse(mask, yes.leave, no.leave)};
+}
+
+/// As csg::cone_interval, every branch of which is computed for all lanes.
+HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const LaneVec& d) {
+  const Lanes lanes;
+  const Doubles zero = hn::Zero(lanes);
+  const LaneVec from_middle{o.x, o.y, hn::Sub(o.z, every(0.5))};
+  const Doubles nearest = hn::Div(hn::Neg(lanes_dot(from_middle, d)), lanes_dot(d, d));
+  const LaneVec q{hn::Add(o.x, hn::Mul(nearest, d.x)), hn::Add(o.y, hn::Mul(nearest, d.y)),
+                  hn::Add(o.z, hn::Mul(nearest, d.z))};
+  const Doubles w = hn::Add(every(1.0), hn::Mul(every(k), q.z));
+  const Doubles wd = hn::Mul(every(k), d.z);
+  const auto form = [](Doubles x0, Doubles x1, Doubles y0, Doubles y1, Doubles w0, Doubles w1) {
+    return hn::Sub(hn::Add(hn::Mul(x0, x1), hn::Mul(y0, y1)), hn::Mul(w0, w1));
+  };
+  const Doubles a = form(d.x, d.x, d.y, d.y, wd, wd);
+  const Doubles b = form(q.x, d.x, q.y, d.y, w, wd);
+  const Doubles c = form(q.x, q.x, q.y, q.y, w, w);
+  const Doubles discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+  const Doubles root = hn::Sqrt(discriminant);
+  const Doubles s = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Add(hn::Neg(b), root));
+  const Doubles r0 = hn::Div(s, a);
+  const Doubles r1 = hn::Div(c, s);
+  const LaneMask opens = hn::Gt(a, zero);
+  const LaneInterval between{lanes_fmin(r0, r1), lanes_fmax(r0, r1)};
+  LaneInterval i = between;
+  if (!hn::AllTrue(lanes, opens)) {
+    const LaneInterval above{between.leave, every(csg::kInf)}, below{every(-csg::kInf), between.enter};
+    const LaneInterval before{every(-csg::kInf), r1}, behind{r1, every(csg::kInf)};
+    const LaneInterval parallel = choose(hn::Gt(b, zero), before, behind);
+    i = choose(opens, i, choose(hn::Lt(a, zero), choose(hn::Gt(wd, zero), above, below), parallel));
+  }
+  // Tangents, and lines through the apex.
+  const LaneMask misses = hn::Lt(discriminant, zero);
+  const LaneMask touches = hn::AndNot(misses, hn::Eq(s, zero));
+  if (!hn::AllFalse(lanes, hn::Or(misses, touches))) {
+    LaneInterval nappe = lanes_positive_nappe(w, wd);
+    LaneInterval touching = choose(opens, {zero, zero}, nappe);
+    touching.make_empty(hn::AndNot(opens, hn::Not(hn::Le(c, zero))));
+    nappe.make_empty(opens);
+    i = choose(misses, nappe, choose(touches, touching, i));
+  }
+  return {hn::Add(i.enter, nearest), hn::Add(i.leave, nearest)};
+}
+
+HWY_INLINE LaneInterval lanes_cone(const Primitive& p, const LaneRays& rays) {
+  LaneInterval i = lanes_double_cone(p.v[5], lanes_point(p.to_local, rays.origin),
+                                     lanes_vector(p.to_local, rays.direction));
+  i.make_empty(hn::Not(hn::Le(i.enter, i.leave)));
+  const LaneVec n = every(p.v[0], p.v[1], p.v[2]);
+  clip_lanes_to_any_slab(i, p.v[3], p.v[4], lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
+  return i;
+}
+
 /// The part of each lane's line inside the literal's primitive; the kind is one of has_lane_interval.
 HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& model,
                                          const LaneRays& rays) {
@@ -184,6 +274,12 @@ HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& mo
     case PrimitiveKind::kEllipsoid: {
       const Affine& map = model.primitives[literal.primitive].to_local;
       i = lanes_sphere(lanes_point(map, rays.origin), lanes_vector(map, rays.direction), 1.0);
+      break;
+    }
+    case PrimitiveKind::kCone: i = lanes_cone(model.primitives[literal.primitive], rays); break;
+    case PrimitiveKind::kPolyhedron: {
+      const Primitive& p = model.primitives[literal.primitive];
+      i = lanes_polyhedron({model.planes.data() + p.first_plane, p.plane_count}, rays);
       break;
     }
     default: i = lanes_parallelepiped(model.primitives[literal.primitive], rays); break;

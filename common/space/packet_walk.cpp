@@ -15,64 +15,25 @@
 #include <hwy/highway.h>
 
 #include "space/lane_item-inl.hpp"
-#include "space/packet_culling-inl.hpp"
+#include "space/mesh_packet-inl.hpp"
+#include "space/packet_nodes-inl.hpp"
 #include "space/tree_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
 namespace HWY_NAMESPACE {
 
-/// So many rays or fewer are walked singly: a node costs a packet about three single visits.
-constexpr int kFewRays = 3;
+/// Whether it pays to take the rays through a mesh together.
+bool has_many(Mask rays) { return __builtin_popcount(rays) > kFewRays; }
 
-/// Takes a packet through the tree: calls item(index, rays) for each item that any of the packet's rays may
-/// meet, with those rays; and walk(node, ray) for each of few rays that are left to visit a subtree. Rays that
-/// `active` drops in the meantime are left out.
+/// Takes a packet through the tree, as each_leaf_of_packet, and through the items without bounds first.
 template <Order order, typename Item, typename Walk>
 void each_item_of_packet(const SurfaceTree& tree, const CullingPacket& p, const Mask& active,
                          TreeScratch& scratch, Item&& item, Walk&& walk) {
   for (const std::uint32_t i : tree.unbounded_items()) {
     if (active != 0) item(i, active);
   }
-  if (tree.nodes().empty() || active == 0) return;
-  struct StackEntry {
-    const WideNode* node;
-    float t;
-    std::uint32_t slot;
-    Mask rays;
-  };
-  StackEntry stack[SurfaceTree::kMaxStack];
-  std::size_t size = 0;
-  const auto visit = [&](const WideNode& node, Mask rays) {
-    ++scratch.counts.cells_visited;
-    HWY_ALIGN float near[WideNode::kWidth];
-    std::uint32_t mask = meet_all(node, p, near);
-    const std::size_t base = size;
-    while (mask != 0) {
-      const auto i = static_cast<std::uint32_t>(__builtin_ctz(mask));
-      mask &= mask - 1;
-      std::size_t at = size++;
-      if constexpr (order == Order::kNearestFirst) at = make_place(stack, base, at, near[i]);
-      stack[at] = {&node, near[i], i, rays};
-    }
-  };
-  visit(tree.nodes().front(), active);
-  while (size > 0) {
-    const StackEntry top = stack[--size];
-    if (top.t > p.last_of_all) continue;
-    const Mask rays = meet_each(*top.node, top.slot, p, top.rays & active);
-    if (rays == 0) continue;
-    const std::uint32_t child = top.node->child[top.slot];
-    if ((child & WideNode::kItemFlag) != 0) {
-      item(child & ~WideNode::kItemFlag, rays);
-      if (active == 0) return;
-    } else if (__builtin_popcount(rays) <= kFewRays) {
-      for (Mask rest = rays; rest != 0; rest &= rest - 1) walk(child, first_ray(rest));
-      if (active == 0) return;
-    } else {
-      visit(tree.nodes()[child], rays);
-    }
-  }
+  each_leaf_of_packet<order>(tree.nodes(), p, active, scratch, item, walk);
 }
 
 Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
@@ -95,9 +56,29 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
     take_first_crossing(tree, index, single[i], packet.t0[i], scratch, found[i], has);
     if (has) shorten(i);
   };
+  const auto take_mesh = [&](const SurfaceItem& it, Mask rays) {
+    const Literal& literal = tree.literals_of(it).front();
+    const bool swaps = literal.is_inverted != it.is_complement;
+    HWY_ALIGN double end[kRays];
+    for (std::size_t i = 0; i < kRays; ++i) {
+      // At equal t the first object wins.
+      const bool wins_ties = (any >> i & 1) != 0 && it.object < found[i].object;
+      end[i] = wins_ties ? std::nextafter(t1[i], Aabb::kInf) : t1[i];
+    }
+    MeshPacket mesh(tree.mesh_of(it), packet, p, rays, end, true, scratch);
+    mesh.crossings<Order::kNearestFirst>([&](std::size_t i, double t, bool entering) {
+      found[i] = {t, literal.primitive, it.object, entering != swaps};
+      shorten(i);
+      return false;
+    });
+  };
   LaneItem lanes;
   const auto item = [&](std::uint32_t index, Mask rays) {
     const SurfaceItem& it = tree.items()[index];
+    if (it.is_mesh && has_many(rays)) {
+      take_mesh(it, rays);
+      rays = 0;
+    }
     const auto take = [&](std::size_t first, std::uint32_t group) {
       group = lanes.meet(tree, it, packet, p, first, t1, group, scratch);
       for (; group != 0; group &= group - 1) {
@@ -115,6 +96,7 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
         });
       }
     };
+    if (it.is_small) lanes.look_at(tree, it, p, rays);
     in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
     p.update_last_of_all();
   };
@@ -156,13 +138,29 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
         [&](const Crossing& c) { return passes(i, c); });
     if (!lasts) end_rays(index, Mask{1} << i);
   };
+  const auto take_mesh = [&](std::uint32_t index, Mask rays) {
+    const SurfaceItem& it = tree.items()[index];
+    const std::uint32_t primitive = tree.literals_of(it).front().primitive;
+    Mask ended = 0;
+    MeshPacket mesh(tree.mesh_of(it), packet, p, rays, packet.t1.data(), it.is_opaque, scratch);
+    mesh.crossings<Order::kAny>([&](std::size_t i, double t, bool entering) {
+      if (passes(i, Crossing{t, primitive, it.object, entering})) return true;
+      ended |= Mask{1} << i;
+      return false;
+    });
+    if (ended != 0) end_rays(index, ended);
+  };
   LaneItem lanes;
   const auto item = [&](std::uint32_t index, Mask rays) {
     const SurfaceItem& it = tree.items()[index];
+    if (it.is_mesh && has_many(rays)) {
+      take_mesh(index, rays);
+      rays = 0;
+    }
     const auto take = [&](std::size_t first, std::uint32_t group) {
       group = lanes.meet(tree, it, packet, p, first, packet.t1.data(), group, scratch);
       std::uint32_t ended = lanes.crossed & group;
-      if (lanes.has_removed || !it.is_opaque) {
+      if (!lanes.is_convex || !it.is_opaque) {
         ended = 0;
         for (; group != 0; group &= group - 1) {
           const std::size_t lane = first_ray(group);
@@ -174,6 +172,7 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
       }
       if (ended != 0) end_rays(index, ended << first);
     };
+    if (it.is_small) lanes.look_at(tree, it, p, rays);
     in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
   };
   const auto walk = [&](std::uint32_t node, std::size_t i) {

@@ -89,26 +89,45 @@ class SurfaceTreeBuilder {
     item.cell = cell;
     item.first_literal = static_cast<std::uint32_t>(tree_.literals_.size());
     const bool is_flat = std::all_of(tree.begin() + 1, tree.end(), is_leaf);
-    item.has_lanes = is_flat;
     item.is_complement = is_flat && tree.front().kind == TreeNode::Kind::kOr;
+    item.is_small = item.is_simple = true;
     for (const TreeNode& n : tree) {
       if (!is_leaf(n)) continue;
       const Primitive& p = model_.primitives[n.primitive];
-      Literal literal{p.v, n.primitive, p.kind, n.kind == TreeNode::Kind::kInvertedLeaf};
-      literal.is_inverted = literal.is_inverted != item.is_complement;
+      Literal literal = literal_of(n.primitive);
+      literal.is_inverted = (n.kind == TreeNode::Kind::kInvertedLeaf) != item.is_complement;
       tree_.literals_.push_back(literal);
-      item.has_lanes = item.has_lanes && crossings::has_lane_interval(p.kind);
+      item.is_small = item.is_small && p.kind != PrimitiveKind::kMesh;
+      item.is_simple = item.is_simple && !crossings::may_have_two_intervals(p.kind);
       item.is_opaque = item.is_opaque && !(model_.materials[p.material].transmit > 0);
     }
     item.literal_count = static_cast<std::uint32_t>(tree_.literals_.size()) - item.first_literal;
-    item.has_lanes = item.has_lanes && item.literal_count <= crossings::kMaxFlatLiterals;
+    item.is_mesh = cell == SurfaceItem::kAllSpace && item.literal_count == 1 &&
+                   tree_.literals_.back().kind == PrimitiveKind::kMesh;
+    item.is_small = item.is_small && item.literal_count <= crossings::kMaxFlatLiterals;
     if (!is_flat) {
       item.first_node = static_cast<std::uint32_t>(tree_.program_nodes_.size());
       item.node_count = static_cast<std::uint32_t>(tree.size());
       tree_.program_nodes_.insert(tree_.program_nodes_.end(), tree.begin(), tree.end());
+      item.first_operation = static_cast<std::uint32_t>(tree_.operations_.size());
+      item.is_small = item.is_small && crossings::MaskedProgram::append(tree, tree_.operations_);
     }
     tree_.items_.push_back(item);
     boxes_.push_back(box.grown(model_.delta));
+  }
+
+  Literal literal_of(std::uint32_t primitive) const {
+    const Primitive& p = model_.primitives[primitive];
+    Literal literal{p.v, primitive, p.kind, false};
+    if (!crossings::has_bounds(p.kind)) return literal;
+    // Solvers may be wrong by some last digits of the primitive's size or its distance.
+    const double size = max_abs(p.bounds.hi - p.bounds.lo);
+    const Aabb box = p.bounds.grown(model_.delta + (std::isfinite(size) ? 1e-6 * size : 0));
+    for (std::size_t a = 0; a < 3; ++a) {
+      literal.v[a] = float_below(box.lo[static_cast<int>(a)]);
+      literal.v[a + 3] = float_above(box.hi[static_cast<int>(a)]);
+    }
+    return literal;
   }
 
   struct Group {
@@ -269,7 +288,7 @@ SurfaceTree SurfaceTree::build(const Model& model, const SurfaceTreeOptions& opt
 std::size_t SurfaceTree::memory_bytes() const {
   return nodes_.capacity() * sizeof(WideNode) + items_.capacity() * sizeof(SurfaceItem) +
          literals_.capacity() * sizeof(Literal) + program_nodes_.capacity() * sizeof(TreeNode) +
-         cells_.capacity() * sizeof(Aabb);
+         operations_.capacity() * sizeof(crossings::MaskOperation) + cells_.capacity() * sizeof(Aabb);
 }
 
 }  // namespace graycube

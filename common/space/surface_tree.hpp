@@ -15,70 +15,13 @@
 #include "geometry/wide_node.hpp"
 #include "space/object_crossings.hpp"
 #include "space/ray_packet.hpp"
+#include "space/tree_scratch.hpp"
 
 namespace graycube {
 
 struct SurfaceTreeOptions {
   /// Objects with more literals are cut into cells.
   std::uint32_t whole_object_literals = 8;
-};
-
-/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks for them in each cell, and
-/// a packet's rays ask in turn.
-class MeshMemo {
- public:
-  /// From t = 0 on, which is all that walks look at.
-  const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
-    const Mesh& mesh = model.meshes[model.primitives[primitive].mesh];
-    Entry& e = entries_[slot_of(primitive, ray)];
-    if (!e.mesh.is_same_as(mesh) || !(e.ray == ray)) {
-      e.spans = mesh.spans_ahead(ray, cuts_);
-      e.mesh = mesh;
-      e.ray = ray;
-    }
-    return e.spans;
-  }
-
- private:
-  static constexpr std::size_t kEntries = 64;
-  struct Entry {
-    /// Held, so that no other takes its place in memory.
-    Mesh mesh;
-    Ray ray;
-    Spans spans;
-  };
-
-  static std::size_t slot_of(std::uint32_t primitive, const Ray& ray) {
-    std::uint64_t h = primitive;
-    for (const double v : {ray.direction.x, ray.direction.y, ray.origin.x}) {
-      h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h % kEntries);
-  }
-
-  std::vector<MeshCut> cuts_;
-  std::array<Entry, kEntries> entries_;
-};
-
-/// Scratch and counts of one evaluator.
-struct TreeScratch {
-  /// A transparent surface that a shadow ray crosses, and which ray of a packet it is.
-  struct Pane {
-    std::size_t ray;
-    double t;
-    std::uint32_t object;
-    double transmit;
-  };
-  std::vector<Pane> panes;
-
-  std::vector<Mailbox::Event> events;
-  std::vector<std::uint64_t> flags_before, flags_after;
-  std::vector<MeshCut> cuts;
-  MeshMemo meshes;
-  WalkCounts counts;
-  /// The item that ended the last shadow ray in each octant of directions; tried first.
-  std::array<std::uint32_t, 8> last_occluder{};
 };
 
 /// Immutable once built; shared by all evaluator threads. The model must outlive it.
@@ -117,9 +60,16 @@ class SurfaceTree {
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const std::vector<SurfaceItem>& items() const { return items_; }
   const std::vector<std::uint32_t>& unbounded_items() const { return unbounded_; }
+  /// Of items that are one mesh.
+  const Mesh& mesh_of(const SurfaceItem& item) const {
+    return model_->meshes[model_->primitives[literals_of(item).front().primitive].mesh];
+  }
   std::span<const Literal> literals_of(const SurfaceItem& item) const {
     return {literals_.data() + item.first_literal, item.literal_count};
   }
+  /// Visits the crossings of a small item whose literals' intervals are given.
+  template <typename Visit>
+  bool event_crossings(const SurfaceItem& item, const crossings::FewEvents& events, Visit&& visit) const;
   /// Only for items with a cell.
   const Aabb& cell_of(const SurfaceItem& item) const { return cells_[item.cell]; }
   /// Cuts [t0, t1) to the piece of the ray in the item's cell; false when there is none.
@@ -135,6 +85,10 @@ class SurfaceTree {
   template <typename Visit>
   bool mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                       TreeScratch& scratch, Visit&& visit) const;
+  /// Of small items.
+  template <typename Visit>
+  bool small_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
+                       TreeScratch& scratch, Visit&& visit) const;
   template <typename Visit>
   bool general_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                          TreeScratch& scratch, Visit&& visit) const;
@@ -144,6 +98,7 @@ class SurfaceTree {
   std::vector<SurfaceItem> items_;
   std::vector<Literal> literals_;
   std::vector<TreeNode> program_nodes_;
+  std::vector<crossings::MaskOperation> operations_;
   std::vector<Aabb> cells_;
   std::vector<std::uint32_t> unbounded_;
 };
@@ -176,22 +131,25 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
                                          double t1, TreeScratch& scratch, Visit&& visit) const {
   if (!clip_to_cell(item, ray, t0, t1)) return true;
   const auto literals = literals_of(item);
-  if (item.first_node != SurfaceItem::kFlat || item.literal_count > crossings::kMaxFlatLiterals) {
+  if (!item.is_small) {
+    if (item.is_mesh) return mesh_crossings(item, ray, t0, t1, scratch, visit);
     return general_crossings(item, ray, t0, t1, scratch, visit);
   }
-  if (literals.front().kind == PrimitiveKind::kMesh && literals.size() == 1 && item.cell == SurfaceItem::kAllSpace) {
-    return mesh_crossings(item, ray, t0, t1, scratch, visit);
-  }
+  if (!item.is_flat() || !item.is_simple) return small_crossings(item, ray, t0, t1, scratch, visit);
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> intervals;
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
   std::size_t removed_count = 0;
   double from = -csg::kInf;
   double to = csg::kInf;
   for (std::size_t i = 0; i < literals.size(); ++i) {
-    ++scratch.counts.primitives_tested;
-    if (!crossings::interval_of(literals[i], *model_, ray, intervals[i])) {
-      return general_crossings(item, ray, t0, t1, scratch, visit);
+    if (literals.size() > 1 && crossings::has_bounds(literals[i].kind) &&
+        !crossings::may_meet(literals[i], ray, std::fmax(from, t0), std::fmin(to, t1))) {
+      if (!literals[i].is_inverted) return true;
+      intervals[i] = {csg::kInf, -csg::kInf};
+      continue;
     }
+    ++scratch.counts.primitives_tested;
+    crossings::interval_of(literals[i], *model_, ray, intervals[i]);
     const crossings::Ends& at = intervals[i];
     if (literals[i].is_inverted) {
       if (at.enter < at.leave) removed[removed_count++] = at;
@@ -216,10 +174,59 @@ bool SurfaceTree::mesh_crossings(const SurfaceItem& item, const PreparedRay& ray
   ++scratch.counts.primitives_tested;
   const Literal& literal = literals_of(item).front();
   const bool swaps = literal.is_inverted != item.is_complement;
-  const Mesh& mesh = model_->meshes[model_->primitives[literal.primitive].mesh];
-  return mesh.crossings(ray.ray, t0, t1, scratch.cuts, [&](double t, bool entering) {
+  return mesh_of(item).crossings(ray.ray, t0, t1, scratch.cuts, [&](double t, bool entering) {
     return visit(Crossing{t, literal.primitive, item.object, entering != swaps});
   });
+}
+
+template <typename Visit>
+bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
+                                  TreeScratch& scratch, Visit&& visit) const {
+  const auto literals = literals_of(item);
+  crossings::FewEvents events(t0, t1);
+  // Of conjunctions: as in for_each_item_crossing, all crossings lie where all that is not taken away reaches.
+  double from = t0;
+  double to = t1;
+  for (std::uint32_t i = 0; i < literals.size(); ++i) {
+    const Literal& literal = literals[i];
+    const bool confines = item.is_flat() && !literal.is_inverted;
+    if (literals.size() > 1 && crossings::has_bounds(literal.kind) && !crossings::may_meet(literal, ray, from, to)) {
+      if (confines) return true;
+      continue;
+    }
+    ++scratch.counts.primitives_tested;
+    double first = csg::kInf;
+    double last = -csg::kInf;
+    crossings::each_interval(literal, *model_, ray, [&](double enter, double leave) {
+      events.add(i, enter, leave);
+      if (enter < first) first = enter;
+      if (leave > last) last = leave;
+    });
+    if (!confines) continue;
+    if (first > from) from = first;
+    if (last < to) to = last;
+    if (from > to) return true;
+  }
+  return event_crossings(item, events, visit);
+}
+
+template <typename Visit>
+bool SurfaceTree::event_crossings(const SurfaceItem& item, const crossings::FewEvents& events,
+                                  Visit&& visit) const {
+  if (events.is_empty()) return true;
+  const auto literals = literals_of(item);
+  std::uint64_t inverted = 0;
+  for (std::size_t i = 0; i < literals.size(); ++i) inverted |= std::uint64_t{literals[i].is_inverted} << i;
+  const crossings::MaskOperation all{(std::uint64_t{1} << literals.size()) - 1, true, 0};
+  const std::span<const crossings::MaskOperation> operations =
+      item.is_flat() ? std::span(&all, 1)
+                     : std::span(operations_.data() + item.first_operation, item.node_count - item.literal_count);
+  const crossings::MaskedProgram program(operations, inverted, literals.size());
+  return events.visit_changes(
+      [&](std::uint64_t flags) { return program.is_member(flags) != item.is_complement; },
+      [&](double t, bool entering, std::uint64_t before, std::uint64_t after) {
+        return visit(Crossing{t, literals[program.changed_literal(before, after)].primitive, item.object, entering});
+      });
 }
 
 template <typename Visit>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "shading/phong.hpp"
@@ -104,11 +105,13 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
 /// Sample number s of each pixel. The pixels of a block are opened by the first, in the order of all others.
 void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Step& step) {
   const ImageSize& image = domain_.settings().image;
+  const std::uint32_t sx = s % image.samples, sy = s / image.samples;
   for (std::uint32_t y = pixels.y0; y < pixels.y1; ++y) {
     for (std::uint32_t x = pixels.x0; x < pixels.x1; ++x) {
       const auto slot = static_cast<std::uint32_t>(viewing_.size());
       OpenRay& ray = viewing_.emplace_back();
-      ray.task.ray = domain_.frame().primary_ray(x, y, s % image.samples, s / image.samples);
+      // In place: see spawn.
+      new (&ray.task.ray) Ray(domain_.frame().primary_ray(x, y, sx, sy));
       ray.task.pixel = y * image.width + x;
       ray.task.t_max = kInf;
       ray.task.weight = {1, 1, 1};
@@ -289,11 +292,10 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
     packet.add(task.ray, task.t, exit ? exit->t : kInf);
   }
   std::array<Crossing, RayPacket::kSize> found;
-  const RayPacket::Mask hits = domain_.first_crossings(rays.front().task, packet, scratch_, found);
+  RayPacket::Mask hits = domain_.first_crossings(rays.front().task, packet, scratch_, found);
+  hits |= entries_behind(domain_, rays.front().task, packet, scratch_, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (const auto entry = entry_behind(domain_, rays[i].task, scratch_)) {
-      shade(rays[i], *entry, step);
-    } else if ((hits >> i & 1) != 0) {
+    if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
     } else if ((leaving >> i & 1) != 0) {
       go_on(rays[i], exits[i], step);
@@ -413,7 +415,7 @@ void Evaluator::share_credit() {
   surfaces_.clear();
 }
 
-void Evaluator::open_pixel(std::uint32_t pixel) { open_.push_back({pixel, 0, {}, {}}); }
+void Evaluator::open_pixel(std::uint32_t pixel) { open_.emplace_back().pixel = pixel; }
 
 void Evaluator::contribute(const OpenRay& ray, const Rgb& light, Step& step) {
   PixelReturn& sum = open_[ray.slot];

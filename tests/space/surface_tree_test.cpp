@@ -171,6 +171,37 @@ TEST_CASE("a packet finds bit for bit what its rays find alone, with every instr
   CHECK(hits > 50000);
 }
 
+TEST_CASE("a packet finds in a mesh of many triangles what its rays find alone, also behind faces that cancel") {
+  PolygonMesh polygons = ball_polygons(2, 20, 30);
+  // A box and its inside-out twin are nothing, wherever they are.
+  for (const Vec3& at : {Vec3{0, 0, 0}, Vec3{1.5, -1, 0.5}, Vec3{-3, -3, -3}}) {
+    append(polygons, box_polygons(at, at + Vec3{3, 3, 3}));
+    append(polygons, box_polygons(at, at + Vec3{3, 3, 3}), true);
+  }
+  const TriangleMesh mesh = closed(polygons);
+  const CsgNode floor = node_of(HalfSpaceShape{{0, 0, 1}, -2.5});
+  std::size_t hits = 0;
+  for (const double transmit : {0.0, 0.5}) {
+    Scene scene = scene_of({node_of(MeshShape{mesh}), floor});
+    scene.materials.front().material.transmit = transmit;
+    const Model model = compile_scene(scene);
+    const SurfaceTree tree = SurfaceTree::build(model);
+    RandomRays maker(7, model);
+    TreeScratch scratch;
+    for (int i = 0; i < 1000; ++i) {
+      const PacketCase c = packet_case(tree, maker, scratch);
+      for (const auto& hit : c.expected) hits += hit && hit->object == 0 ? 1 : 0;
+      for (const std::string& name : simd_names()) {
+        REQUIRE(choose_simd(name));
+        INFO("packet " << i << ", " << name);
+        REQUIRE(finds_the_same(tree, c, scratch));
+      }
+      choose_simd("best");
+    }
+  }
+  CHECK(hits > 2000);
+}
+
 TEST_CASE("an instruction set is chosen by name, and unknown ones are refused") {
   CHECK(simd_names().front() == "scalar");
   CHECK_FALSE(choose_simd("mmx"));
