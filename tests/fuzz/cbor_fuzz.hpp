@@ -53,7 +53,8 @@ inline bool fuzz_cbor(std::string_view bytes) {
   if (tree.syntax_error()) return false;
   check_whole_is_same(text, read);
   const std::string written = cbor_of(tree);
-  GRAYCUBE_CHECK(written.size() <= text.size(), "%zu bytes of %zu", written.size(), text.size());
+  // Halves, of three bytes, are written as singles, of five.
+  GRAYCUBE_CHECK(written.size() <= text.size() + 2 * tree.value_count(), "%zu bytes of %zu", written.size(), text.size());
   const JsonTree again(written);
   GRAYCUBE_CHECK(!again.syntax_error(), "%s", again.syntax_error()->message.c_str());
   check_same_meaning(tree, again);
