@@ -14,7 +14,7 @@ namespace {
 /// 16 nodes 4, 8 and 16 cells balance csg10k to 0.80, 0.88 and 0.87, and the cost grows with the cells.)
 constexpr std::uint32_t kFineCells = 8;
 constexpr std::uint32_t kLeastFineCells = 2;
-constexpr std::uint32_t kMostCells = 64;
+constexpr std::uint32_t kMostCells = 32;
 /// What a ray that comes in costs a node, in rays that it creates and primitives that it tests: it is decoded,
 /// stored and traced anew.
 constexpr double kCrossingCost = 1.5;
