@@ -39,7 +39,7 @@ class CoarseTrace {
         const bool is_whole = x == block.x0 && y == block.y0 &&
                               grid_.region_of_pixel(block.x1 - 1, block.y1 - 1) == at;
         if (is_whole) part = block;
-        trace(at, [&](Evaluator& e) { e.trace_pixels(part, step_); });
+        trace(at, [&] { evaluator_.trace_pixels(part, step_); });
         if (is_whole) return;
       }
     }
@@ -54,13 +54,15 @@ class CoarseTrace {
       if (most->empty()) return;
       taken_.swap(*most);
       const RegionIndex at = taken_.front().region;
-      waiting_count_ -= taken_.size();
       map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
-      trace(at, [&](Evaluator& e) { e.trace_rays(taken_, step_); });
+      trace(at, [&] { evaluator_.trace_rays(taken_, step_); });
       taken_.clear();
     }
   }
-  bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
+  bool has_many_waiting() const {
+    const auto add = [](std::size_t sum, const auto& rays) { return sum + rays.size(); };
+    return std::accumulate(waiting_.begin(), waiting_.end(), std::size_t{0}, add) >= kManyRays;
+  }
 
   const LoadMap& map() const { return map_; }
 
@@ -73,14 +75,13 @@ class CoarseTrace {
   void trace(RegionIndex at, Trace&& work) {
     domain_.confine_to({grid_.columns(), grid_.rows(), at.column, at.row});
     const WalkCounts before = evaluator_.walk_counts();
-    work(evaluator_);
+    work();
     const WalkCounts walk = evaluator_.walk_counts().since(before);
     const auto& created = step_.rays.created;
     map_.at(at.column, at.row) +=
         static_cast<double>(std::accumulate(created.begin(), created.end(), std::uint64_t{0}) +
                             walk.primitives_tested);
     for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
-    waiting_count_ += step_.leaving.size();
     step_.clear();
   }
 
@@ -92,7 +93,6 @@ class CoarseTrace {
   Evaluator evaluator_;
   /// By region.
   std::vector<std::vector<RayTask>> waiting_;
-  std::size_t waiting_count_ = 0;
   std::vector<RayTask> taken_;
   Step step_;
 };

@@ -1,28 +1,14 @@
 // What is picked where a command leaves the macro-regions' boundaries open.
 #include <catch2/catch.hpp>
 
-#include "csg/random_model.hpp"
 #include "frontal/preparation.hpp"
 #include "scene/write_scene.hpp"
+#include "trace/corner_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
 
 namespace {
-
-/// Many balls in a corner of the picture.
-Scene corner_scene() {
-  Scene scene = scene_of({node_of(SphereShape{{0, 0, 0}, 1}), node_of(SphereShape{{0, 1, 0}, 0.5}),
-                          node_of(SphereShape{{1, 0, 0}, 0.7})});
-  scene.settings.camera.eye = {0, 0, -10};
-  scene.settings.camera.look_at = {3, 2, 0};
-  scene.settings.camera.up = {0, 1, 0};
-  scene.settings.camera.projection = Projection::kPerspective;
-  scene.settings.camera.fov_degrees = 60;
-  scene.settings.image = {128, 96, 1};
-  scene.settings.lights = {{{1, 3, -9}, {1, 1, 1}, Falloff::kNone}};
-  return scene;
-}
 
 PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4) {
   const std::string text = write_scene_text(scene);
