@@ -75,9 +75,9 @@ std::shared_ptr<const LightHorizons> horizons_for(ShadowMode shadows, const Hype
 }
 
 /// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
-PartitionMode chosen_partition(const PreparationWork& work, bool has_replica) {
+PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
   const bool is_open = work.options.partition == PartitionMode::kAuto;
-  return is_open && (has_replica || work.options.flow == FlowMode::kBlocking) ? PartitionMode::kRegular
+  return is_open && (has_replicas || work.options.flow == FlowMode::kBlocking) ? PartitionMode::kRegular
                                                                                : work.options.partition;
 }
 
@@ -87,20 +87,22 @@ void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScen
   out.flow = work.options.flow;
   out.queue = work.options.queue;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
-  if (is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes) {
-    out.replica = encode_model(model);
-  }
+  out.has_replicas = is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
   const auto horizons = horizons_for(out.shadows, work.cube, model);
   if (horizons) {
     out.horizons = encode_horizons(*horizons);
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  const Partition cut = partition_of(model, work.cube, k, chosen_partition(work, !out.replica.empty()), horizons);
+  const Partition cut = partition_of(model, work.cube, k, chosen_partition(work, out.has_replicas), horizons);
   const MacroGrid& grid = cut.grid;
   out.partition = cut.mode;
   out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};
   out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid);
+  if (out.has_replicas) {
+    out.slices.push_back(encode_model(model));
+    return;
+  }
   for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
     out.slices.push_back(encode_model(restrict_to_share(model, grid, share_of(work.cube, Rank{rank}))));
   }

@@ -14,8 +14,8 @@
 
 namespace graycube {
 
-/// With `--shadows local`, a model of at most so many bytes is sent to every node whole, beside the node's own
-/// part: it will need nearly all of it.
+/// With `--shadows local`, a model of at most so many bytes is sent to every node whole: it will need
+/// nearly all of it.
 inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{32} << 20;
 
 struct PreparationWork {
@@ -41,12 +41,12 @@ struct PreparedScene {
   RenderSettings settings;
   std::optional<TilePlan> plan;
   std::uint64_t primitives = 0, objects = 0;
-  /// By rank; one for all in `roth`.
+  /// By rank; one for all where every node holds the whole model.
   std::vector<Bytes> slices;
   /// Encoded light horizons, for every node; empty without them.
   Bytes horizons;
-  /// The whole model, for every node; empty without replicas.
-  Bytes replica;
+  /// In `macro`: every node holds the whole model.
+  bool has_replicas = false;
   double load_s = 0, partition_s = 0;
 };
 

@@ -52,12 +52,10 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
 }
 
 Bytes RenderJob::take_slice(Rank rank) {
-  if (is_roth()) return scene_.slices.front();
+  if (scene_.slices.size() == 1) return scene_.slices.front();
   const bool keeps = lends();
   Bytes slice = keeps ? scene_.slices[rank.value] : std::move(scene_.slices[rank.value]);
-  slice.reserve(slice.size() + scene_.horizons.size() + scene_.replica.size());
   slice.insert(slice.end(), scene_.horizons.begin(), scene_.horizons.end());
-  slice.insert(slice.end(), scene_.replica.begin(), scene_.replica.end());
   return slice;
 }
 
@@ -79,7 +77,7 @@ control::Load RenderJob::load() const {
   m.queue = scene_.queue;
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
-  m.replica_bytes = scene_.replica.size();
+  m.is_replica = scene_.has_replicas;
   m.sums = sums_;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(0) : limits_.window_tiles;
@@ -97,7 +95,7 @@ control::Load RenderJob::load() const {
 std::uint32_t RenderJob::window(std::size_t left) const {
   if (is_roth()) return kRothTilesPerThread * threads_;
   const std::uint32_t most = limits_.window_tiles;
-  if (scene_.replica.empty()) return most;
+  if (!scene_.has_replicas) return most;
   const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
   return std::clamp(part, std::min(kLeastTilesPerThread * threads_, most), most);
 }
@@ -137,7 +135,7 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
 }
 
 std::deque<std::uint32_t>* RenderJob::tiles_to_take_over(Rank helper) {
-  if (scene_.replica.empty()) return nullptr;
+  if (!scene_.has_replicas) return nullptr;
   std::deque<std::uint32_t>* most = nullptr;
   for (std::uint32_t bit = 0; bit < cube_.dimension(); ++bit) {
     auto& theirs = own_tiles_[cube_.neighbour(helper, bit).value];

@@ -84,7 +84,7 @@ class RenderJob {
   bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
   /// Whether nodes may ask for each other's slices.
   bool lends() const {
-    return !is_roth() && scene_.shadows == ShadowMode::kLocal && scene_.replica.empty();
+    return !is_roth() && scene_.shadows == ShadowMode::kLocal && !scene_.has_replicas;
   }
   bool all_batches_in() const;
   /// Tiles that a node may have open at a time, when so many are left of those that it takes from.

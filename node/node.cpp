@@ -132,7 +132,6 @@ void Node::on_finish(const control::Finish& m) {
   stats_.malformed_drops = drops_;
   if (domain_) {
     stats_.primitives = domain_->model().primitives.size();
-    if (const auto& r = domain_->replica()) stats_.replica_primitives = r->model.primitives.size();
     stats_.memory_bytes = domain_->memory_bytes();
   }
   if (measure) measure(stats_);
@@ -204,7 +203,7 @@ void Node::on_frontal_batch(const Bytes& batch) {
   for (const std::uint32_t tile : tiles) {
     if (is_own_tile(tile)) {
       unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, 1);
-    } else if (!domain_->replica()) {
+    } else if (!domain_->is_replica()) {
       return send_control(control::NodeError{job_, "a tile of another macro-region was assigned"});
     }
   }

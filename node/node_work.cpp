@@ -21,8 +21,7 @@ constexpr std::uint64_t kLongOutboxes = 8192;
 std::optional<Work> Node::take_work() {
   Work work{job_, epoch_, domain_, {}};
   if (state_ == State::kBuilding && unbuilt_slice_) {
-    BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, load_.replica_bytes,
-                    std::nullopt, {}};
+    BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, load_.is_replica, std::nullopt, {}};
     unbuilt_slice_.reset();
     if (load_.algorithm == Algorithm::kMacro) {
       build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};

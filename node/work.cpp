@@ -22,28 +22,21 @@ std::optional<Model> decoded_model(std::span<const std::byte> bytes, WorkResult&
 void build(BuildWork work, WorkResult& result) {
   const auto started = std::chrono::steady_clock::now();
   const std::span<const std::byte> bytes = work.slice;
-  const std::size_t behind = work.horizon_bytes + work.replica_bytes;
-  if (behind < work.replica_bytes || behind > bytes.size()) {
+  if (work.horizon_bytes > bytes.size()) {
     result.error = "less came than was announced";
     return;
   }
-  const std::size_t model_bytes = bytes.size() - behind;
+  const std::size_t model_bytes = bytes.size() - work.horizon_bytes;
   auto model = decoded_model(bytes.first(model_bytes), result);
   if (!model) return;
   std::shared_ptr<const LightHorizons> horizons;
   if (work.horizon_bytes > 0) {
-    auto decoded = decode_horizons(bytes.subspan(model_bytes, work.horizon_bytes), model->settings.lights.size());
+    auto decoded = decode_horizons(bytes.last(work.horizon_bytes), model->settings.lights.size());
     if (!decoded) {
       result.error = "the light horizons received are broken";
       return;
     }
     horizons = std::make_shared<const LightHorizons>(*std::move(decoded));
-  }
-  std::shared_ptr<const Territory> replica;
-  if (work.replica_bytes > 0) {
-    auto whole = decoded_model(bytes.last(work.replica_bytes), result);
-    if (!whole) return;
-    replica = Territory::of(*std::move(whole));
   }
   work.slice = {};
   std::shared_ptr<Domain> domain;
@@ -55,7 +48,7 @@ void build(BuildWork work, WorkResult& result) {
     domain = std::make_shared<Domain>(*std::move(model));
   }
   domain->set_horizons(std::move(horizons));
-  domain->set_replica(std::move(replica));
+  if (work.is_replica) domain->set_replica();
   result.domain = std::move(domain);
   result.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }

@@ -23,8 +23,10 @@ struct GridEdges {
 /// Subdivide the macro-regions that came with `load`.
 struct BuildWork {
   Bytes slice;
-  /// Behind the model come so many bytes of light horizons, and so many of the whole model.
-  std::size_t horizon_bytes = 0, replica_bytes = 0;
+  /// Behind the model come so many bytes of light horizons.
+  std::size_t horizon_bytes = 0;
+  /// The model is the whole scene.
+  bool is_replica = false;
   /// Nothing in `roth`: all of space.
   std::optional<GridEdges> edges;
   RegionShare share;

@@ -76,7 +76,6 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("outbox_peak", m.outbox_peak);
   visit("memory_bytes", m.memory_bytes);
   visit("models_borrowed", m.models_borrowed);
-  visit("replica_primitives", m.replica_primitives);
   visit("endgame_s", m.endgame_s, kSeconds);
 }
 
@@ -229,7 +228,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("batch_bytes", m.batch_bytes, at_least_one());
   visit("horizon_bytes", m.horizon_bytes);
   visit("borrow_bytes", m.borrow_bytes);
-  visit("replica_bytes", m.replica_bytes);
+  visit("is_replica", m.is_replica);
   visit("sums", m.sums, kDefaulted);
 }
 

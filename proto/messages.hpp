@@ -102,8 +102,6 @@ struct NodeStats {
   std::uint64_t memory_bytes = 0;
   /// Other nodes' models, fetched to finish shadow rays here.
   std::uint64_t models_borrowed = 0;
-  /// Leaves of the whole scene, where the node holds a replica of it beside its own regions.
-  std::uint64_t replica_primitives = 0;
   /// From the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -276,8 +274,7 @@ struct Welcome {
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
-/// Followed by a binary frame: the node's model slice, behind it `horizon_bytes` of light horizons, and
-/// behind these `replica_bytes` of the whole model.
+/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light horizons.
 struct Load {
   static constexpr std::string_view kType = "load";
   std::uint32_t job = 0, epoch = 0;
@@ -299,7 +296,8 @@ struct Load {
   std::uint64_t horizon_bytes = 0;
   /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
   std::uint64_t borrow_bytes = 0;
-  std::uint64_t replica_bytes = 0;
+  /// The slice is a replica of the whole model.
+  bool is_replica = false;
   SumsMode sums = SumsMode::kDirect;
   friend bool operator==(const Load&, const Load&) = default;
 };

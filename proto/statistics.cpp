@@ -37,7 +37,6 @@ Json node_json(const NodeStats& n) {
           {"outbox_peak", n.outbox_peak},
           {"memory_bytes", n.memory_bytes},
           {"models_borrowed", n.models_borrowed},
-          {"replica_primitives", n.replica_primitives},
           {"peak_rss_bytes", n.peak_rss_bytes}};
 }
 

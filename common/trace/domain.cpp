@@ -45,10 +45,8 @@ Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdi
       share_(share),
       territory_(Territory::of(std::move(model), subdivision)) {}
 
-RayPacket::Mask Domain::first_crossings(const RayTask& one, const RayPacket& packet,
-                                        CrossingScratch& scratch,
+RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                         std::span<Crossing, RayPacket::kSize> found) const {
-  if (uses_replica(one)) return replica_->tree->first_crossings(packet, scratch.replica, found);
   if (territory_->tree) return territory_->tree->first_crossings(packet, scratch.tree, found);
   RayPacket::Mask any = 0;
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -62,7 +60,6 @@ RayPacket::Mask Domain::first_crossings(const RayTask& one, const RayPacket& pac
 
 RayPacket::Mask Domain::pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                                     std::span<Rgb, RayPacket::kSize> light) const {
-  if (replica_) return replica_->tree->pass_lights(packet, scratch.replica, light);
   if (territory_->tree) return territory_->tree->pass_lights(packet, scratch.tree, light);
   RayPacket::Mask arriving = 0;
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -79,14 +76,8 @@ std::size_t Domain::cell_count() const {
 
 std::size_t Domain::memory_bytes() const {
   std::size_t bytes = territory_->memory_bytes();
-  if (replica_) bytes += replica_->memory_bytes();
   for (const auto& b : borrowed_) bytes += b ? b->memory_bytes() : 0;
   return bytes;
-}
-
-void Domain::set_replica(std::shared_ptr<const Territory> replica) {
-  GRAYCUBE_CHECK(!replica || replica->tree.has_value(), "a replica has a surface tree");
-  replica_ = std::move(replica);
 }
 
 std::shared_ptr<const Domain> Domain::with_borrowed(

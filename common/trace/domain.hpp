@@ -42,14 +42,12 @@ struct Territory {
 struct CrossingScratch {
   TreeScratch tree;
   Mailbox mailbox;
-  /// For a replica and for borrowed territories: what a scratch remembers belongs to one tree.
-  TreeScratch replica;
+  /// For borrowed territories: what a scratch remembers belongs to one tree.
   std::vector<TreeScratch> borrowed;
 
   WalkCounts counts() const {
     WalkCounts sum = tree.counts;
     sum.add(mailbox.counts);
-    sum.add(replica.counts);
     for (const TreeScratch& b : borrowed) sum.add(b.counts);
     return sum;
   }
@@ -77,18 +75,10 @@ class Domain {
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
-  /// The whole scene beside the domain's own regions: no ray need ever leave.
-  void set_replica(std::shared_ptr<const Territory> replica);
-  const std::shared_ptr<const Territory>& replica() const { return replica_; }
-  /// Primary rays of the domain's own regions stay in its own model, which is small; for all others a replica
-  /// spares the way from region to region.
-  bool uses_replica(const RayTask& task) const {
-    return replica_ && (task.kind != RayKind::kPrimary || !holds(task.region));
-  }
-  /// The model that the primitives of a ray's crossings are numbered in.
-  const Model& model_for(const RayTask& task) const {
-    return uses_replica(task) ? replica_->model : model();
-  }
+  /// The model is a replica of the whole scene, not only what the domain's regions need: no ray stops at their
+  /// boundaries.
+  void set_replica() { is_replica_ = true; }
+  bool is_replica() const { return is_replica_; }
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
@@ -105,14 +95,7 @@ class Domain {
   /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
   bool is_past_horizon(const RayTask& task) const;
 
-  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. `task`: the ray's, or
-  /// one that starts where it does.
-  std::optional<Crossing> first_crossing(const RayTask& task, const Ray& ray, double t0, double t1,
-                                         CrossingScratch& scratch) const {
-    if (uses_replica(task)) return replica_->tree->first_crossing(ray, t0, t1, scratch.replica);
-    return first_crossing(ray, t0, t1, scratch);
-  }
-  /// The same among the domain's own.
+  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
                                          CrossingScratch& scratch) const {
     if (territory_->tree) return territory_->tree->first_crossing(ray, t0, t1, scratch.tree);
@@ -129,26 +112,19 @@ class Domain {
   /// As pass_light, in a region of this or another node; nothing when it is neither held nor borrowed.
   std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
                                           CrossingScratch& scratch, Rgb& light) const;
-  /// As first_crossing for each ray of a packet, all of one kind and region: bit i of the result tells whether
-  /// found[i] holds a crossing.
-  RayPacket::Mask first_crossings(const RayTask& one, const RayPacket& packet, CrossingScratch& scratch,
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
-  /// As pass_light for each ray of a packet, in the replica if there is one: bit i of the result tells whether
-  /// light[i] arrives.
+  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
   RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                               std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   bool holds(RegionIndex region) const { return !grid_ || share_.owns(region); }
-  /// Where a ray leaves what looks after it; nothing when that has no boundaries.
+  /// Where a ray leaves the region that it is in; nothing when no boundary stops it.
   std::optional<RegionExit> exit(const RayTask& task) const {
-    if (uses_replica(task)) return std::nullopt;
-    return exit(task.region, task.ray, task.t);
-  }
-  /// Where a ray leaves the region that it is in; nothing when space has no boundaries.
-  std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const {
-    if (!grid_) return std::nullopt;
-    return grid_->exit(region, ray, t);
+    if (!grid_ || is_replica_) return std::nullopt;
+    return grid_->exit(task.region, task.ray, task.t);
   }
   RegionIndex region_of_pixel(std::uint32_t x, std::uint32_t y) const {
     return grid_ ? grid_->region_of_pixel(x, y) : RegionIndex{};
@@ -159,7 +135,7 @@ class Domain {
   std::optional<MacroGrid> grid_;
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
-  std::shared_ptr<const Territory> replica_;
+  bool is_replica_ = false;
   /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_;

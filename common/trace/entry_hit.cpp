@@ -27,8 +27,8 @@ double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, dou
 }
 
 /// Where the ray entered the object that it starts in; `first` is what it meets first when turned round.
-std::optional<Crossing> entry_behind(const Domain& domain, const RayTask& one, const Ray& ray, const Ray& back,
-                                     const Crossing& first, CrossingScratch& scratch) {
+std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const Ray& back, const Crossing& first,
+                                     CrossingScratch& scratch) {
   std::array<std::uint32_t, kMostBehind> seen;
   std::size_t count = 0;
   for (std::optional<Crossing> hit = first; hit && count < kMostBehind;) {
@@ -36,21 +36,21 @@ std::optional<Crossing> entry_behind(const Domain& domain, const RayTask& one, c
     if (std::find(seen.begin(), end, hit->object) == end) {
       // Backwards out of an object that was never entered: the start lies in it.
       if (!hit->entering) {
-        return Crossing{own_root(domain.model_for(one), hit->primitive, ray, -hit->t), hit->primitive,
-                        hit->object, true};
+        return Crossing{own_root(domain.model(), hit->primitive, ray, -hit->t), hit->primitive, hit->object,
+                        true};
       }
       seen[count++] = hit->object;
     }
-    hit = domain.first_crossing(one, back, std::nextafter(hit->t, Aabb::kInf), Aabb::kInf, scratch);
+    hit = domain.first_crossing(back, std::nextafter(hit->t, Aabb::kInf), Aabb::kInf, scratch);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-RayPacket::Mask entries_behind(const Domain& domain, const RayTask& one, const RayPacket& packet,
+RayPacket::Mask entries_behind(const Domain& domain, RayKind kind, const RayPacket& packet,
                                CrossingScratch& scratch, std::span<Crossing, RayPacket::kSize> found) {
-  if (domain.settings().camera.inside != InsideView::kEntry || one.kind != RayKind::kPrimary) return 0;
+  if (domain.settings().camera.inside != InsideView::kEntry || kind != RayKind::kPrimary) return 0;
   RayPacket back;
   std::array<std::size_t, RayPacket::kSize> numbers;
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -62,10 +62,10 @@ RayPacket::Mask entries_behind(const Domain& domain, const RayTask& one, const R
   if (back.count == 0) return 0;
   std::array<Crossing, RayPacket::kSize> first;
   RayPacket::Mask any = 0;
-  for (RayPacket::Mask met = domain.first_crossings(one, back, scratch, first); met != 0; met &= met - 1) {
+  for (RayPacket::Mask met = domain.first_crossings(back, scratch, first); met != 0; met &= met - 1) {
     const auto place = static_cast<std::size_t>(__builtin_ctz(met));
     const std::size_t i = numbers[place];
-    const auto entry = entry_behind(domain, one, packet.ray(i), back.ray(place), first[place], scratch);
+    const auto entry = entry_behind(domain, packet.ray(i), back.ray(place), first[place], scratch);
     if (!entry) continue;
     found[i] = *entry;
     any |= RayPacket::Mask{1} << i;

@@ -19,7 +19,7 @@ bool is_pixels_own_ray(const Domain& domain, const RayTask& task) {
 
 /// Out of the object: against a ray that enters it, along one that leaves it.
 Vec3 object_normal(const Domain& domain, const RayTask& task, const Crossing& hit) {
-  const Model& model = domain.model_for(task);
+  const Model& model = domain.model();
   const Vec3 n = outward_normal(model.primitives[hit.primitive], model.data(), task.ray, hit.t);
   return (dot(n, task.ray.direction) > 0) == hit.entering ? -n : n;
 }
@@ -36,7 +36,7 @@ void put(const RenderSettings& settings, std::size_t plane, std::uint32_t pixel,
 void note_first_hit(const Domain& domain, const RayTask& task, const Crossing& hit, Step& step) {
   const RenderSettings& settings = domain.settings();
   if (!is_pixels_own_ray(domain, task)) return;
-  const Model& model = domain.model_for(task);
+  const Model& model = domain.model();
   if (has_plane(settings.aovs, kNormalPlane)) {
     const Vec3 n = object_normal(domain, task, hit);
     put(settings, kNormalPlane, task.pixel, {bits_of(n.x), bits_of(n.y), bits_of(n.z)}, step);

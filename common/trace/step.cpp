@@ -196,7 +196,7 @@ void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
   OpenRay next = ray;
   next.task.t = exit.t;
   next.task.region = exit.next;
-  if (domain_.holds(exit.next) || domain_.uses_replica(next.task)) {
+  if (domain_.holds(exit.next)) {
     viewing_.push_back(next);
   } else {
     step.leaving.push_back(next.task);
@@ -224,7 +224,7 @@ void Evaluator::finish_light_ray(const OpenRay& at_border, Step& step) {
   OpenRay ray = at_border;
   RayTask& task = ray.task;
   for (;;) {
-    const auto exit = domain_.exit(task.region, task.ray, task.t);
+    const auto exit = domain_.exit(task);
     const bool arrives = !exit || exit->t >= task.t_max;
     const auto passes = domain_.pass_light_borrowed(
         task.region, task.ray, task.t, arrives ? task.t_max : exit->t, scratch_, task.weight);
@@ -292,8 +292,8 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
     packet.add(task.ray, task.t, exit ? exit->t : kInf);
   }
   std::array<Crossing, RayPacket::kSize> found;
-  RayPacket::Mask hits = domain_.first_crossings(rays.front().task, packet, scratch_, found);
-  hits |= entries_behind(domain_, rays.front().task, packet, scratch_, found);
+  RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
+  hits |= entries_behind(domain_, rays.front().task.kind, packet, scratch_, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
@@ -308,7 +308,7 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
 
 void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
   const RayTask& task = ray.task;
-  const Model& model = domain_.model_for(task);
+  const Model& model = domain_.model();
   const Primitive& solid = model.primitives[hit.primitive];
   const Material& m = model.materials[solid.material];
   if (task.kind == RayKind::kPrimary && model.settings.aovs.any()) {

@@ -53,7 +53,8 @@ TEST_CASE("no pre-render is made where it would not pay") {
   SECTION("one node") { CHECK(prepared(corner_scene(), {}, 1).partition == PartitionMode::kRegular); }
   SECTION("nodes that hold the whole scene and help each other") {
     const PreparedScene local = prepared(corner_scene(), {.shadows = ShadowMode::kLocal});
-    CHECK_FALSE(local.replica.empty());
+    CHECK(local.has_replicas);
+    CHECK(local.slices.size() == 1);
     CHECK(local.partition == PartitionMode::kRegular);
   }
   SECTION("the queues of 1987") {

@@ -31,7 +31,6 @@ inline control::NodeStats example_stats() {
   s.outbox_peak = 12345;
   s.memory_bytes = 1ull << 33;
   s.models_borrowed = 3;
-  s.replica_primitives = 10000;
   s.endgame_s = 0.125;
   return s;
 }
@@ -95,7 +94,7 @@ inline std::vector<ControlMessage> example_messages() {
       Goodbye{},
       Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
       Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
-           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28, 4096, SumsMode::kTree},
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 98304, 1 << 28, true, SumsMode::kTree},
       Lend{9, 1, 3},
       Relieved{9, 1, 12},
       Prepare{9, 2},
