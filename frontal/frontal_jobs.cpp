@@ -86,6 +86,10 @@ void Frontal::start_rendering() {
 void Frontal::hand_out(Rank rank) {
   RenderJob& render = *running_->render;
   const auto tiles = render.next_tiles(rank);
+  if (const auto owner = render.next_copy(rank)) {
+    const control::Copy copy{render.id(), render.epoch(), owner->value};
+    send(nodes_[rank.value].peer, copy, render.slice_to_copy(*owner));
+  }
   if (tiles.empty()) return;
   const BatchStamp stamp{render.id(), render.epoch(), kFrontalRank, 0,
                          render.next_assignment_sequence(rank)};
@@ -124,6 +128,14 @@ void Frontal::lend(Rank rank, const control::Borrow& m) {
   const Bytes* slice = render.slice_to_lend(m.rank);
   const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
   send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
+}
+
+void Frontal::on_copied(Rank rank, const control::Copied& m) {
+  RenderJob& render = *running_->render;
+  const bool is_current = m.job == render.id() && m.epoch == render.epoch() && !running_->is_finishing;
+  if (!is_current || !options_.cube.has(Rank{m.rank})) return;
+  render.set_copied(rank, Rank{m.rank});
+  hand_out(rank);
 }
 
 void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {

@@ -95,6 +95,8 @@ void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScen
     out.shadows = ShadowMode::kForward;
   }
   const Partition cut = partition_of(model, work.cube, k, chosen_partition(work, out.has_replicas), horizons);
+  out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
+                     out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
   out.partition = cut.mode;
   out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};

@@ -53,6 +53,7 @@ void Node::on_control(const Message& message) {
   if (const auto* prepare = std::get_if<control::Prepare>(&m)) return on_prepare(*prepare);
   if (const auto* start = std::get_if<control::Start>(&m)) return on_start(*start);
   if (const auto* finish = std::get_if<control::Finish>(&m)) return on_finish(*finish);
+  if (const auto* copy = std::get_if<control::Copy>(&m)) return on_copy(*copy, message.payload);
   if (const auto* relieved = std::get_if<control::Relieved>(&m)) return on_relieved(*relieved);
   if (const auto* lend = std::get_if<control::Lend>(&m)) return on_lend(*lend, message.payload);
   if (const auto* ping = std::get_if<control::Ping>(&m)) return on_ping(*ping);
@@ -97,6 +98,7 @@ void Node::on_load(const control::Load& m, const Bytes& slice) {
   plan_.reset();
   own_tiles_ = 0;
   borrowed_.assign(cube_->nodes(), {});
+  copies_.assign(links_.size(), nullptr);
   lent_.clear();
   borrowed_bytes_ = 0;
   moves_ = 0;
@@ -133,6 +135,7 @@ void Node::on_finish(const control::Finish& m) {
   if (domain_) {
     stats_.primitives = domain_->model().primitives.size();
     stats_.memory_bytes = domain_->memory_bytes();
+    for (const auto& copy : copies_) stats_.memory_bytes += copy ? copy->memory_bytes() : 0;
   }
   if (measure) measure(stats_);
   send_control(control::NodeReport{job_, epoch_, stats_});
@@ -143,6 +146,7 @@ void Node::on_finish(const control::Finish& m) {
   plan_.reset();
   own_tiles_ = 0;
   borrowed_.clear();
+  copies_.clear();
   lent_.clear();
   forget_rays();
 }
@@ -179,7 +183,7 @@ void Node::on_ping(const control::Ping& m) {
   report.moves = moves_;
   if (report.is_stalled) {
     const RegionIndex next = stalled_.front().region;
-    report.waits_for = bit_of(cube_->owner_of(next.column, next.row));
+    report.waits_for = bit_of(owner_of(next));
   }
   for (const Link& link : links_) {
     report.granted.push_back(link.granted);
@@ -203,8 +207,10 @@ void Node::on_frontal_batch(const Bytes& batch) {
   for (const std::uint32_t tile : tiles) {
     if (is_own_tile(tile)) {
       unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, 1);
-    } else if (!domain_->is_replica()) {
+    } else if (!domain_of(tile)) {
       return send_control(control::NodeError{job_, "a tile of another macro-region was assigned"});
+    } else {
+      ++stats_.tiles_taken_over;
     }
   }
 }
@@ -212,6 +218,14 @@ void Node::on_frontal_batch(const Bytes& batch) {
 /// In `roth` all tiles are everybody's.
 bool Node::is_own_tile(std::uint32_t tile) const {
   return domain_->holds(plan_->region_of_tile(tile));
+}
+
+/// What a tile is traced in; null where nothing here is good for it.
+const std::shared_ptr<const Domain>& Node::domain_of(std::uint32_t tile) const {
+  static const std::shared_ptr<const Domain> kNone;
+  if (is_own_tile(tile) || domain_->is_replica()) return domain_;
+  const std::uint32_t bit = bit_of(owner_of(plan_->region_of_tile(tile)));
+  return bit < copies_.size() ? copies_[bit] : kNone;
 }
 
 void Node::on_relieved(const control::Relieved& m) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "coordination/termination.hpp"
@@ -93,6 +94,7 @@ class Node {
   void on_start(const control::Start& m);
   void on_finish(const control::Finish& m);
   void on_lend(const control::Lend& m, const Bytes& slice);
+  void on_copy(const control::Copy& m, const Bytes& slice);
   void on_relieved(const control::Relieved& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(const Bytes& batch);
@@ -109,12 +111,18 @@ class Node {
 
   bool is_blocking() const { return load_.flow == FlowMode::kBlocking; }
   bool is_own_tile(std::uint32_t tile) const;
+  Rank owner_of(const RegionIndex& region) const { return cube_->owner_of(region.column, region.row); }
+  const std::shared_ptr<const Domain>& domain_of(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
   void absorb(Step& step, std::optional<std::uint32_t> tile);
   void forward(const RayTask& ray);
+  void forward_across(std::uint32_t bit, const RayTask& ray);
+  void leave_copy(const RayTask& ray, Rank owner);
+  bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send_stalled();
   void wait_for_model(Rank owner, const RayTask& ray);
   void adopt_borrowed(WorkResult& result);
+  void adopt_copy(WorkResult& result);
   void send_batch(Link& link, std::span<const RayTask> rays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
@@ -161,7 +169,10 @@ class Node {
     std::vector<RayTask> waiting;
   };
   std::vector<Borrowed> borrowed_;  // by rank
-  std::deque<BorrowWork> lent_;
+  /// Copies of neighbours' regions, by bit: their tiles may come here.
+  std::vector<std::shared_ptr<const Domain>> copies_;
+  /// Other nodes' models that came and are not subdivided yet.
+  std::deque<std::variant<BorrowWork, CopyWork>> lent_;
   std::uint64_t borrowed_bytes_ = 0, rays_in_wait_ = 0;
   std::uint64_t outbox_rays_ = 0;
   MergeBuffer merge_;

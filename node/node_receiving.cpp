@@ -44,7 +44,7 @@ void Node::on_neighbour(const Bytes& batch) {
     link.received += bytes;
     if (is_blocking()) return send_stalled();
     // Where all evaluators wait, none will come by to send the rest.
-    return send_rays(link, working_ == 0 && wait_reason() != WaitReason::kReady);
+    return send_rays(link, all_evaluators_wait());
   }
   if (header.type == BatchType::kToken) {
     TokenRecord r;
@@ -70,17 +70,31 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     return send_control(control::NodeError{
         job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
   }
-  const bool mine = std::all_of(rays.begin(), rays.end(),
-                                [&](const RayTask& r) { return domain_->holds(r.region); });
-  if (!mine) {
+  // Or for a neighbour: what left a copy of another neighbour's regions comes this way.
+  const bool is_due = std::all_of(rays.begin(), rays.end(), [&](const RayTask& r) {
+    return domain_->holds(r.region) || (!is_blocking() && bit_of(owner_of(r.region)) < links_.size());
+  });
+  if (!is_due) {
     drop("rays", "for another macro-region");
     return send_control(control::NodeError{
         job_, "node " + std::to_string(link.peer.value) + " sent rays for another node"});
   }
   ring_.message_received();
   stats_.rays_in += header.count;
-  for (const RayTask& ray : rays) rays_.add(ray, bit);
+  const std::uint64_t outbox_before = outbox_rays_;
+  for (const RayTask& ray : rays) {
+    if (domain_->holds(ray.region)) {
+      rays_.add(ray, bit);
+    } else {
+      link.ungranted += kRayBytes;
+      forward(ray);
+    }
+  }
   stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
+  if (outbox_rays_ == outbox_before) return;
+  if (all_evaluators_wait()) return flush_on_idle();
+  for (Link& l : links_) send_rays(l, false);
+  if (2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
 }
 
 /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody

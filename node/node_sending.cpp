@@ -59,12 +59,12 @@ void Node::send_stalled() {
   const bool was_stalled = !stalled_.empty();
   while (!stalled_.empty()) {
     const RayTask& ray = stalled_.front();
-    Link& link = links_[bit_of(cube_->owner_of(ray.region.column, ray.region.row))];
+    Link& link = links_[bit_of(owner_of(ray.region))];
     if (link.send_credit < kRayBytes) return;
     send_batch(link, {&ray, 1});
     stalled_.pop_front();
   }
-  if (was_stalled && working_ == 0 && wait_reason() != WaitReason::kReady) flush_on_idle();
+  if (was_stalled && all_evaluators_wait()) flush_on_idle();
 }
 
 void Node::grant_credit(Link& link) {
@@ -141,8 +141,7 @@ void Node::pass_token(bool is_pinged) {
 
 std::vector<Node::Outgoing> Node::take_outgoing() {
   // No evaluator may come by to send on what others sent here.
-  const bool all_wait = working_ == 0 && wait_reason() != WaitReason::kReady;
-  if (holds_others_light_ && state_ == State::kRendering && all_wait) flush_on_idle();
+  if (holds_others_light_ && state_ == State::kRendering && all_evaluators_wait()) flush_on_idle();
   return std::exchange(outgoing_, {});
 }
 

@@ -36,7 +36,7 @@ std::optional<Work> Node::take_work() {
     return std::nullopt;
   }
   if (!lent_.empty()) {
-    work.what = std::move(lent_.front());
+    std::visit([&](auto& model) { work.what = std::move(model); }, lent_.front());
     lent_.pop_front();
   } else if (!rays_.is_empty()) {
     RayWork batch;
@@ -48,7 +48,9 @@ std::optional<Work> Node::take_work() {
     }
     work.what = std::move(batch);
   } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
-    work.what = TileWork{*pixels, plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0)};
+    const std::uint32_t tile = plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
+    work.domain = domain_of(tile);
+    work.what = TileWork{*pixels, tile};
   } else {
     flush_on_idle();
     return std::nullopt;
@@ -84,6 +86,8 @@ void Node::give_result(WorkResult result) {
   ++moves_;
   if (result.borrowed_from) {
     adopt_borrowed(result);
+  } else if (result.copied_from) {
+    adopt_copy(result);
   } else {
     absorb(result.step, result.tile);
   }
@@ -138,15 +142,18 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
   stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
+  const Rank owner = tile && !is_own_tile(*tile) ? owner_of(plan_->region_of_tile(*tile)) : id_.rank;
   for (const RayTask& ray : step.leaving) {
-    if (ray.kind == RayKind::kShadow && load_.shadows == ShadowMode::kLocal) {
-      wait_for_model(cube_->owner_of(ray.region.column, ray.region.row), ray);
+    if (owner != id_.rank) {
+      leave_copy(ray, owner);
+    } else if (ray.kind == RayKind::kShadow && load_.shadows == ShadowMode::kLocal) {
+      wait_for_model(owner_of(ray.region), ray);
     } else {
       forward(ray);
     }
   }
   for (const Step::Lacking& l : step.lacking) {
-    wait_for_model(cube_->owner_of(l.region.column, l.region.row), l.task);
+    wait_for_model(owner_of(l.region), l.task);
   }
   std::span<const PixelReturn> returns = step.returns;
   while (!returns.empty()) {
@@ -163,8 +170,19 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
   }
 }
 
-void Node::forward(const RayTask& ray) {
-  const std::uint32_t bit = bit_of(cube_->owner_of(ray.region.column, ray.region.row));
+void Node::forward(const RayTask& ray) { forward_across(bit_of(owner_of(ray.region)), ray); }
+
+/// A ray leaves a neighbour's regions, of which this node holds a copy. It crosses the bit that it would have
+/// crossed from there: who is beyond is a neighbour of the node that it goes to, and sends it on. So the owner,
+/// which is busy, has no part in it.
+void Node::leave_copy(const RayTask& ray, Rank owner) {
+  const Rank next = owner_of(ray.region);
+  if (next == id_.rank) return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
+  const auto bit = cube_->link_between(owner, next);
+  forward_across(bit.value_or(static_cast<std::uint32_t>(links_.size())), ray);
+}
+
+void Node::forward_across(std::uint32_t bit, const RayTask& ray) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
   ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
   if (is_blocking()) {
@@ -203,7 +221,7 @@ void Node::on_lend(const control::Lend& m, const Bytes& slice) {
   if (m.rank >= borrowed_.size() || borrowed_[m.rank].state != Borrowed::State::kAsked) {
     return drop("lend", "not asked for");
   }
-  if (!slice.empty()) return lent_.push_back({Rank{m.rank}, slice});
+  if (!slice.empty()) return lent_.push_back(BorrowWork{Rank{m.rank}, slice});
   Borrowed& b = borrowed_[m.rank];
   b.state = Borrowed::State::kRefused;
   rays_in_wait_ -= b.waiting.size();
@@ -211,6 +229,23 @@ void Node::on_lend(const control::Lend& m, const Bytes& slice) {
   // No evaluator may come by to send what is left.
   for (Link& link : links_) send_rays(link, true);
   pass_token();
+}
+
+void Node::on_copy(const control::Copy& m, const Bytes& slice) {
+  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
+  const std::uint32_t bit = bit_of(Rank{m.rank});
+  if (bit >= copies_.size() || domain_->grid() == nullptr) return drop("copy", "not a neighbour's");
+  lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice});
+}
+
+void Node::adopt_copy(WorkResult& result) {
+  if (!result.domain) {
+    send_control(control::NodeError{job_, result.error});
+    return;
+  }
+  ++stats_.models_borrowed;
+  copies_[bit_of(*result.copied_from)] = std::move(result.domain);
+  send_control(control::Copied{job_, epoch_, result.copied_from->value});
 }
 
 void Node::adopt_borrowed(WorkResult& result) {

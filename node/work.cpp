@@ -55,9 +55,16 @@ void build(BuildWork work, WorkResult& result) {
 
 }  // namespace
 
-void Workbench::clear() {
-  evaluator_.reset();
-  domain_.reset();
+void Workbench::clear() { places_ = {}; }
+
+Evaluator& Workbench::evaluator_for(std::shared_ptr<const Domain> domain) {
+  auto& [first, second] = places_;
+  if (first.domain != domain) std::swap(first, second);
+  if (first.domain != domain) {
+    first.evaluator = std::make_unique<Evaluator>(*domain);
+    first.domain = std::move(domain);
+  }
+  return *first.evaluator;
 }
 
 WorkResult Workbench::run(Work work) {
@@ -73,19 +80,21 @@ WorkResult Workbench::run(Work work) {
     if (auto model = decoded_model(b->slice, result)) result.borrowed = Territory::of(*std::move(model));
     return result;
   }
-  if (domain_ != work.domain) {
-    clear();
-    domain_ = std::move(work.domain);
-    evaluator_.emplace(*domain_);
+  if (auto* c = std::get_if<CopyWork>(&work.what)) {
+    result.copied_from = c->from;
+    auto model = decoded_model(c->slice, result);
+    if (model) result.domain = work.domain->of_neighbour(c->share, *std::move(model));
+    return result;
   }
-  const WalkCounts before = evaluator_->walk_counts();
+  Evaluator& evaluator = evaluator_for(std::move(work.domain));
+  const WalkCounts before = evaluator.walk_counts();
   if (const auto* tile = std::get_if<TileWork>(&work.what)) {
-    evaluator_->trace_pixels(tile->rect, result.step);
+    evaluator.trace_pixels(tile->rect, result.step);
     result.tile = tile->tile;
   } else {
-    evaluator_->trace_rays(std::get<RayWork>(work.what).rays, result.step);
+    evaluator.trace_rays(std::get<RayWork>(work.what).rays, result.step);
   }
-  result.walk = evaluator_->walk_counts().since(before);
+  result.walk = evaluator.walk_counts().since(before);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // touches nothing of the brain.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,6 +37,12 @@ struct BorrowWork {
   Rank from;
   Bytes slice;
 };
+/// Subdivide a copy of a neighbour's macro-regions, to trace its tiles in.
+struct CopyWork {
+  Rank from;
+  RegionShare share;
+  Bytes slice;
+};
 /// Trace the primary rays of a tile, or of a part of it.
 struct TileWork {
   PixelRect rect;
@@ -49,15 +56,17 @@ struct RayWork {
 struct Work {
   std::uint32_t job = 0, epoch = 0;
   std::shared_ptr<const Domain> domain;
-  std::variant<BuildWork, BorrowWork, TileWork, RayWork> what;
+  std::variant<BuildWork, BorrowWork, CopyWork, TileWork, RayWork> what;
 };
 
 struct WorkResult {
   std::uint32_t job = 0, epoch = 0;
-  /// BuildWork: the domain, or why there is none.
+  /// BuildWork, CopyWork: the domain, or why there is none.
   std::shared_ptr<const Domain> domain;
   std::string error;
   double build_s = 0;
+  /// CopyWork: whose.
+  std::optional<Rank> copied_from;
   /// BorrowWork: whose, and what; nothing after an error.
   std::optional<Rank> borrowed_from;
   std::shared_ptr<const Territory> borrowed;
@@ -77,8 +86,14 @@ class Workbench {
   void clear();
 
  private:
-  std::shared_ptr<const Domain> domain_;
-  std::optional<Evaluator> evaluator_;
+  struct Place {
+    std::shared_ptr<const Domain> domain;
+    std::unique_ptr<Evaluator> evaluator;
+  };
+  Evaluator& evaluator_for(std::shared_ptr<const Domain> domain);
+
+  /// The node's own regions and a copy of a neighbour's, the last used first.
+  std::array<Place, 2> places_;
 };
 
 }  // namespace graycube

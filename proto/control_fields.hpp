@@ -76,6 +76,7 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("outbox_peak", m.outbox_peak);
   visit("memory_bytes", m.memory_bytes);
   visit("models_borrowed", m.models_borrowed);
+  visit("tiles_taken_over", m.tiles_taken_over);
   visit("endgame_s", m.endgame_s, kSeconds);
 }
 
@@ -233,6 +234,18 @@ void each_field(auto& visit, Is<Load> auto& m) {
 }
 
 void each_field(auto& visit, Is<Lend> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("rank", m.rank, kRankRange);
+}
+
+void each_field(auto& visit, Is<Copy> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("epoch", m.epoch);
+  visit("rank", m.rank, kRankRange);
+}
+
+void each_field(auto& visit, Is<Copied> auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);
   visit("rank", m.rank, kRankRange);

@@ -98,10 +98,12 @@ struct NodeStats {
   std::uint64_t non_finite = 0, clamped = 0, malformed_drops = 0;
   /// Most rays that lay in the outboxes at a time.
   std::uint64_t outbox_peak = 0;
-  /// Model and subdivision, borrowed ones included.
+  /// Model and subdivision, borrowed ones and copies included.
   std::uint64_t memory_bytes = 0;
-  /// Other nodes' models, fetched to finish shadow rays here.
+  /// Other nodes' models, fetched to finish shadow rays here, or got to trace their tiles.
   std::uint64_t models_borrowed = 0;
+  /// Other nodes' tiles whose primary rays were traced here.
+  std::uint64_t tiles_taken_over = 0;
   /// From the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -246,6 +248,13 @@ struct Borrow {
   friend bool operator==(const Borrow&, const Borrow&) = default;
 };
 
+/// The copy that came with `copy` is subdivided: tiles of that node's may come.
+struct Copied {
+  static constexpr std::string_view kType = "copied";
+  std::uint32_t job = 0, epoch = 0, rank = 0;
+  friend bool operator==(const Copied&, const Copied&) = default;
+};
+
 /// The node can't go on with a job. job 0: with anything.
 struct NodeError {
   static constexpr std::string_view kType = "node_error";
@@ -307,6 +316,13 @@ struct Lend {
   static constexpr std::string_view kType = "lend";
   std::uint32_t job = 0, epoch = 0, rank = 0;
   friend bool operator==(const Lend&, const Lend&) = default;
+};
+
+/// Followed by a binary frame: a neighbour's slice, which its tiles can be traced in here.
+struct Copy {
+  static constexpr std::string_view kType = "copy";
+  std::uint32_t job = 0, epoch = 0, rank = 0;
+  friend bool operator==(const Copy&, const Copy&) = default;
 };
 
 /// So many of the node's own tiles were traced by neighbours, and are whole.
@@ -497,8 +513,8 @@ struct Bye {
 using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
                  control::Terminated, control::NodeReport, control::Pong,
-                 control::NodeError, control::WaitReport, control::Borrow, control::Goodbye, control::Welcome, control::Load,
-                 control::Lend, control::Relieved, control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::NodeError, control::WaitReport, control::Borrow, control::Copied, control::Goodbye, control::Welcome,
+                 control::Load, control::Lend, control::Copy, control::Relieved, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
                  control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,
                  control::JobInfo, control::Jobs, control::Progress, control::NodeList,

@@ -265,6 +265,9 @@ double Farm::begin(Turn& turn) {
   } else if (const auto* l = std::get_if<BorrowWork>(&work->what)) {
     turn.is_borrowing = true;
     doings[Unit::kBuildByte] = static_cast<double>(l->slice.size());
+  } else if (const auto* c = std::get_if<CopyWork>(&work->what)) {
+    turn.is_borrowing = true;
+    doings[Unit::kBuildByte] = static_cast<double>(c->slice.size());
   } else if (const auto* r = std::get_if<RayWork>(&work->what)) {
     doings[Unit::kRay] = static_cast<double>(r->rays.size());
   }

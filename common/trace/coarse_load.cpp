@@ -1,6 +1,7 @@
 #include "trace/coarse_load.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -13,7 +14,7 @@ namespace {
 /// Side of the blocks of pixels that are traced together: neighbours share most of the way.
 constexpr std::uint32_t kCoarseBlock = 2;
 /// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
-/// row of blocks comes on top.
+/// block comes on top.
 constexpr std::size_t kManyRays = 8192;
 
 /// All regions of the grid, seen one at a time: what leaves one goes on in the next.
@@ -54,16 +55,17 @@ class CoarseTrace {
       if (most->empty()) return;
       taken_.swap(*most);
       const RegionIndex at = taken_.front().region;
+      crossings_ += taken_.size();
+      waiting_count_ -= taken_.size();
       map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
       trace(at, [&] { evaluator_.trace_rays(taken_, step_); });
       taken_.clear();
     }
   }
-  bool has_many_waiting() const {
-    const auto add = [](std::size_t sum, const auto& rays) { return sum + rays.size(); };
-    return std::accumulate(waiting_.begin(), waiting_.end(), std::size_t{0}, add) >= kManyRays;
-  }
+  bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
 
+  /// So far, of the rays that do not wait.
+  std::uint64_t crossings() const { return crossings_; }
   const LoadMap& map() const { return map_; }
 
  private:
@@ -82,6 +84,7 @@ class CoarseTrace {
         static_cast<double>(std::accumulate(created.begin(), created.end(), std::uint64_t{0}) +
                             walk.primitives_tested);
     for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
+    waiting_count_ += step_.leaving.size();
     step_.clear();
   }
 
@@ -93,9 +96,19 @@ class CoarseTrace {
   Evaluator evaluator_;
   /// By region.
   std::vector<std::vector<RayTask>> waiting_;
+  std::size_t waiting_count_ = 0;
   std::vector<RayTask> taken_;
+  std::uint64_t crossings_ = 0;
   Step step_;
 };
+
+/// A step that visits each of `count` places once, those visited so far spread over all at any time: near the golden
+/// section of the count, without a divisor in common.
+std::uint32_t spreading_step(std::uint32_t count) {
+  auto step = static_cast<std::uint32_t>(0.618034 * count) + 1;
+  while (std::gcd(step, count) != 1) ++step;
+  return step;
+}
 
 }  // namespace
 
@@ -110,12 +123,17 @@ LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
   const auto step = std::max(
       kCoarseBlock, static_cast<std::uint32_t>(kCoarseBlock * std::sqrt(pixels / wanted)));
   const std::uint32_t first = (step - kCoarseBlock) / 2;
-  for (std::uint32_t y = first; y < image.height; y += step) {
-    for (std::uint32_t x = first; x < image.width; x += step) {
-      trace.trace_block({x, y, std::min(x + kCoarseBlock, image.width),
-                         std::min(y + kCoarseBlock, image.height)});
-    }
-    if (trace.has_many_waiting()) trace.finish();
+  const std::uint64_t most_crossings =
+      std::max(kLeastCoarseCrossings, kCoarseCrossingsPerPixel * image.width * image.height);
+  const auto blocks = [&](std::uint32_t side) { return side > first ? (side - first - 1) / step + 1 : 0; };
+  const std::uint32_t across = blocks(image.width), count = across * blocks(image.height);
+  const std::uint32_t stride = spreading_step(count);
+  for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
+    const std::uint32_t x = first + at % across * step, y = first + at / across * step;
+    trace.trace_block({x, y, std::min(x + kCoarseBlock, image.width), std::min(y + kCoarseBlock, image.height)});
+    // Also when the blocks have doubled: what they take to the end is known before it is too much.
+    if (trace.has_many_waiting() || std::has_single_bit(i + 1)) trace.finish();
+    at = (at + stride) % count;
   }
   trace.finish();
   return trace.map();

@@ -11,6 +11,10 @@ namespace graycube {
 inline constexpr double kCoarseShare = 0.015;
 inline constexpr std::uint64_t kLeastCoarsePixels = 1024;
 inline constexpr std::uint64_t kMostCoarsePixels = 16384;
+/// Fewer where their rays have crossed from region to region so many times for each pixel of the picture, or so many
+/// in all where that is more: between mirrors and with many lights a pixel can take thousands.
+inline constexpr std::uint64_t kCoarseCrossingsPerPixel = 1;
+inline constexpr std::uint64_t kLeastCoarseCrossings = 100'000;
 
 /// By region of `grid`, what tracing a few evenly spread pixels took there: one for each ray created and each
 /// primitive tested, and `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.

@@ -90,6 +90,14 @@ std::shared_ptr<const Domain> Domain::with_borrowed(
   return wider;
 }
 
+std::shared_ptr<const Domain> Domain::of_neighbour(const RegionShare& share, Model model) const {
+  GRAYCUBE_CHECK(grid_.has_value(), "without boundaries there are no neighbours");
+  auto theirs = std::make_shared<Domain>(*this);
+  theirs->share_ = share;
+  theirs->territory_ = Territory::of(std::move(model));
+  return theirs;
+}
+
 std::optional<bool> Domain::pass_light_borrowed(RegionIndex region, const Ray& ray, double t0,
                                                 double t1, CrossingScratch& scratch,
                                                 Rgb& light) const {

@@ -82,6 +82,8 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
+  /// A neighbour's regions, seen as this domain sees its own.
+  std::shared_ptr<const Domain> of_neighbour(const RegionShare& share, Model model) const;
   /// What this domain holds, seen as the regions of a share.
   Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
     Domain domain = *this;

@@ -1,29 +1,11 @@
 // What is picked where a command leaves the macro-regions' boundaries open.
 #include <catch2/catch.hpp>
 
-#include "frontal/preparation.hpp"
-#include "scene/write_scene.hpp"
+#include "frontal/prepared.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
-
-namespace {
-
-PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4) {
-  const std::string text = write_scene_text(scene);
-  PreparationWork work;
-  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  work.scene_text.assign(bytes, bytes + text.size());
-  work.options = options;
-  work.options.algorithm = Algorithm::kMacro;
-  work.cube = *Hypercube::of_size(nodes);
-  PreparationResult result = run(work);
-  REQUIRE(result.scene);
-  return *std::move(result.scene);
-}
-
-}  // namespace
 
 TEST_CASE("boundaries are placed by the work where nothing is asked for") {
   const PreparedScene open = prepared(corner_scene(), {});
@@ -55,6 +37,7 @@ TEST_CASE("no pre-render is made where it would not pay") {
     const PreparedScene local = prepared(corner_scene(), {.shadows = ShadowMode::kLocal});
     CHECK(local.has_replicas);
     CHECK(local.slices.size() == 1);
+    CHECK_FALSE(local.makes_copies);
     CHECK(local.partition == PartitionMode::kRegular);
   }
   SECTION("the queues of 1987") {

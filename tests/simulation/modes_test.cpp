@@ -193,6 +193,31 @@ TEST_CASE("with replicas nothing is forwarded, and neighbours trace the tiles of
   CHECK(helped > 24);
 }
 
+TEST_CASE("a node with nothing left traces a neighbour's tiles in a copy of its regions") {
+  const std::string text = scene_text(144, 96);
+  const Picture expected = serial_picture(text, AovSet::all());
+  std::uint64_t taken_over = 0;
+  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+    RandomFarmOptions how = farm_of(1u << (1 + seed % 4), seed);
+    how.limits.window_tiles = 1 + static_cast<std::uint32_t>(seed % 3);
+    control::JobOptions options = macro_with(seed % 2 == 0 ? ShadowMode::kHorizon : ShadowMode::kForward, 1 + seed % 2);
+    options.aov = "depth,normal,albedo,object";
+    if (seed % 5 == 0) options.sums = SumsMode::kTree;
+    INFO("seed " << seed << ", " << how.nodes << " nodes");
+    RandomFarm farm(how);
+    const Outcome outcome = farm.render(text, options);
+    check_same_picture(farm, outcome, 1, expected);
+    std::uint64_t primary = 0;
+    for (const control::NodeStats& n : outcome.reports) {
+      CHECK((n.tiles_taken_over == 0 || n.models_borrowed > 0));
+      taken_over += n.tiles_taken_over;
+      primary += n.primary;
+    }
+    CHECK(primary == 144 * 96);
+  }
+  CHECK(taken_over > 48);
+}
+
 TEST_CASE("sums along the tree give the serial picture, AOVs too, and only the root sends to the frontal") {
   const std::string text = scene_text(48, 32);
   const Picture expected = serial_picture(text, AovSet::all());

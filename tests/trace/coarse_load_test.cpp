@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "scene/read_scene.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;
@@ -31,4 +32,29 @@ TEST_CASE("balanced boundaries are drawn together where the work is") {
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const LoadMap load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, 0);
   CHECK(heaviest(load, balanced_cuts(load, 4, 4)) < 0.95 * heaviest(load, even_cuts(load, 4, 4)));
+}
+
+TEST_CASE("between mirrors the coarse render ends early, and has looked everywhere") {
+  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 96}, "max_depth": 120,
+    "camera": {"type": "perspective", "eye": [0,0,-9], "look_at": [2,1,0], "up": [0,1,0], "fov": 60},
+    "lights": [{"type": "point", "color": [1,1,1], "position": [3,2,-8]}, {"type": "point", "color": [1,1,1], "position": [-3,2,-8]}],
+    "materials": {"mirror": {"reflect": 1}},
+    "objects": [{"material": "mirror", "csg": {"type": "box", "min": [-40,-30,3], "max": [40,30,4]}},
+                {"material": "mirror", "csg": {"type": "box", "min": [-40,-30,-12], "max": [40,30,-11]}}]})");
+  REQUIRE(read.scene);
+  const Model model = compile_scene(*read.scene);
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
+  const LoadMap load = coarse_load(Domain(model), grid, nullptr, 0);
+  const double crossings = total(coarse_load(Domain(model), grid, nullptr, 1)) - total(load);
+  CHECK(crossings > kLeastCoarseCrossings);
+  // Rays that wait when the limit is reached come on top; all blocks would take over a million.
+  CHECK(crossings < 6 * kLeastCoarseCrossings);
+  for (std::uint32_t row = 0; row < 16; row += 4) {
+    double in_rows = 0;
+    for (std::uint32_t r = row; r < row + 4; ++r) {
+      for (std::uint32_t c = 0; c < 16; ++c) in_rows += load.at(c, r);
+    }
+    CHECK(in_rows > total(load) / 32);
+  }
 }

@@ -1,0 +1,24 @@
+// A scene as the frontal cuts it for its nodes.
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include "frontal/preparation.hpp"
+#include "scene/write_scene.hpp"
+
+namespace graycube::testing {
+
+inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4) {
+  const std::string text = write_scene_text(scene);
+  PreparationWork work;
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  work.scene_text.assign(bytes, bytes + text.size());
+  work.options = options;
+  work.options.algorithm = Algorithm::kMacro;
+  work.cube = *Hypercube::of_size(nodes);
+  PreparationResult result = run(work);
+  REQUIRE(result.scene);
+  return *std::move(result.scene);
+}
+
+}  // namespace graycube::testing
