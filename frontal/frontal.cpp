@@ -155,8 +155,8 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
     }
   } else if (const auto* borrow = std::get_if<control::Borrow>(&message)) {
     lend(rank, *borrow);
-  } else if (const auto* copied = std::get_if<control::Copied>(&message)) {
-    on_copied(rank, *copied);
+  } else if (const auto* wish = std::get_if<control::Share>(&message)) {
+    share(rank, *wish);
   } else if (const auto* waits = std::get_if<control::WaitReport>(&message)) {
     watch_for_deadlock(rank, *waits);
   } else if (const auto* ready = std::get_if<control::Ready>(&message)) {

@@ -147,7 +147,7 @@ class Frontal {
   void hand_out(Rank rank);
   void on_contributions(const Bytes& batch);
   void lend(Rank rank, const control::Borrow& m);
-  void on_copied(Rank rank, const control::Copied& m);
+  void share(Rank owner, const control::Share& m);
   void watch_for_deadlock(Rank rank, const control::WaitReport& m);
   void end_as_deadlocked();
   void finish_when_complete();

@@ -86,10 +86,6 @@ void Frontal::start_rendering() {
 void Frontal::hand_out(Rank rank) {
   RenderJob& render = *running_->render;
   const auto tiles = render.next_tiles(rank);
-  if (const auto owner = render.next_copy(rank)) {
-    const control::Copy copy{render.id(), render.epoch(), owner->value};
-    send(nodes_[rank.value].peer, copy, render.slice_to_copy(*owner));
-  }
   if (tiles.empty()) return;
   const BatchStamp stamp{render.id(), render.epoch(), kFrontalRank, 0,
                          render.next_assignment_sequence(rank)};
@@ -130,12 +126,12 @@ void Frontal::lend(Rank rank, const control::Borrow& m) {
   send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
 }
 
-void Frontal::on_copied(Rank rank, const control::Copied& m) {
+void Frontal::share(Rank owner, const control::Share& m) {
   RenderJob& render = *running_->render;
   const bool is_current = m.job == render.id() && m.epoch == render.epoch() && !running_->is_finishing;
   if (!is_current || !options_.cube.has(Rank{m.rank})) return;
-  render.set_copied(rank, Rank{m.rank});
-  hand_out(rank);
+  const Bytes* slice = render.slice_to_copy(owner, Rank{m.rank});
+  if (slice != nullptr) send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 
 void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {

@@ -47,7 +47,7 @@ struct PreparedScene {
   Bytes horizons;
   /// In `macro`: every node holds the whole model.
   bool has_replicas = false;
-  /// In `macro`: a node that runs dry may get a copy of a neighbour's slice, to trace its tiles.
+  /// In `macro`: nodes that run dry may get copies of their neighbours' slices, to help them.
   bool makes_copies = false;
   double load_s = 0, partition_s = 0;
 };

@@ -35,8 +35,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       holder_(scene_.plan->tile_count()),
       open_(nodes_, 0),
       relief_(nodes_, 0),
-      copying_(nodes_, 0),
-      copied_(nodes_, 0),
+      copies_(nodes_, 0),
       ready_(nodes_, false),
       reported_(nodes_, false),
       batches_received_(nodes_, 0),
@@ -67,6 +66,27 @@ const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
   return lends() && rank < nodes_ ? &scene_.slices[rank] : nullptr;
 }
 
+bool RenderJob::has_room(Rank helper, Rank owner) const {
+  const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
+  const std::uint64_t room = std::max(kMostShares * all / nodes_, kSmallSlices);
+  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= room;
+}
+
+bool RenderJob::may_be_copied(Rank owner) const {
+  for (std::uint32_t bit = 0; scene_.makes_copies && bit < cube_.dimension(); ++bit) {
+    if (has_room(cube_.neighbour(owner, bit), owner)) return true;
+  }
+  return false;
+}
+
+const Bytes* RenderJob::slice_to_copy(Rank owner, Rank helper) {
+  const auto bit = cube_.link_between(helper, owner);
+  if (!scene_.makes_copies || !bit || (copies_[helper.value] >> *bit & 1) != 0 || !has_room(helper, owner)) return nullptr;
+  copies_[helper.value] |= 1u << *bit;
+  held_bytes_[helper.value] += slice_bytes_[owner.value];
+  return &scene_.slices[owner.value];
+}
+
 control::Load RenderJob::load() const {
   control::Load m;
   m.job = job_;
@@ -82,6 +102,7 @@ control::Load RenderJob::load() const {
   m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.is_replica = scene_.has_replicas;
+  m.makes_copies = scene_.makes_copies;
   m.sums = sums_;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(0) : limits_.window_tiles;
@@ -99,10 +120,9 @@ control::Load RenderJob::load() const {
 std::uint32_t RenderJob::window(std::size_t left) const {
   if (is_roth()) return kRothTilesPerThread * threads_;
   const std::uint32_t most = limits_.window_tiles;
-  if (!scene_.has_replicas && !scene_.makes_copies) return most;
-  const std::uint32_t least = scene_.has_replicas ? kLeastTilesPerThread : kLeastTilesWithCopies;
+  if (!scene_.has_replicas) return most;
   const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
-  return std::clamp(part, std::min(least * threads_, most), most);
+  return std::clamp(part, std::min(kLeastTilesPerThread * threads_, most), most);
 }
 
 void RenderJob::set_ready(Rank rank) {
@@ -140,50 +160,13 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
 }
 
 std::deque<std::uint32_t>* RenderJob::tiles_to_take_over(Rank helper) {
+  if (!scene_.has_replicas) return nullptr;
   std::deque<std::uint32_t>* most = nullptr;
   for (std::uint32_t bit = 0; bit < cube_.dimension(); ++bit) {
-    if (!scene_.has_replicas && (copied_[helper.value] >> bit & 1) == 0) continue;
     auto& theirs = own_tiles_[cube_.neighbour(helper, bit).value];
     if (most == nullptr || theirs.size() > most->size()) most = &theirs;
   }
   return most;
-}
-
-std::optional<Rank> RenderJob::next_copy(Rank helper) {
-  const std::uint32_t copying = copying_[helper.value];
-  if (!scene_.makes_copies || !own_tiles_[helper.value].empty() || copying != copied_[helper.value]) return std::nullopt;
-  const auto* at_hand = tiles_to_take_over(helper);
-  if (at_hand != nullptr && !at_hand->empty()) return std::nullopt;
-  std::optional<std::uint32_t> most;
-  for (std::uint32_t bit = 0; bit < cube_.dimension(); ++bit) {
-    const Rank owner = cube_.neighbour(helper, bit);
-    const std::size_t left = own_tiles_[owner.value].size();
-    if ((copying >> bit & 1) != 0 || left < kTilesWorthACopy || !has_room(helper, owner)) continue;
-    if (!most || left > own_tiles_[cube_.neighbour(helper, *most).value].size()) most = bit;
-  }
-  if (!most) return std::nullopt;
-  copying_[helper.value] |= 1u << *most;
-  const Rank owner = cube_.neighbour(helper, *most);
-  held_bytes_[helper.value] += slice_bytes_[owner.value];
-  return owner;
-}
-
-bool RenderJob::has_room(Rank helper, Rank owner) const {
-  const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
-  const std::uint64_t room = std::max(kMostShares * all / nodes_, kSmallSlices);
-  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= room;
-}
-
-bool RenderJob::may_be_copied(Rank owner) const {
-  for (std::uint32_t bit = 0; scene_.makes_copies && bit < cube_.dimension(); ++bit) {
-    if (has_room(cube_.neighbour(owner, bit), owner)) return true;
-  }
-  return false;
-}
-
-void RenderJob::set_copied(Rank helper, Rank owner) {
-  const auto bit = cube_.link_between(helper, owner);
-  if (bit) copied_[helper.value] |= copying_[helper.value] & 1u << *bit;
 }
 
 Rank RenderJob::owner_of(std::uint32_t tile) const {

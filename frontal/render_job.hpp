@@ -25,16 +25,12 @@ struct FlowLimits {
 };
 /// The same per evaluator thread in `roth`.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
-/// Where nodes may take over tiles, a node has at least so many open per evaluator thread, and otherwise this part
+/// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and otherwise this part
 /// of those that are left: the fewer, the more of them can still be taken over.
 inline constexpr std::uint32_t kLeastTilesPerThread = 4;
-/// More where rays leave: a tile is open until the last of them is traced elsewhere.
-inline constexpr std::uint32_t kLeastTilesWithCopies = 16;
 inline constexpr std::uint32_t kPartOfTilesLeft = 4;
-/// A neighbour's slice is copied to a node that runs dry while so many of its tiles are not handed out.
-inline constexpr std::size_t kTilesWorthACopy = 4;
-/// Slices that a node may hold, its own and copies: so many times an equal share of all, or so many bytes where that
-/// is more.
+/// Slices that a node may hold, its own and copies of neighbours': so many times an equal share of all, or so many
+/// bytes where that is more.
 inline constexpr std::uint64_t kMostShares = 2;
 inline constexpr std::uint64_t kSmallSlices = std::uint64_t{256} << 10;
 /// Shadows local: what a node may use for other nodes' models.
@@ -53,20 +49,16 @@ class RenderJob {
   Bytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
   const Bytes* slice_to_lend(std::uint32_t rank) const;
+  /// A node's slice for a neighbour that is to help it; null where that has no room for it, or has one.
+  const Bytes* slice_to_copy(Rank owner, Rank helper);
   control::Load load() const;
 
   void set_ready(Rank rank);
   bool all_ready() const { return ready_count_ == nodes_; }
 
   /// Tiles to hand to a node now, as its window allows: its own, and when there are none left those of the
-  /// neighbour that has most, of those whose regions it holds too.
+  /// neighbour that has most, where nodes hold replicas.
   std::vector<std::uint32_t> next_tiles(Rank rank);
-  /// The neighbour whose slice is to be copied to a node that runs dry; nothing where there is none that needs it.
-  /// Each is named once.
-  std::optional<Rank> next_copy(Rank helper);
-  const Bytes& slice_to_copy(Rank owner) const { return scene_.slices[owner.value]; }
-  /// The node can trace the neighbour's tiles from now on.
-  void set_copied(Rank helper, Rank owner);
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The nodes whose
   /// windows opened are appended to `opened`.
   std::string add_contributions(const Bytes& batch, std::vector<Rank>& opened);
@@ -100,11 +92,11 @@ class RenderJob {
   bool lends() const {
     return !is_roth() && scene_.shadows == ShadowMode::kLocal && !scene_.has_replicas;
   }
-  bool all_batches_in() const;
   /// Whether a helper has room for a copy of the owner's slice.
   bool has_room(Rank helper, Rank owner) const;
   /// Whether any neighbour ever can have a copy of a node's slice.
   bool may_be_copied(Rank owner) const;
+  bool all_batches_in() const;
   /// Tiles that a node may have open at a time, when so many are left of those that it takes from.
   std::uint32_t window(std::size_t left) const;
   Rank owner_of(std::uint32_t tile) const;
@@ -123,7 +115,7 @@ class RenderJob {
   std::vector<Rank> holder_;                     // of each tile handed out
   std::vector<std::deque<std::uint32_t>> own_tiles_;  // by rank, macro: not handed out yet
   std::vector<std::uint32_t> open_, relief_;          // by rank
-  std::vector<std::uint32_t> copying_, copied_;       // by rank: bits of neighbours
+  std::vector<std::uint32_t> copies_;                 // by rank: bits of the neighbours whose slice it has
   std::vector<std::uint64_t> slice_bytes_, held_bytes_;  // by rank: of each slice; of what a node holds
   std::uint32_t next_tile_ = 0;                  // roth: one queue for all
   std::vector<bool> ready_, reported_;

@@ -26,7 +26,16 @@ struct Link {
   /// All that was granted to the peer, and by it, in bytes.
   std::uint64_t granted = 0, received = 0;
 
+  /// What the peer was last told: that this node has nothing to do; and what it has told, until it gets something.
+  bool has_offered = false;
+  enum class Offer : std::uint8_t { kNone, kIdle, kIdleWithCopy } offer = Offer::kNone;
+  /// The frontal was asked to give the peer a copy of this node's slice.
+  bool has_asked = false;
+
   void reset(std::uint64_t credit) {
+    has_offered = false;
+    offer = Offer::kNone;
+    has_asked = false;
     outbox.clear();
     send_credit = credit;
     ungranted = 0;

@@ -160,6 +160,7 @@ void Node::forget_rays() {
   stalled_.clear();
   for (Borrowed& b : borrowed_) b.waiting.clear();
   rays_in_wait_ = 0;
+  helped_.clear();
   outbox_rays_ = 0;
   merge_.clear();
   holds_others_light_ = false;
@@ -213,6 +214,7 @@ void Node::on_frontal_batch(const Bytes& batch) {
       ++stats_.tiles_taken_over;
     }
   }
+  share_work();
 }
 
 /// In `roth` all tiles are everybody's.

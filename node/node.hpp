@@ -94,7 +94,6 @@ class Node {
   void on_start(const control::Start& m);
   void on_finish(const control::Finish& m);
   void on_lend(const control::Lend& m, const Bytes& slice);
-  void on_copy(const control::Copy& m, const Bytes& slice);
   void on_relieved(const control::Relieved& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(const Bytes& batch);
@@ -114,15 +113,13 @@ class Node {
   Rank owner_of(const RegionIndex& region) const { return cube_->owner_of(region.column, region.row); }
   const std::shared_ptr<const Domain>& domain_of(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
-  void absorb(Step& step, std::optional<std::uint32_t> tile);
+  void absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<Rank> helped);
   void forward(const RayTask& ray);
   void forward_across(std::uint32_t bit, const RayTask& ray);
-  void leave_copy(const RayTask& ray, Rank owner);
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send_stalled();
   void wait_for_model(Rank owner, const RayTask& ray);
   void adopt_borrowed(WorkResult& result);
-  void adopt_copy(WorkResult& result);
   void send_batch(Link& link, std::span<const RayTask> rays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
@@ -130,6 +127,16 @@ class Node {
   void flush_on_idle();
   void pass_token(bool is_pinged = false);
   bool is_passive() const;
+
+  // node_sharing.cpp
+  void on_copy(const control::Copy& m, const Bytes& slice);
+  void adopt_copy(WorkResult& result);
+  void leave_copy(const RayTask& ray, Rank owner);
+  void offer_help();
+  void on_offer(Link& link, Link::Offer offer);
+  void share_work();
+  bool share_with(Link& link);
+  void on_tiles(Link& link, const Bytes& batch);
   void forget_rays();
 
   NodeIdentity id_;
@@ -169,8 +176,14 @@ class Node {
     std::vector<RayTask> waiting;
   };
   std::vector<Borrowed> borrowed_;  // by rank
-  /// Copies of neighbours' regions, by bit: their tiles may come here.
+  /// Copies of neighbours' regions, by bit: their tiles and rays may come here.
   std::vector<std::shared_ptr<const Domain>> copies_;
+  struct Helped {
+    Rank owner;
+    std::vector<RayTask> rays;
+  };
+  /// Rays in neighbours' regions.
+  std::deque<Helped> helped_;
   /// Other nodes' models that came and are not subdivided yet.
   std::deque<std::variant<BorrowWork, CopyWork>> lent_;
   std::uint64_t borrowed_bytes_ = 0, rays_in_wait_ = 0;

@@ -36,6 +36,9 @@ void Node::on_neighbour(const Bytes& batch) {
   }
   if (header.type == BatchType::kRays) return on_rays(link, bit, batch, header);
   if (header.type == BatchType::kContributions) return on_sums(link, batch);
+  if (header.type == BatchType::kAssignment) return on_tiles(link, batch);
+  if (header.type == BatchType::kIdle) return on_offer(link, Link::Offer::kIdle);
+  if (header.type == BatchType::kIdleWithCopy) return on_offer(link, Link::Offer::kIdleWithCopy);
   if (header.type == BatchType::kLinkCredit) {
     std::uint64_t bytes = 0;
     const auto result = decode_link_credit(batch, limits_, bytes);
@@ -70,9 +73,13 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     return send_control(control::NodeError{
         job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
   }
-  // Or for a neighbour: what left a copy of another neighbour's regions comes this way.
+  // Or the sender's own, for whom this node is to trace them; or a neighbour's: what left a copy of another
+  // neighbour's regions comes this way.
+  const auto is_senders = [&](const RayTask& r) { return owner_of(r.region) == link.peer; };
+  const bool is_help = !rays.empty() && is_senders(rays.front());
   const bool is_due = std::all_of(rays.begin(), rays.end(), [&](const RayTask& r) {
-    return domain_->holds(r.region) || (!is_blocking() && bit_of(owner_of(r.region)) < links_.size());
+    if (is_help) return copies_[bit] != nullptr && is_senders(r);
+    return domain_->holds(r.region) || (load_.makes_copies && bit_of(owner_of(r.region)) < links_.size());
   });
   if (!is_due) {
     drop("rays", "for another macro-region");
@@ -81,6 +88,12 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
   }
   ring_.message_received();
   stats_.rays_in += header.count;
+  if (is_help) {
+    stats_.rays_taken_over += rays.size();
+    link.has_offered = false;
+    helped_.push_back({link.peer, std::move(rays)});
+    return;
+  }
   const std::uint64_t outbox_before = outbox_rays_;
   for (const RayTask& ray : rays) {
     if (domain_->holds(ray.region)) {
@@ -91,6 +104,7 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     }
   }
   stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
+  share_work();
   if (outbox_rays_ == outbox_before) return;
   if (all_evaluators_wait()) return flush_on_idle();
   for (Link& l : links_) send_rays(l, false);

@@ -101,13 +101,14 @@ void Node::flush_on_idle() {
     grant_credit(link);
   }
   flush_contributions();
+  offer_help();
   pass_token();
 }
 
 bool Node::is_passive() const {
   return state_ == State::kRendering && rays_.is_empty() && tiles_.empty() && !open_tile_ &&
          unassigned_tiles_ == 0 && working_ == 0 && merge_.is_empty() && stalled_.empty() &&
-         rays_in_wait_ == 0 && lent_.empty() &&
+         rays_in_wait_ == 0 && lent_.empty() && helped_.empty() &&
          std::all_of(links_.begin(), links_.end(), [](const Link& l) { return l.outbox.empty(); });
 }
 

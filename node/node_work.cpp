@@ -19,7 +19,7 @@ constexpr std::uint64_t kLongOutboxes = 8192;
 }  // namespace
 
 std::optional<Work> Node::take_work() {
-  Work work{job_, epoch_, domain_, {}};
+  Work work{job_, epoch_, std::nullopt, domain_, {}};
   if (state_ == State::kBuilding && unbuilt_slice_) {
     BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, load_.is_replica, std::nullopt, {}};
     unbuilt_slice_.reset();
@@ -47,9 +47,16 @@ std::optional<Work> Node::take_work() {
       if (is_blocking() || 2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
     }
     work.what = std::move(batch);
+  } else if (!helped_.empty()) {
+    work.helped = helped_.front().owner;
+    work.domain = copies_[bit_of(*work.helped)];
+    links_[bit_of(*work.helped)].ungranted += helped_.front().rays.size() * kRayBytes;
+    work.what = RayWork{std::move(helped_.front().rays)};
+    helped_.pop_front();
   } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
     const std::uint32_t tile = plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
     work.domain = domain_of(tile);
+    if (work.domain != domain_) work.helped = owner_of(plan_->region_of_tile(tile));
     work.what = TileWork{*pixels, tile};
   } else {
     flush_on_idle();
@@ -89,7 +96,7 @@ void Node::give_result(WorkResult result) {
   } else if (result.copied_from) {
     adopt_copy(result);
   } else {
-    absorb(result.step, result.tile);
+    absorb(result.step, result.tile, result.helped);
   }
   pass_token();
 }
@@ -132,8 +139,8 @@ void Node::send_ready_when_complete() {
                               domain_->cell_count(), build_s_});
 }
 
-/// `tile`: the tile whose primary rays the step traced, if it did.
-void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
+/// `tile`: the tile whose primary rays the step traced, if it did; `helped`: the neighbour that it was done for.
+void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<Rank> helped) {
   const auto& created = step.rays.created;
   stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
   stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
@@ -142,10 +149,9 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
   stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
-  const Rank owner = tile && !is_own_tile(*tile) ? owner_of(plan_->region_of_tile(*tile)) : id_.rank;
   for (const RayTask& ray : step.leaving) {
-    if (owner != id_.rank) {
-      leave_copy(ray, owner);
+    if (helped) {
+      leave_copy(ray, *helped);
     } else if (ray.kind == RayKind::kShadow && load_.shadows == ShadowMode::kLocal) {
       wait_for_model(owner_of(ray.region), ray);
     } else {
@@ -171,16 +177,6 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile) {
 }
 
 void Node::forward(const RayTask& ray) { forward_across(bit_of(owner_of(ray.region)), ray); }
-
-/// A ray leaves a neighbour's regions, of which this node holds a copy. It crosses the bit that it would have
-/// crossed from there: who is beyond is a neighbour of the node that it goes to, and sends it on. So the owner,
-/// which is busy, has no part in it.
-void Node::leave_copy(const RayTask& ray, Rank owner) {
-  const Rank next = owner_of(ray.region);
-  if (next == id_.rank) return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
-  const auto bit = cube_->link_between(owner, next);
-  forward_across(bit.value_or(static_cast<std::uint32_t>(links_.size())), ray);
-}
 
 void Node::forward_across(std::uint32_t bit, const RayTask& ray) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
@@ -231,23 +227,6 @@ void Node::on_lend(const control::Lend& m, const Bytes& slice) {
   pass_token();
 }
 
-void Node::on_copy(const control::Copy& m, const Bytes& slice) {
-  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
-  const std::uint32_t bit = bit_of(Rank{m.rank});
-  if (bit >= copies_.size() || domain_->grid() == nullptr) return drop("copy", "not a neighbour's");
-  lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice});
-}
-
-void Node::adopt_copy(WorkResult& result) {
-  if (!result.domain) {
-    send_control(control::NodeError{job_, result.error});
-    return;
-  }
-  ++stats_.models_borrowed;
-  copies_[bit_of(*result.copied_from)] = std::move(result.domain);
-  send_control(control::Copied{job_, epoch_, result.copied_from->value});
-}
-
 void Node::adopt_borrowed(WorkResult& result) {
   if (!result.borrowed) {
     send_control(control::NodeError{job_, result.error});
@@ -268,7 +247,7 @@ void Node::adopt_borrowed(WorkResult& result) {
 
 WaitReason Node::wait_reason() const {
   if (!stalled_.empty()) return WaitReason::kBlocked;
-  if (!lent_.empty() || !rays_.is_empty()) return WaitReason::kReady;
+  if (!lent_.empty() || !rays_.is_empty() || !helped_.empty()) return WaitReason::kReady;
   if (!tiles_.empty() || open_tile_) {
     return outbox_rays_ < kLongOutboxes ? WaitReason::kReady : WaitReason::kWindow;
   }

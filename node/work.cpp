@@ -71,6 +71,7 @@ WorkResult Workbench::run(Work work) {
   WorkResult result;
   result.job = work.job;
   result.epoch = work.epoch;
+  result.helped = work.helped;
   if (auto* b = std::get_if<BuildWork>(&work.what)) {
     build(std::move(*b), result);
     return result;

@@ -37,7 +37,7 @@ struct BorrowWork {
   Rank from;
   Bytes slice;
 };
-/// Subdivide a copy of a neighbour's macro-regions, to trace its tiles in.
+/// Subdivide a copy of a neighbour's macro-regions, to help it.
 struct CopyWork {
   Rank from;
   RegionShare share;
@@ -55,12 +55,15 @@ struct RayWork {
 
 struct Work {
   std::uint32_t job = 0, epoch = 0;
+  /// TileWork, RayWork: traced for this neighbour, in the copy of its regions.
+  std::optional<Rank> helped;
   std::shared_ptr<const Domain> domain;
   std::variant<BuildWork, BorrowWork, CopyWork, TileWork, RayWork> what;
 };
 
 struct WorkResult {
   std::uint32_t job = 0, epoch = 0;
+  std::optional<Rank> helped;
   /// BuildWork, CopyWork: the domain, or why there is none.
   std::shared_ptr<const Domain> domain;
   std::string error;

@@ -50,6 +50,9 @@ enum class BatchType : std::uint8_t {
   kGreetingAck = 7,
   kGoodbye = 8,
   kGoodbyeAck = 9,
+  /// The sender has nothing to do; and it holds a copy of the receiver's slice.
+  kIdle = 10,
+  kIdleWithCopy = 11,
 };
 
 /// Who sent a batch, and to what it belongs.

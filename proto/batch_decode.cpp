@@ -14,7 +14,7 @@ using namespace batch_layout;
 /// A tile's credit never exceeds its number of primary rays, nor that the whole picture's.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 
-bool is_known(std::uint8_t type) { return type >= 1 && type <= 9; }
+bool is_known(std::uint8_t type) { return type >= 1 && type <= 11; }
 
 /// The framing and the sender checked, and the type; `payload` is the bytes behind the header.
 BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,

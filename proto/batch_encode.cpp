@@ -138,6 +138,8 @@ std::string_view to_string(BatchType type) {
     case BatchType::kGreetingAck: return "greeting_ack";
     case BatchType::kGoodbye: return "goodbye";
     case BatchType::kGoodbyeAck: return "goodbye_ack";
+    case BatchType::kIdle: return "idle";
+    case BatchType::kIdleWithCopy: return "idle_with_copy";
   }
   return "unknown";
 }

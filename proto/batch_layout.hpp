@@ -28,7 +28,9 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
     case BatchType::kGreeting:
     case BatchType::kGreetingAck:
     case BatchType::kGoodbye:
-    case BatchType::kGoodbyeAck: return {single && count == 0, 0};
+    case BatchType::kGoodbyeAck:
+    case BatchType::kIdle:
+    case BatchType::kIdleWithCopy: return {single && count == 0, 0};
   }
   return {false, 0};
 }
@@ -39,7 +41,8 @@ constexpr std::size_t max_message_bytes(BatchType type) {
 
 constexpr bool is_signal(BatchType type) {
   return type == BatchType::kGreeting || type == BatchType::kGreetingAck ||
-         type == BatchType::kGoodbye || type == BatchType::kGoodbyeAck;
+         type == BatchType::kGoodbye || type == BatchType::kGoodbyeAck ||
+         type == BatchType::kIdle || type == BatchType::kIdleWithCopy;
 }
 
 }  // namespace graycube::batch_layout

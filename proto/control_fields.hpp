@@ -77,6 +77,7 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("memory_bytes", m.memory_bytes);
   visit("models_borrowed", m.models_borrowed);
   visit("tiles_taken_over", m.tiles_taken_over);
+  visit("rays_taken_over", m.rays_taken_over);
   visit("endgame_s", m.endgame_s, kSeconds);
 }
 
@@ -230,6 +231,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("horizon_bytes", m.horizon_bytes);
   visit("borrow_bytes", m.borrow_bytes);
   visit("is_replica", m.is_replica);
+  visit("makes_copies", m.makes_copies);
   visit("sums", m.sums, kDefaulted);
 }
 
@@ -245,7 +247,7 @@ void each_field(auto& visit, Is<Copy> auto& m) {
   visit("rank", m.rank, kRankRange);
 }
 
-void each_field(auto& visit, Is<Copied> auto& m) {
+void each_field(auto& visit, Is<Share> auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);
   visit("rank", m.rank, kRankRange);

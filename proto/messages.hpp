@@ -100,10 +100,10 @@ struct NodeStats {
   std::uint64_t outbox_peak = 0;
   /// Model and subdivision, borrowed ones and copies included.
   std::uint64_t memory_bytes = 0;
-  /// Other nodes' models, fetched to finish shadow rays here, or got to trace their tiles.
+  /// Other nodes' models, fetched to finish shadow rays here, or got to help them.
   std::uint64_t models_borrowed = 0;
-  /// Other nodes' tiles whose primary rays were traced here.
-  std::uint64_t tiles_taken_over = 0;
+  /// Other nodes' tiles, and rays received by them, that were traced here.
+  std::uint64_t tiles_taken_over = 0, rays_taken_over = 0;
   /// From the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -248,11 +248,11 @@ struct Borrow {
   friend bool operator==(const Borrow&, const Borrow&) = default;
 };
 
-/// The copy that came with `copy` is subdivided: tiles of that node's may come.
-struct Copied {
-  static constexpr std::string_view kType = "copied";
+/// A neighbour that has nothing to do is to get a copy of this node's slice, to help it.
+struct Share {
+  static constexpr std::string_view kType = "share";
   std::uint32_t job = 0, epoch = 0, rank = 0;
-  friend bool operator==(const Copied&, const Copied&) = default;
+  friend bool operator==(const Share&, const Share&) = default;
 };
 
 /// The node can't go on with a job. job 0: with anything.
@@ -307,6 +307,8 @@ struct Load {
   std::uint64_t borrow_bytes = 0;
   /// The slice is a replica of the whole model.
   bool is_replica = false;
+  /// Nodes tell their neighbours when they have nothing to do, and may get copies of their slices.
+  bool makes_copies = false;
   SumsMode sums = SumsMode::kDirect;
   friend bool operator==(const Load&, const Load&) = default;
 };
@@ -318,7 +320,7 @@ struct Lend {
   friend bool operator==(const Lend&, const Lend&) = default;
 };
 
-/// Followed by a binary frame: a neighbour's slice, which its tiles can be traced in here.
+/// Followed by a binary frame: the slice of a neighbour, which its tiles and rays can be traced in here.
 struct Copy {
   static constexpr std::string_view kType = "copy";
   std::uint32_t job = 0, epoch = 0, rank = 0;
@@ -513,7 +515,7 @@ struct Bye {
 using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
                  control::Terminated, control::NodeReport, control::Pong,
-                 control::NodeError, control::WaitReport, control::Borrow, control::Copied, control::Goodbye, control::Welcome,
+                 control::NodeError, control::WaitReport, control::Borrow, control::Share, control::Goodbye, control::Welcome,
                  control::Load, control::Lend, control::Copy, control::Relieved, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
                  control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,

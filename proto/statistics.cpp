@@ -38,6 +38,7 @@ Json node_json(const NodeStats& n) {
           {"memory_bytes", n.memory_bytes},
           {"models_borrowed", n.models_borrowed},
           {"tiles_taken_over", n.tiles_taken_over},
+          {"rays_taken_over", n.rays_taken_over},
           {"peak_rss_bytes", n.peak_rss_bytes}};
 }
 

@@ -14,61 +14,55 @@ const Hypercube kCube = *Hypercube::of_size(4);
 
 /// A job whose slices are that long; only their sizes matter here.
 RenderJob job_with_slices(const std::vector<std::size_t>& bytes, const control::JobOptions& options = {}) {
-  Scene scene = corner_scene();
-  scene.settings.image = {256, 256, 1};
-  PreparedScene cut = prepared(scene, options);
+  PreparedScene cut = prepared(corner_scene(), options);
   for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i].resize(bytes[i]);
-  // A window for all tiles.
-  return RenderJob(1, std::move(cut), kCube, 100, {.window_tiles = 1000});
+  return RenderJob(1, std::move(cut), kCube, 1);
 }
 
-/// Hands out all tiles of a node.
-void empty(RenderJob& job, Rank rank) {
-  while (!job.next_tiles(rank).empty()) {}
-}
+constexpr Rank kOwner{0};
 
 }  // namespace
 
-TEST_CASE("a node with nothing left gets a copy of the neighbour that has most, and then its tiles") {
-  RenderJob job = job_with_slices({1000, 1000, 1000, 1000});
-  const Rank helper{0};
-  CHECK_FALSE(job.next_copy(helper));
-  empty(job, helper);
-  const auto owner = job.next_copy(helper);
-  REQUIRE(owner);
-  CHECK(kCube.link_between(helper, *owner));
-  CHECK_FALSE(job.next_copy(helper));
-  CHECK(job.next_tiles(helper).empty());
-  job.set_copied(helper, *owner);
-  const auto tiles = job.next_tiles(helper);
-  REQUIRE_FALSE(tiles.empty());
-  for (const std::uint32_t tile : tiles) {
-    const RegionIndex region = job.scene().plan->region_of_tile(tile);
-    CHECK(kCube.owner_of(region.column, region.row) == *owner);
+TEST_CASE("a neighbour gets a copy of a slice once, another node never") {
+  RenderJob job = job_with_slices({1000, 2000, 3000, 4000});
+  for (std::uint32_t rank = 0; rank < 4; ++rank) {
+    const Rank helper{rank};
+    INFO("rank " << rank);
+    const Bytes* slice = job.slice_to_copy(kOwner, helper);
+    REQUIRE((slice != nullptr) == kCube.link_between(kOwner, helper).has_value());
+    if (slice != nullptr) CHECK(slice->size() == 1000);
+    CHECK(job.slice_to_copy(kOwner, helper) == nullptr);
   }
 }
 
+TEST_CASE("a slice is there to be copied when its node has got it") {
+  RenderJob job = job_with_slices({1000, 2000, 3000, 4000});
+  const std::size_t sent = job.take_slice(kOwner).size();
+  const Bytes* slice = job.slice_to_copy(kOwner, kCube.neighbour(kOwner, 0));
+  REQUIRE(slice != nullptr);
+  CHECK(slice->size() + job.load().horizon_bytes == sent);
+}
+
 TEST_CASE("no copy is made beyond a node's room for slices") {
-  const std::size_t small = kSmallSlices / 2, large = 4 * kSmallSlices;
-  SECTION("small ones always fit") {
+  const std::size_t small = kSmallSlices / 3, large = 4 * kSmallSlices;
+  const Rank helper = kCube.neighbour(kOwner, 0), third = kCube.neighbour(helper, 1);
+  SECTION("small ones fit, however many") {
     RenderJob job = job_with_slices({small, small, small, small});
-    empty(job, Rank{0});
-    CHECK(job.next_copy(Rank{0}));
+    CHECK(job.slice_to_copy(kOwner, helper) != nullptr);
+    CHECK(job.slice_to_copy(third, helper) != nullptr);
   }
-  SECTION("equal ones fit twice") {
+  SECTION("of large ones, one beside the node's own") {
     RenderJob job = job_with_slices({large, large, large, large});
-    empty(job, Rank{0});
-    const auto owner = job.next_copy(Rank{0});
-    REQUIRE(owner);
-    job.set_copied(Rank{0}, *owner);
-    empty(job, Rank{0});
-    empty(job, *owner);
-    CHECK_FALSE(job.next_copy(Rank{0}));
+    CHECK(job.slice_to_copy(kOwner, helper) != nullptr);
+    CHECK(job.slice_to_copy(third, helper) == nullptr);
+    CHECK(job.slice_to_copy(third, kCube.neighbour(third, 0)) != nullptr);
   }
   SECTION("a node that holds more than its share gets none") {
-    RenderJob job = job_with_slices({3 * large, large, large, large});
-    empty(job, Rank{0});
-    CHECK_FALSE(job.next_copy(Rank{0}));
+    std::vector<std::size_t> bytes(4, large);
+    bytes[helper.value] = 2 * large;
+    RenderJob job = job_with_slices(bytes);
+    CHECK(job.slice_to_copy(kOwner, helper) == nullptr);
+    CHECK(job.slice_to_copy(helper, kOwner) == nullptr);
   }
 }
 

@@ -70,7 +70,9 @@ std::vector<Bytes> one_of_each(Random& random) {
           encode_signal(kStamp, BatchType::kGreeting),
           encode_signal(kStamp, BatchType::kGreetingAck),
           encode_signal(kStamp, BatchType::kGoodbye),
-          encode_signal(kStamp, BatchType::kGoodbyeAck)};
+          encode_signal(kStamp, BatchType::kGoodbyeAck),
+          encode_signal(kStamp, BatchType::kIdle),
+          encode_signal(kStamp, BatchType::kIdleWithCopy)};
 }
 
 template <class T>

@@ -209,8 +209,8 @@ TEST_CASE("a node with nothing left traces a neighbour's tiles in a copy of its 
     check_same_picture(farm, outcome, 1, expected);
     std::uint64_t primary = 0;
     for (const control::NodeStats& n : outcome.reports) {
-      CHECK((n.tiles_taken_over == 0 || n.models_borrowed > 0));
-      taken_over += n.tiles_taken_over;
+      CHECK((n.tiles_taken_over + n.rays_taken_over == 0 || n.models_borrowed > 0));
+      taken_over += n.tiles_taken_over + n.rays_taken_over;
       primary += n.primary;
     }
     CHECK(primary == 144 * 96);

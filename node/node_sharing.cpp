@@ -1,0 +1,125 @@
+// Neighbours that help each other: who has nothing to do says so, and gets tiles and rays of a neighbour that has
+// much, to trace them in a copy of its regions.
+#include <algorithm>
+#include <utility>
+
+#include "node/node.hpp"
+#include "proto/control.hpp"
+#include "proto/share_of.hpp"
+
+namespace graycube {
+namespace {
+
+/// Own tiles not begun, and rays received, from which on a node shares them. A ray costs about as much to send as to
+/// trace, so that it takes many of them.
+constexpr std::size_t kTilesToShare = 4;
+constexpr std::size_t kRaysToShare = 2048;
+/// Given away at a time: at most half of what there is.
+constexpr std::size_t kMostTilesAtATime = 16;
+constexpr std::size_t kMostRaysAtATime = 1024;
+
+}  // namespace
+
+void Node::on_copy(const control::Copy& m, const Bytes& slice) {
+  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
+  const std::uint32_t bit = bit_of(Rank{m.rank});
+  if (bit >= copies_.size() || domain_->grid() == nullptr) return drop("copy", "not a neighbour's");
+  lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice});
+}
+
+void Node::adopt_copy(WorkResult& result) {
+  if (!result.domain) {
+    send_control(control::NodeError{job_, result.error});
+    return;
+  }
+  ++stats_.models_borrowed;
+  const std::uint32_t bit = bit_of(*result.copied_from);
+  copies_[bit] = std::move(result.domain);
+  links_[bit].has_offered = false;
+}
+
+/// A ray leaves a neighbour's regions, of which this node holds a copy. It crosses the bit that it would have
+/// crossed from there: who is beyond is a neighbour of the node that it goes to, and sends it on. So the owner,
+/// which is busy, has no part in it.
+void Node::leave_copy(const RayTask& ray, Rank owner) {
+  const Rank next = owner_of(ray.region);
+  if (next == id_.rank) return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
+  const auto bit = cube_->link_between(owner, next);
+  forward_across(bit.value_or(static_cast<std::uint32_t>(links_.size())), ray);
+}
+
+/// Tells the neighbours that there is nothing to do here, each once until it has sent something.
+void Node::offer_help() {
+  const bool is_dry =
+      state_ == State::kRendering && tiles_.empty() && unassigned_tiles_ == 0 && all_evaluators_wait();
+  if (!load_.makes_copies || !is_dry) return;
+  for (std::uint32_t bit = 0; bit < links_.size(); ++bit) {
+    Link& link = links_[bit];
+    if (std::exchange(link.has_offered, true)) continue;
+    const BatchType type = copies_[bit] ? BatchType::kIdleWithCopy : BatchType::kIdle;
+    outgoing_.push_back({link.peer, Message::of_batch(encode_signal(stamp(link.next_sequence++), type))});
+  }
+}
+
+void Node::on_offer(Link& link, Link::Offer offer) {
+  if (state_ != State::kRendering) return;
+  link.offer = offer;
+  share_work();
+}
+
+/// Gives neighbours that have nothing to do something of what waits here.
+void Node::share_work() {
+  if (!load_.makes_copies) return;
+  for (Link& link : links_) {
+    const bool has_much = tiles_.size() >= kTilesToShare || rays_.size() >= kRaysToShare;
+    if (link.offer == Link::Offer::kNone || !has_much) continue;
+    if (link.offer == Link::Offer::kIdleWithCopy) {
+      if (share_with(link)) link.offer = Link::Offer::kNone;
+    } else if (!std::exchange(link.has_asked, true)) {
+      send_control(control::Share{job_, epoch_, link.peer.value});
+    }
+  }
+}
+
+/// Tiles rather than rays: they are a few bytes. The last ones: this node comes from the other end.
+bool Node::share_with(Link& link) {
+  const std::size_t room = static_cast<std::size_t>(link.send_credit / kRayBytes);
+  if (tiles_.size() >= kTilesToShare && is_own_tile(tiles_.back())) {
+    std::vector<std::uint32_t> tiles;
+    const std::size_t most = std::min(tiles_.size() / 2, kMostTilesAtATime);
+    while (tiles.size() < most && is_own_tile(tiles_.back())) {
+      tiles.push_back(tiles_.back());
+      tiles_.pop_back();
+    }
+    ring_.message_sent();
+    outgoing_.push_back({link.peer, Message::of_batch(encode_assignment(stamp(link.next_sequence++), tiles))});
+    return true;
+  }
+  const std::size_t most = std::min({rays_.size() / 2, kMostRaysAtATime, room});
+  if (rays_.size() < kRaysToShare || most == 0) return false;
+  const std::vector<RayTask> rays = rays_.take(most, [&](std::uint32_t bit) {
+    if (bit < links_.size()) links_[bit].ungranted += kRayBytes;
+  });
+  send_batch(link, rays);
+  return true;
+}
+
+/// A neighbour's tiles, to be traced here.
+void Node::on_tiles(Link& link, const Bytes& batch) {
+  std::vector<std::uint32_t> tiles;
+  const auto result = decode_assignment(batch, limits_, tiles);
+  const auto* error = std::get_if<BatchError>(&result);
+  const auto is_theirs = [&](std::uint32_t tile) { return owner_of(plan_->region_of_tile(tile)) == link.peer; };
+  if (error != nullptr || !load_.makes_copies || !copies_[bit_of(link.peer)] ||
+      !std::all_of(tiles.begin(), tiles.end(), is_theirs)) {
+    drop("tiles", error != nullptr ? to_string(*error) : "of regions that are not held here");
+    return send_control(control::NodeError{
+        job_, "node " + std::to_string(link.peer.value) + " sent tiles that can't be traced here"});
+  }
+  ring_.message_received();
+  link.has_offered = false;
+  stats_.tiles_taken_over += tiles.size();
+  tiles_.insert(tiles_.end(), tiles.begin(), tiles.end());
+}
+
+}  // namespace graycube
