@@ -12,11 +12,11 @@ namespace {
 
 /// Own tiles not begun, and rays received, from which on a node shares them. A ray costs about as much to send as to
 /// trace, so that it takes many of them.
-constexpr std::size_t kTilesToShare = 4;
-constexpr std::size_t kRaysToShare = 2048;
+constexpr std::size_t kTilesToShare = 2;
+constexpr std::size_t kRaysToShare = 1024;
 /// Given away at a time: at most half of what there is.
 constexpr std::size_t kMostTilesAtATime = 16;
-constexpr std::size_t kMostRaysAtATime = 1024;
+constexpr std::size_t kMostRaysAtATime = 512;
 
 }  // namespace
 

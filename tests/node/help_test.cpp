@@ -1,0 +1,256 @@
+// Neighbours that help each other: what a node says, gives away and takes.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "node/node.hpp"
+#include "proto/control.hpp"
+#include "proto/model_slice.hpp"
+#include "proto/share_of.hpp"
+#include "scene/compile_scene.hpp"
+#include "scene/read_scene.hpp"
+#include "space/restrict.hpp"
+
+using namespace graycube;
+
+namespace {
+
+constexpr std::uint32_t kIncarnation = 7, kSide = 64;
+const Hypercube kCube = *Hypercube::of_size(4);
+
+/// A mirror ball in the middle of four macro-regions of 32 × 32 pixels, each of four tiles.
+Model ball() {
+  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 64, "height": 64},
+    "camera": {"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40},
+    "background": [1,0.5,0.25], "lights": [{"type": "point", "position": [3,4,-5], "color": [1,1,1]}],
+    "materials": {"m": {"reflect": 0.5}},
+    "objects": [{"material": "m", "csg": {"type": "sphere", "center": [0,0,0], "radius": 1}}]})");
+  REQUIRE(read.scene);
+  return compile_scene(*read.scene);
+}
+
+MacroGrid grid() {
+  const Model model = ball();
+  return {CameraFrame::from(model.settings.camera, model.settings.image), {kSide / 2}, {kSide / 2}};
+}
+
+Bytes slice_of(Rank rank) { return encode_model(restrict_to_share(ball(), grid(), share_of(kCube, rank))); }
+
+RegionIndex region_of(Rank rank) {
+  return {static_cast<std::uint16_t>(kCube.column_of(rank)), static_cast<std::uint16_t>(kCube.row_of(rank))};
+}
+
+std::vector<std::uint32_t> tiles_of(Rank rank) {
+  const TilePlan plan(ball().settings.image, {16, 16}, grid());
+  const auto tiles = plan.tiles_of(share_of(kCube, rank));
+  return {tiles.begin(), tiles.end()};
+}
+
+/// One of four nodes, when a picture has begun.
+class NodeAtWork {
+ public:
+  explicit NodeAtWork(Rank rank) : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), rank_(rank), sent_(4, 0) {
+    tell(control::Welcome{4, "test", {"ipc://a", "ipc://b", "ipc://c", "ipc://d"}, 1000});
+    for (const Rank r : neighbours()) {
+      node.on_neighbour(encode_signal({0, 0, r.value, kIncarnation, 0}, BatchType::kGreetingAck));
+    }
+    control::Load load;
+    load.job = 1;
+    load.grid = {2, 2, 1, {kSide / 2}, {kSide / 2}};
+    load.tile_size = 16;
+    load.link_credit_bytes = 1 << 20;
+    load.window_tiles = 64;
+    load.makes_copies = true;
+    tell(load, slice_of(rank));
+    work();
+    tell(control::Start{1, 0, std::vector<std::uint32_t>(4, kIncarnation)});
+    node.take_outgoing();
+  }
+
+  std::vector<Rank> neighbours() const { return {kCube.neighbour(rank_, 0), kCube.neighbour(rank_, 1)}; }
+  BatchStamp stamp_of(Rank sender) { return {1, 0, sender.value, kIncarnation, sent_[sender.value]++}; }
+
+  void tell(const ControlMessage& message, Bytes payload = {}) {
+    node.on_frontal(Message::of_text(encode(message), std::move(payload)));
+  }
+  void assign(const std::vector<std::uint32_t>& tiles) {
+    node.on_frontal(Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, assigned_++}, tiles)));
+  }
+  /// Does what there is to do; returns the number of pieces.
+  int work() {
+    int pieces = 0;
+    for (auto piece = node.take_work(); piece; piece = node.take_work()) {
+      node.give_result(bench_.run(*std::move(piece)));
+      ++pieces;
+    }
+    return pieces;
+  }
+
+  Node node;
+
+ private:
+  Rank rank_;
+  std::vector<std::uint64_t> sent_;  // by sender
+  std::uint64_t assigned_ = 0;
+  Workbench bench_;
+};
+
+/// What a node sends, sorted.
+struct Sent {
+  std::vector<control::Share> wishes;
+  std::vector<std::string> errors;
+  std::vector<std::pair<Rank, BatchType>> offers;
+  std::vector<std::pair<Rank, std::vector<std::uint32_t>>> tiles;
+  std::vector<std::pair<Rank, std::vector<RayTask>>> rays;
+  std::set<std::uint32_t> tiles_with_credit;
+
+  explicit Sent(Node& node) {
+    const BatchLimits limits{.pixel_count = 4 * kSide * kSide, .tile_count = 16, .max_depth = 5, .lights = 1,
+                             .columns = 2, .rows = 2, .nodes = 4};
+    for (const Node::Outgoing& o : node.take_outgoing()) {
+      if (!looks_like_batch(o.message.frame)) {
+        const auto decoded = decode(o.message.text());
+        const auto& m = std::get<ControlMessage>(decoded);
+        if (const auto* wish = std::get_if<control::Share>(&m)) wishes.push_back(*wish);
+        if (const auto* error = std::get_if<control::NodeError>(&m)) errors.push_back(error->message);
+        continue;
+      }
+      const BatchType type = std::get<BatchHeader>(peek_header(o.message.frame)).type;
+      if (type == BatchType::kIdle || type == BatchType::kIdleWithCopy) offers.emplace_back(*o.to, type);
+      std::vector<std::uint32_t> numbers;
+      std::vector<RayTask> forwarded;
+      std::vector<TileCredit> credits;
+      std::vector<Contribution> contributions;
+      if (std::holds_alternative<BatchHeader>(decode_assignment(o.message.frame, limits, numbers))) {
+        tiles.emplace_back(*o.to, numbers);
+      } else if (std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, forwarded))) {
+        rays.emplace_back(*o.to, forwarded);
+      } else if (std::holds_alternative<BatchHeader>(
+                     decode_contributions(o.message.frame, limits, credits, contributions))) {
+        for (const TileCredit& c : credits) tiles_with_credit.insert(c.tile);
+      }
+    }
+  }
+};
+
+RayTask ray_in(RegionIndex region) {
+  RayTask ray;
+  ray.ray = {{0, 0, -5}, {0, 0, 1}};
+  ray.t_max = 1;
+  ray.kind = RayKind::kShadow;
+  ray.weight = {1, 1, 1};
+  ray.region = region;
+  return ray;
+}
+
+}  // namespace
+
+TEST_CASE("a node with tiles left has its slice copied to a neighbour that is idle, and then gives it half of them") {
+  NodeAtWork owner(Rank{0});
+  const Rank helper = owner.neighbours()[1];
+  const auto own = tiles_of(Rank{0});
+  REQUIRE(own.size() == 4);
+  owner.assign(own);
+  for (int i = 0; i < 2; ++i) {
+    owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdle));
+    const Sent sent(owner.node);
+    CHECK(sent.wishes.size() == (i == 0 ? 1 : 0));
+    if (i == 0) CHECK(sent.wishes.front() == control::Share{1, 0, helper.value});
+    CHECK(sent.tiles.empty());
+  }
+  owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdleWithCopy));
+  const Sent sent(owner.node);
+  REQUIRE(sent.tiles.size() == 1);
+  CHECK(sent.tiles.front().first == helper);
+  CHECK(sent.tiles.front().second.size() == 2);
+  for (const std::uint32_t tile : sent.tiles.front().second) {
+    CHECK(std::find(own.begin() + 2, own.end(), tile) != own.end());
+  }
+  // One offer, one gift.
+  CHECK(Sent(owner.node).tiles.empty());
+  CHECK(owner.work() == 2);
+}
+
+TEST_CASE("an idle node says so once, and again with a copy; then it traces its neighbour's tiles") {
+  NodeAtWork helper(Rank{0});
+  const Rank owner = helper.neighbours()[0];
+  helper.assign(tiles_of(Rank{0}));
+  CHECK(helper.work() == 4);
+  const Sent idle(helper.node);
+  REQUIRE(idle.offers.size() == 2);
+  for (const auto& [to, type] : idle.offers) CHECK(type == BatchType::kIdle);
+  CHECK(helper.work() == 0);
+  CHECK(Sent(helper.node).offers.empty());
+
+  helper.tell(control::Copy{1, 0, owner.value}, slice_of(owner));
+  CHECK(helper.work() == 1);
+  const Sent ready(helper.node);
+  REQUIRE(ready.offers.size() == 1);
+  CHECK(ready.offers.front() == std::pair{owner, BatchType::kIdleWithCopy});
+
+  const std::uint32_t tile = tiles_of(owner).front();
+  helper.node.on_neighbour(encode_assignment(helper.stamp_of(owner), std::vector{tile}));
+  // And maybe rays that left it for the node's own regions.
+  CHECK(helper.work() >= 1);
+  const Sent sent(helper.node);
+  CHECK(sent.tiles_with_credit == std::set{tile});
+  CHECK(sent.errors.empty());
+  // What left the copy went across the bit that leads there from the owner, or stayed here.
+  for (const auto& [to, rays] : sent.rays) {
+    for (const RayTask& ray : rays) {
+      const Rank next = kCube.owner_of(ray.region.column, ray.region.row);
+      CHECK(kCube.link_between(Rank{0}, to) == kCube.link_between(owner, next));
+    }
+  }
+}
+
+TEST_CASE("an idle node gets rays of a neighbour's regions and traces them there") {
+  NodeAtWork helper(Rank{0});
+  const Rank owner = helper.neighbours()[1];
+  SECTION("with a copy") {
+    helper.tell(control::Copy{1, 0, owner.value}, slice_of(owner));
+    helper.work();
+    helper.node.on_neighbour(encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
+    CHECK(helper.work() == 1);
+    CHECK(Sent(helper.node).errors.empty());
+  }
+  SECTION("not without") {
+    helper.node.on_neighbour(encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
+    CHECK(helper.work() == 0);
+    CHECK(Sent(helper.node).errors.size() == 1);
+  }
+}
+
+TEST_CASE("rays for another neighbour are sent on, others refused") {
+  NodeAtWork between(Rank{0});
+  const Rank from = between.neighbours()[0], to = between.neighbours()[1];
+  SECTION("a neighbour's") {
+    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}));
+    CHECK(between.work() == 0);
+    const Sent sent(between.node);
+    REQUIRE(sent.rays.size() == 1);
+    CHECK(sent.rays.front().first == to);
+    REQUIRE(sent.rays.front().second.size() == 1);
+    CHECK(sent.rays.front().second.front().region == region_of(to));
+  }
+  SECTION("another node's") {
+    const Rank far = kCube.neighbour(from, 1);
+    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(far))}));
+    CHECK(Sent(between.node).errors.size() == 1);
+  }
+}
+
+TEST_CASE("tiles that a node can't trace are refused") {
+  NodeAtWork helper(Rank{0});
+  const Rank owner = helper.neighbours()[0], other = helper.neighbours()[1];
+  SECTION("without a copy") {
+    helper.node.on_neighbour(encode_assignment(helper.stamp_of(owner), tiles_of(owner)));
+    CHECK(Sent(helper.node).errors.size() == 1);
+  }
+  SECTION("of another node's regions") {
+    helper.tell(control::Copy{1, 0, owner.value}, slice_of(owner));
+    helper.work();
+    helper.node.on_neighbour(encode_assignment(helper.stamp_of(owner), tiles_of(other)));
+    CHECK(Sent(helper.node).errors.size() == 1);
+  }
+}
