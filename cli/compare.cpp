@@ -63,7 +63,7 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
   macro("macro, local shadows", {.shadows = ShadowMode::kLocal});
   macro("macro, scatter 2", {.scatter = 2});
   macro("macro, balance", {.partition = PartitionMode::kBalanced});
-  macro("macro, all", {.shadows = ShadowMode::kHorizon, .partition = PartitionMode::kBalanced});
+  macro("macro, all", {.shadows = ShadowMode::kHorizon, .partition = PartitionMode::kAuto});
   add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
   return ways;
 }

@@ -142,6 +142,7 @@ std::string choices_text(const PreparedScene& scene) {
   std::string text = "scatter " + std::to_string(scene.grid.scatter) + ", " +
                      std::string(to_string(scene.shadows)) + " shadows, " +
                      std::string(to_string(scene.partition)) + " partition";
+  if (scene.has_replicas || scene.makes_copies) text += ", neighbours help";
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);
   }

@@ -92,6 +92,9 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     stats_.rays_taken_over += rays.size();
     link.has_offered = false;
     helped_.push_back({link.peer, std::move(rays)});
+    std::size_t held = rays_.size();
+    for (const Helped& h : helped_) held += h.rays.size();
+    stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, held);
     return;
   }
   const std::uint64_t outbox_before = outbox_rays_;

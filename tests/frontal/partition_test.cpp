@@ -15,7 +15,8 @@ TEST_CASE("boundaries are placed by the work where nothing is asked for") {
   CHECK(open.grid == balanced.grid);
   CHECK_FALSE(open.grid == regular.grid);
   CHECK(regular.partition == PartitionMode::kRegular);
-  CHECK(choices_text(open) == "scatter 1, horizon shadows, balanced partition");
+  CHECK(choices_text(open) == "scatter 1, horizon shadows, balanced partition, neighbours help");
+  CHECK(choices_text(balanced) == "scatter 1, horizon shadows, balanced partition");
 }
 
 TEST_CASE("no pre-render is made where it would not pay") {

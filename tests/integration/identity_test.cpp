@@ -153,7 +153,8 @@ TEST_CASE("with sums along the tree nodes send light to each other") {
 TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {
   Sandbox sandbox;
   const std::vector<std::string> way{scene_file("mirrors.json").string(), "--algorithm", "macro",
-                                     "--shadows", "forward", "--size", kSize};
+                                     "--shadows", "forward", "--partition", "regular",
+                                     "--size", kSize};
   const auto with = [&](std::string command, std::vector<std::string> more) {
     std::vector<std::string> arguments{std::move(command)};
     arguments.insert(arguments.end(), way.begin(), way.end());
