@@ -70,6 +70,8 @@ class Node {
   bool may_have_work() const;
   /// Evaluators that the job is to have; those of the node when there is none.
   std::uint32_t threads() const { return state_ == State::kNoJob ? id_.threads : load_.threads; }
+  /// Whether rays, primary ones included, or light of the picture are left here.
+  bool has_unfinished() const;
   bool has_job() const { return state_ != State::kNoJob; }
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return state_ == State::kRendering; }
@@ -153,6 +155,8 @@ class Node {
   control::Load load_;
   std::uint32_t job_ = 0, epoch_ = 0;
   std::optional<Bytes> unbuilt_slice_;
+  /// Of the model alone.
+  std::size_t slice_bytes_ = 0;
   std::shared_ptr<const Domain> domain_;
   double build_s_ = 0;
   bool is_ready_sent_ = false;

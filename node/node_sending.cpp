@@ -105,11 +105,14 @@ void Node::flush_on_idle() {
   pass_token();
 }
 
+bool Node::has_unfinished() const {
+  return !rays_.is_empty() || !helped_.empty() || !tiles_.empty() || open_tile_ || unassigned_tiles_ != 0 ||
+         !stalled_.empty() || rays_in_wait_ != 0 || !merge_.is_empty() ||
+         std::any_of(links_.begin(), links_.end(), [](const Link& l) { return !l.outbox.empty(); });
+}
+
 bool Node::is_passive() const {
-  return state_ == State::kRendering && rays_.is_empty() && tiles_.empty() && !open_tile_ &&
-         unassigned_tiles_ == 0 && working_ == 0 && merge_.is_empty() && stalled_.empty() &&
-         rays_in_wait_ == 0 && lent_.empty() && helped_.empty() &&
-         std::all_of(links_.begin(), links_.end(), [](const Link& l) { return l.outbox.empty(); });
+  return state_ == State::kRendering && working_ == 0 && lent_.empty() && !has_unfinished();
 }
 
 void Node::pass_token(bool is_pinged) {

@@ -14,6 +14,10 @@ namespace {
 /// trace, so that it takes many of them.
 constexpr std::size_t kTilesToShare = 2;
 constexpr std::size_t kRaysToShare = 1024;
+/// Before a neighbour has a copy it takes one more for so many bytes of the slice: to send and subdivide those costs
+/// about as much as to trace it.
+constexpr std::size_t kBytesPerTile = std::size_t{32} << 10;
+constexpr std::size_t kBytesPerRay = 32;
 /// Given away at a time: at most half of what there is.
 constexpr std::size_t kMostTilesAtATime = 16;
 constexpr std::size_t kMostRaysAtATime = 512;
@@ -71,13 +75,13 @@ void Node::on_offer(Link& link, Link::Offer offer) {
 void Node::share_work() {
   if (!load_.makes_copies) return;
   for (Link& link : links_) {
-    const bool has_much = tiles_.size() >= kTilesToShare || rays_.size() >= kRaysToShare;
-    if (link.offer == Link::Offer::kNone || !has_much) continue;
-    if (link.offer == Link::Offer::kIdleWithCopy) {
-      if (share_with(link)) link.offer = Link::Offer::kNone;
-    } else if (!std::exchange(link.has_asked, true)) {
-      send_control(control::Share{job_, epoch_, link.peer.value});
-    }
+    if (link.offer == Link::Offer::kIdleWithCopy && share_with(link)) link.offer = Link::Offer::kNone;
+    if (link.offer != Link::Offer::kIdle || link.has_asked) continue;
+    const bool pays = tiles_.size() >= kTilesToShare + slice_bytes_ / kBytesPerTile ||
+                      rays_.size() >= kRaysToShare + slice_bytes_ / kBytesPerRay;
+    if (!pays) continue;
+    link.has_asked = true;
+    send_control(control::Share{job_, epoch_, link.peer.value});
   }
 }
 

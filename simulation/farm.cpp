@@ -223,7 +223,7 @@ struct Farm::Turn {
   Rank rank;
   std::uint32_t incarnation = 0;
   std::optional<WorkResult> result;
-  bool is_build = false, is_borrowing = false, is_primary = false, is_woken = false;
+  bool is_build = false, is_borrowing = false, is_copying = false, is_primary = false, is_woken = false;
   double seconds = 0;
 };
 
@@ -256,7 +256,9 @@ double Farm::begin(Turn& turn) {
     if (!work) --p.active;
   });
   if (!work) return waking_s;
-  ++p.working;
+  // Copies are for rays to come; where none do, a copy may still be at work when the job is over.
+  turn.is_copying = std::holds_alternative<CopyWork>(work->what);
+  if (!turn.is_copying) ++p.working;
   PerUnit doings;
   turn.is_build = std::holds_alternative<BuildWork>(work->what);
   turn.is_primary = std::holds_alternative<TileWork>(work->what);
@@ -266,7 +268,6 @@ double Farm::begin(Turn& turn) {
     turn.is_borrowing = true;
     doings[Unit::kBuildByte] = static_cast<double>(l->slice.size());
   } else if (const auto* c = std::get_if<CopyWork>(&work->what)) {
-    turn.is_borrowing = true;
     doings[Unit::kBuildByte] = static_cast<double>(c->slice.size());
   } else if (const auto* r = std::get_if<RayWork>(&work->what)) {
     doings[Unit::kRay] = static_cast<double>(r->rays.size());
@@ -275,7 +276,7 @@ double Farm::begin(Turn& turn) {
   turn.result = processes_[turn.rank.value].bench->run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
   const Step& step = turn.result->step;
-  if (!turn.is_build && !turn.is_borrowing) doings[Unit::kPiece] = 1;
+  if (!turn.is_build && !turn.is_borrowing && !turn.is_copying) doings[Unit::kPiece] = 1;
   for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
   doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
   doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);
@@ -289,7 +290,7 @@ double Farm::begin(Turn& turn) {
 void Farm::end(Turn& turn) {
   if (!turn.result || !is_alive(turn.rank, turn.incarnation)) return;
   Process& p = processes_[turn.rank.value];
-  --p.working;
+  if (!turn.is_copying) --p.working;
   last_change_s_ = timeline_.now_s();
   if (!turn.is_build) p.busy_s += turn.seconds;
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();

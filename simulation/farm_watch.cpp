@@ -108,7 +108,7 @@ void Farm::check_quiet() {
   if (sums_under_way_ != 0) outcome_.violations.push_back("the token ended with light under way between nodes");
   for (const Process& p : processes_) {
     if (p.working != 0) outcome_.violations.push_back("the token ended with an evaluator at work");
-    if (p.node && p.node->wait_reason() != WaitReason::kIdle) {
+    if (p.node && p.node->has_unfinished()) {
       outcome_.violations.push_back("the token ended with a node that has work");
     }
   }
