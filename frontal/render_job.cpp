@@ -81,7 +81,8 @@ bool RenderJob::may_be_copied(Rank owner) const {
 
 const Bytes* RenderJob::slice_to_copy(Rank owner, Rank helper) {
   const auto bit = cube_.link_between(helper, owner);
-  if (!scene_.makes_copies || !bit || (copies_[helper.value] >> *bit & 1) != 0 || !has_room(helper, owner)) return nullptr;
+  if (!scene_.makes_copies || !bit || (copies_[helper.value] >> *bit & 1) != 0) return nullptr;
+  if (!has_room(helper, owner)) return nullptr;
   copies_[helper.value] |= 1u << *bit;
   held_bytes_[helper.value] += slice_bytes_[owner.value];
   return &scene_.slices[owner.value];

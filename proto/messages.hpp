@@ -514,12 +514,13 @@ struct Bye {
 
 using ControlMessage =
     std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
-                 control::Terminated, control::NodeReport, control::Pong,
-                 control::NodeError, control::WaitReport, control::Borrow, control::Share, control::Goodbye, control::Welcome,
-                 control::Load, control::Lend, control::Copy, control::Relieved, control::Prepare, control::Start, control::Finish, control::Ping,
-                 control::Shutdown, control::Submit, control::Status, control::List, control::Watch,
-                 control::Cancel, control::Nodes, control::Fetch, control::Down, control::Accepted,
-                 control::JobInfo, control::Jobs, control::Progress, control::NodeList,
-                 control::Done, control::Picture, control::Failed, control::Bye>;
+                 control::Terminated, control::NodeReport, control::Pong, control::NodeError,
+                 control::WaitReport, control::Borrow, control::Share, control::Goodbye,
+                 control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
+                 control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::Shutdown, control::Submit, control::Status, control::List,
+                 control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Down,
+                 control::Accepted, control::JobInfo, control::Jobs, control::Progress,
+                 control::NodeList, control::Done, control::Picture, control::Failed, control::Bye>;
 
 }  // namespace graycube

@@ -37,7 +37,8 @@ TEST_CASE("balanced boundaries are drawn together where the work is") {
 TEST_CASE("between mirrors the coarse render ends early, and has looked everywhere") {
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 96}, "max_depth": 120,
     "camera": {"type": "perspective", "eye": [0,0,-9], "look_at": [2,1,0], "up": [0,1,0], "fov": 60},
-    "lights": [{"type": "point", "color": [1,1,1], "position": [3,2,-8]}, {"type": "point", "color": [1,1,1], "position": [-3,2,-8]}],
+    "lights": [{"type": "point", "color": [1,1,1], "position": [3,2,-8]},
+               {"type": "point", "color": [1,1,1], "position": [-3,2,-8]}],
     "materials": {"mirror": {"reflect": 1}},
     "objects": [{"material": "mirror", "csg": {"type": "box", "min": [-40,-30,3], "max": [40,30,4]}},
                 {"material": "mirror", "csg": {"type": "box", "min": [-40,-30,-12], "max": [40,30,-11]}}]})");
