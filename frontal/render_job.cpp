@@ -106,7 +106,7 @@ control::Load RenderJob::load() const {
   m.makes_copies = scene_.makes_copies;
   m.sums = sums_;
   m.link_credit_bytes = limits_.link_credit_bytes;
-  m.window_tiles = is_roth() ? window(0) : limits_.window_tiles;
+  m.window_tiles = is_roth() ? window(ledger_.tile_count()) : limits_.window_tiles;
   m.batch_bytes = limits_.batch_bytes;
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
@@ -119,7 +119,11 @@ control::Load RenderJob::load() const {
 }
 
 std::uint32_t RenderJob::window(std::size_t left) const {
-  if (is_roth()) return kRothTilesPerThread * threads_;
+  if (is_roth()) {
+    const auto share = static_cast<std::uint32_t>(left / (std::size_t{kPartOfRothShare} * nodes_ * threads_));
+    const std::uint32_t most = scene_.grain == Grain::kTile ? kMostRothTilesPerThread : kRothTilesPerThread;
+    return std::clamp(share, kRothTilesPerThread, most) * threads_;
+  }
   const std::uint32_t most = limits_.window_tiles;
   if (!scene_.has_replicas) return most;
   const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
@@ -136,7 +140,7 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
   std::vector<std::uint32_t> tiles;
   std::uint32_t& open = open_[rank.value];
   if (is_roth()) {
-    while (open < window(0) && next_tile_ < ledger_.tile_count()) {
+    while (next_tile_ < ledger_.tile_count() && open < window(ledger_.tile_count() - next_tile_)) {
       tiles.push_back(next_tile_++);
       ++open;
     }

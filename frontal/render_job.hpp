@@ -23,8 +23,11 @@ struct FlowLimits {
   std::uint64_t link_credit_bytes = std::uint64_t{1} << 20;
   std::uint32_t batch_bytes = std::uint32_t{64} << 10;
 };
-/// The same per evaluator thread in `roth`.
+/// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,
+/// so that light comes in fewer messages; pixels and lines are handed out as in 1987.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
+inline constexpr std::uint32_t kMostRothTilesPerThread = 16;
+inline constexpr std::uint32_t kPartOfRothShare = 4;
 /// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and otherwise this part
 /// of those that are left: the fewer, the more of them can still be taken over.
 inline constexpr std::uint32_t kLeastTilesPerThread = 4;

@@ -8,13 +8,14 @@
 
 namespace graycube::testing {
 
-inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4) {
+inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4,
+                              Algorithm algorithm = Algorithm::kMacro) {
   const std::string text = write_scene_text(scene);
   PreparationWork work;
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   work.scene_text.assign(bytes, bytes + text.size());
   work.options = options;
-  work.options.algorithm = Algorithm::kMacro;
+  work.options.algorithm = algorithm;
   work.cube = *Hypercube::of_size(nodes);
   PreparationResult result = run(work);
   REQUIRE(result.scene);

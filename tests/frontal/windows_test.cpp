@@ -1,0 +1,39 @@
+// How many tiles nodes have open at a time in roth.
+#include <catch2/catch.hpp>
+
+#include "frontal/prepared.hpp"
+#include "frontal/render_job.hpp"
+#include "trace/corner_scene.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+constexpr std::uint32_t kNodes = 2, kThreads = 3;
+
+RenderJob roth_job(Grain grain, std::uint32_t side) {
+  Scene scene = corner_scene();
+  scene.settings.image = {side, side, 1};
+  PreparedScene cut = prepared(scene, {.grain = grain}, kNodes, Algorithm::kRoth);
+  return RenderJob(1, std::move(cut), *Hypercube::of_size(kNodes), kThreads);
+}
+
+}  // namespace
+
+TEST_CASE("roth hands out many tiles while many are left, and few towards the end") {
+  RenderJob many = roth_job(Grain::kTile, 1024);
+  CHECK(many.next_tiles(Rank{0}).size() == kMostRothTilesPerThread * kThreads);
+  CHECK(many.next_tiles(Rank{0}).empty());
+  CHECK(many.next_tiles(Rank{1}).size() == kMostRothTilesPerThread * kThreads);
+  RenderJob few = roth_job(Grain::kTile, 64);
+  CHECK(few.tiles() == 16);
+  CHECK(few.next_tiles(Rank{0}).size() == kRothTilesPerThread * kThreads);
+}
+
+TEST_CASE("roth hands out pixels and lines as in 1987") {
+  for (const Grain grain : {Grain::kPixel, Grain::kLine}) {
+    RenderJob job = roth_job(grain, 1024);
+    CHECK(job.next_tiles(Rank{0}).size() == kRothTilesPerThread * kThreads);
+  }
+}
