@@ -160,16 +160,16 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
   } else if (const auto* waits = std::get_if<control::WaitReport>(&message)) {
     watch_for_deadlock(rank, *waits);
   } else if (const auto* ready = std::get_if<control::Ready>(&message)) {
-    if (ready->job != render.id() || ready->epoch != render.epoch()) return;
+    if (!render.is_meant(*ready)) return;
     render.set_ready(rank);
     if (render.all_ready() && !running_->is_started) start_rendering();
   } else if (const auto* round = std::get_if<control::TokenRound>(&message)) {
-    if (round->job != render.id() || round->epoch != render.epoch()) return;
+    if (!render.is_meant(*round)) return;
     render.set_round(round->round, round->hops);
     running_->info.rounds = round->round;
     report_progress(true);
   } else if (const auto* end = std::get_if<control::Terminated>(&message)) {
-    if (end->job != render.id() || end->epoch != render.epoch()) return;
+    if (!render.is_meant(*end)) return;
     render.set_terminated(*end);
     render.set_round(end->rounds, end->hops);
     finish_when_complete();

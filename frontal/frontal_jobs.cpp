@@ -120,7 +120,7 @@ void Frontal::on_contributions(const Bytes& batch) {
 
 void Frontal::lend(Rank rank, const control::Borrow& m) {
   const RenderJob& render = *running_->render;
-  if (m.job != render.id() || m.epoch != render.epoch() || running_->is_finishing) return;
+  if (!render.is_meant(m) || running_->is_finishing) return;
   const Bytes* slice = render.slice_to_lend(m.rank);
   const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
   send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
@@ -128,16 +128,14 @@ void Frontal::lend(Rank rank, const control::Borrow& m) {
 
 void Frontal::share(Rank owner, const control::Share& m) {
   RenderJob& render = *running_->render;
-  const bool is_current = m.job == render.id() && m.epoch == render.epoch() && !running_->is_finishing;
-  if (!is_current || !options_.cube.has(Rank{m.rank})) return;
+  if (!render.is_meant(m) || running_->is_finishing || !options_.cube.has(Rank{m.rank})) return;
   const Bytes* slice = render.slice_to_copy(owner, Rank{m.rank});
   if (slice != nullptr) send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 
 void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
   const RenderJob& render = *running_->render;
-  const bool is_current = m.job == render.id() && m.epoch == render.epoch();
-  if (!running_->deadlocks || !is_current || running_->is_finishing) return;
+  if (!running_->deadlocks || !render.is_meant(m) || running_->is_finishing) return;
   const std::vector<Rank> cycle = running_->deadlocks->add(rank, m, pings_);
   if (cycle.empty()) return;
   std::string way;

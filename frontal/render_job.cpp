@@ -48,6 +48,8 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
   if (is_roth()) return;
   for (const Bytes& slice : scene_.slices) slice_bytes_.push_back(slice.size());
   held_bytes_ = slice_bytes_;
+  const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
+  room_bytes_ = std::max(kMostShares * all / nodes_, kSmallSlices);
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
     const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));
     own_tiles_.emplace_back(tiles.begin(), tiles.end());
@@ -67,9 +69,7 @@ const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
 }
 
 bool RenderJob::has_room(Rank helper, Rank owner) const {
-  const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
-  const std::uint64_t room = std::max(kMostShares * all / nodes_, kSmallSlices);
-  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= room;
+  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= room_bytes_;
 }
 
 bool RenderJob::may_be_copied(Rank owner) const {
@@ -196,7 +196,7 @@ std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& 
     return "a broken batch of contributions: " + std::string(to_string(*error));
   }
   const BatchStamp& s = std::get<BatchHeader>(result).stamp;
-  if (s.job != job_ || s.epoch != epoch_) return {};
+  if (!is_meant(s)) return {};
   if (s.sender >= nodes_ || s.sequence != batches_received_[s.sender]) {
     return "a batch of contributions from node " + std::to_string(s.sender) + " was lost";
   }

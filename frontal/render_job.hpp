@@ -46,6 +46,8 @@ class RenderJob {
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
+  /// Whether a node's message is about this job and epoch.
+  bool is_meant(const auto& message) const { return message.job == job_ && message.epoch == epoch_; }
   const PreparedScene& scene() const { return scene_; }
   SumsMode sums() const { return sums_; }
   /// The slice for a node; given away once the node has it.
@@ -120,6 +122,7 @@ class RenderJob {
   std::vector<std::uint32_t> open_, relief_;          // by rank
   std::vector<std::uint32_t> copies_;                 // by rank: bits of the neighbours whose slice it has
   std::vector<std::uint64_t> slice_bytes_, held_bytes_;  // by rank: of each slice; of what a node holds
+  std::uint64_t room_bytes_ = 0;                 // for slices, on each node
   std::uint32_t next_tile_ = 0;                  // roth: one queue for all
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;

@@ -31,6 +31,10 @@ concept Is = std::same_as<std::remove_const_t<Member>, T>;
 
 namespace control {
 
+/// Messages that name a node whose slice it is about.
+template <class M>
+concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
+
 inline constexpr FieldLimits kText{.length = kMaxTextBytes};
 inline constexpr FieldLimits kSeconds{.min = 0};
 inline constexpr FieldLimits kRankRange{.max = kMaxNodes - 1};
@@ -235,19 +239,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("sums", m.sums, kDefaulted);
 }
 
-void each_field(auto& visit, Is<Lend> auto& m) {
-  visit("job", m.job, at_least_one());
-  visit("epoch", m.epoch);
-  visit("rank", m.rank, kRankRange);
-}
-
-void each_field(auto& visit, Is<Copy> auto& m) {
-  visit("job", m.job, at_least_one());
-  visit("epoch", m.epoch);
-  visit("rank", m.rank, kRankRange);
-}
-
-void each_field(auto& visit, Is<Share> auto& m) {
+void each_field(auto& visit, IsAboutSlice auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);
   visit("rank", m.rank, kRankRange);

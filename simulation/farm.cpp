@@ -223,7 +223,7 @@ struct Farm::Turn {
   Rank rank;
   std::uint32_t incarnation = 0;
   std::optional<WorkResult> result;
-  bool is_build = false, is_borrowing = false, is_copying = false, is_primary = false, is_woken = false;
+  bool is_build = false, is_copying = false, is_primary = false, is_woken = false;
   double seconds = 0;
 };
 
@@ -262,21 +262,17 @@ double Farm::begin(Turn& turn) {
   PerUnit doings;
   turn.is_build = std::holds_alternative<BuildWork>(work->what);
   turn.is_primary = std::holds_alternative<TileWork>(work->what);
-  if (const auto* b = std::get_if<BuildWork>(&work->what)) {
-    doings[Unit::kBuildByte] = static_cast<double>(b->slice.size());
-  } else if (const auto* l = std::get_if<BorrowWork>(&work->what)) {
-    turn.is_borrowing = true;
-    doings[Unit::kBuildByte] = static_cast<double>(l->slice.size());
-  } else if (const auto* c = std::get_if<CopyWork>(&work->what)) {
-    doings[Unit::kBuildByte] = static_cast<double>(c->slice.size());
-  } else if (const auto* r = std::get_if<RayWork>(&work->what)) {
-    doings[Unit::kRay] = static_cast<double>(r->rays.size());
-  }
+  const auto* rays = std::get_if<RayWork>(&work->what);
+  if (rays != nullptr) doings[Unit::kRay] = static_cast<double>(rays->rays.size());
+  if (turn.is_primary || rays != nullptr) doings[Unit::kPiece] = 1;
+  const auto count_slice = [&](const auto& piece) {
+    if constexpr (requires { piece.slice; }) doings[Unit::kBuildByte] = static_cast<double>(piece.slice.size());
+  };
+  std::visit(count_slice, work->what);
   const double began_s = observe ? thread_cpu_seconds() : 0;
   turn.result = processes_[turn.rank.value].bench->run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
   const Step& step = turn.result->step;
-  if (!turn.is_build && !turn.is_borrowing && !turn.is_copying) doings[Unit::kPiece] = 1;
   for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
   doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
   doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);

@@ -13,8 +13,8 @@ namespace {
 const Hypercube kCube = *Hypercube::of_size(4);
 
 /// A job whose slices are that long; only their sizes matter here.
-RenderJob job_with_slices(const std::vector<std::size_t>& bytes, const control::JobOptions& options = {}) {
-  PreparedScene cut = prepared(corner_scene(), options);
+RenderJob job_with_slices(const std::vector<std::size_t>& bytes) {
+  PreparedScene cut = prepared(corner_scene(), {});
   for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i].resize(bytes[i]);
   return RenderJob(1, std::move(cut), kCube, 1);
 }
