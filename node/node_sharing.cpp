@@ -65,8 +65,9 @@ void Node::offer_help() {
   }
 }
 
+/// A neighbour without tiles may begin, and be idle, before this node has heard that the picture begins: its offer
+/// waits.
 void Node::on_offer(Link& link, Link::Offer offer) {
-  if (state_ != State::kRendering) return;
   link.offer = offer;
   share_work();
 }

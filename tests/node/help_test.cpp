@@ -46,10 +46,11 @@ std::vector<std::uint32_t> tiles_of(Rank rank) {
   return {tiles.begin(), tiles.end()};
 }
 
-/// One of four nodes, when a picture has begun.
+/// One of four nodes, when a picture has begun or is about to.
 class NodeAtWork {
  public:
-  explicit NodeAtWork(Rank rank) : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), rank_(rank), sent_(4, 0) {
+  explicit NodeAtWork(Rank rank, bool begins = true)
+      : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), rank_(rank), sent_(4, 0) {
     tell(control::Welcome{4, "test", {"ipc://a", "ipc://b", "ipc://c", "ipc://d"}, 1000});
     for (const Rank r : neighbours()) {
       node.on_neighbour(encode_signal({0, 0, r.value, kIncarnation, 0}, BatchType::kGreetingAck));
@@ -63,6 +64,11 @@ class NodeAtWork {
     load.makes_copies = true;
     tell(load, slice_of(rank));
     work();
+    node.take_outgoing();
+    if (begins) begin();
+  }
+
+  void begin() {
     tell(control::Start{1, 0, std::vector<std::uint32_t>(4, kIncarnation)});
     node.take_outgoing();
   }
@@ -169,6 +175,18 @@ TEST_CASE("a node with tiles left has its slice copied to a neighbour that is id
   // One offer, one gift.
   CHECK(Sent(owner.node).tiles.empty());
   CHECK(owner.work() == 2);
+}
+
+TEST_CASE("an offer that comes before the picture begins here is not forgotten") {
+  NodeAtWork owner(Rank{0}, false);
+  const Rank helper = owner.neighbours()[1];
+  owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdle));
+  CHECK(Sent(owner.node).wishes.empty());
+  owner.begin();
+  owner.assign(tiles_of(Rank{0}));
+  const Sent sent(owner.node);
+  REQUIRE(sent.wishes.size() == 1);
+  CHECK(sent.wishes.front() == control::Share{1, 0, helper.value});
 }
 
 TEST_CASE("an idle node says so once, and again with a copy; then it traces its neighbour's tiles") {
