@@ -26,6 +26,9 @@ TEST_CASE("roth hands out many tiles while many are left, and few towards the en
   CHECK(many.next_tiles(Rank{0}).size() == kMostRothTilesPerThread * kThreads);
   CHECK(many.next_tiles(Rank{0}).empty());
   CHECK(many.next_tiles(Rank{1}).size() == kMostRothTilesPerThread * kThreads);
+  // 256 tiles: 27 are 3 · ⌊(256 − 27) / (4 · 2 · 3)⌋.
+  RenderJob some = roth_job(Grain::kTile, 256);
+  CHECK(some.next_tiles(Rank{0}).size() == 27);
   RenderJob few = roth_job(Grain::kTile, 64);
   CHECK(few.tiles() == 16);
   CHECK(few.next_tiles(Rank{0}).size() == kRothTilesPerThread * kThreads);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <string>
 
 #include "scene/read_scene.hpp"
 #include "trace/corner_scene.hpp"
@@ -35,10 +36,14 @@ TEST_CASE("balanced boundaries are drawn together where the work is") {
 }
 
 TEST_CASE("between mirrors the coarse render ends early, and has looked everywhere") {
+  std::string lights;
+  for (int i = 0; i < 24; ++i) {
+    lights += std::string(i == 0 ? "" : ",") + R"({"type": "point", "color": [1,1,1], "position": [)" +
+              std::to_string(i - 12) + ",2,-8]}";
+  }
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 96}, "max_depth": 120,
     "camera": {"type": "perspective", "eye": [0,0,-9], "look_at": [2,1,0], "up": [0,1,0], "fov": 60},
-    "lights": [{"type": "point", "color": [1,1,1], "position": [3,2,-8]},
-               {"type": "point", "color": [1,1,1], "position": [-3,2,-8]}],
+    "lights": [)" + lights + R"(],
     "materials": {"mirror": {"reflect": 1}},
     "objects": [{"material": "mirror", "csg": {"type": "box", "min": [-40,-30,3], "max": [40,30,4]}},
                 {"material": "mirror", "csg": {"type": "box", "min": [-40,-30,-12], "max": [40,30,-11]}}]})");
