@@ -47,8 +47,9 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.depth = load_little<std::uint8_t>(at + 94);
   task.light = load_little<std::uint8_t>(at + 95);
   task.region = {load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98)};
-  if (kind >= kRayKinds) return false;
-  task.kind = static_cast<RayKind>(kind);
+  task.ends_at_horizon = (kind & kHorizonFlag) != 0;
+  task.kind = static_cast<RayKind>(kind & ~kHorizonFlag);
+  if (task.kind > RayKind::kRefraction || (task.ends_at_horizon && task.kind != RayKind::kShadow)) return false;
   const Vec3& d = task.ray.direction;
   // Written so that NaN fails every comparison.
   return is_finite(task.ray.origin) && std::fabs(dot(d, d) - 1) <= kDirectionTolerance &&
@@ -134,11 +135,13 @@ BatchResult peek_header(std::span<const std::byte> message) {
 
 BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
                         std::vector<RayTask>& rays) {
-  rays.clear();
   const std::byte* at = nullptr;
   const BatchResult result = open(message, limits, BatchType::kRays, at);
   const auto* h = std::get_if<BatchHeader>(&result);
-  if (h == nullptr) return result;
+  if (h == nullptr) {
+    rays.clear();
+    return result;
+  }
   if (!load_all(at, h->count, kRayBytes, limits, load_ray, rays)) return BatchError::kBadValue;
   return result;
 }

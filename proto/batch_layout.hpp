@@ -35,6 +35,9 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
   return {false, 0};
 }
 
+/// Beside a ray's kind: RayTask::ends_at_horizon.
+inline constexpr std::uint8_t kHorizonFlag = 4;
+
 constexpr std::size_t max_message_bytes(BatchType type) {
   return type == BatchType::kContributions ? kMaxContributionBatchBytes : kMaxBatchBytes;
 }

@@ -210,9 +210,9 @@ std::size_t LightHorizons::texel_of(const Vec3& direction) {
   for (int a = 1; a < 3; ++a) {
     if (std::fabs(direction[a]) > std::fabs(direction[axis])) axis = a;
   }
-  const double length = std::fabs(direction[axis]);
+  const double scale = 0.5 * kSide / std::fabs(direction[axis]);
   const auto index = [&](int a) {
-    const double at = (direction[a] / length + 1) * (0.5 * kSide);
+    const double at = direction[a] * scale + 0.5 * kSide;
     // Written so that NaN, which no unit vector gives, stays within the map.
     return at > 0 ? std::min(static_cast<std::size_t>(at), std::size_t{kSide - 1}) : std::size_t{0};
   };

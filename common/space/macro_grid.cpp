@@ -200,6 +200,34 @@ std::optional<RegionExit> MacroGrid::exit(RegionIndex region, const Ray& ray, do
   return RegionExit{first, region};
 }
 
+RayPacket::Mask MacroGrid::shorten_to_exits(RegionIndex region, RayPacket& packet,
+                                            std::span<RegionExit, RayPacket::kSize> exits) const {
+  const auto columns = columns_.cells[region.column].list(), rows = rows_.cells[region.row].list();
+  std::array<const Side*, kMostSides> sides;
+  std::size_t count = 0;
+  for (const Side& side : columns) sides[count++] = &side;
+  for (const Side& side : rows) sides[count++] = &side;
+  FirstPassages first;
+  find_first_passages({sides.data(), count}, eye_, packet, first);
+  RayPacket::Mask leaving = 0;
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    const double t = first.t[i];
+    if (!(t < packet.t1[i])) continue;
+    leaving |= RayPacket::Mask{1} << i;
+    packet.t1[i] = t;
+    exits[i] = {t, region};
+    const auto number = static_cast<std::size_t>(first.side[i]);
+    const Ray ray = packet.ray(i);
+    const Ray relative{ray.origin - eye_, ray.direction};
+    if (number < columns.size()) {
+      exits[i].next.column = columns_.next_of(*sides[number], relative, t);
+    } else {
+      exits[i].next.row = rows_.next_of(*sides[number], relative, t);
+    }
+  }
+  return leaving;
+}
+
 std::vector<RegionIndex> MacroGrid::neighbours_of(RegionIndex region) const {
   std::vector<RegionIndex> found;
   const auto add = [&](RegionIndex next) {

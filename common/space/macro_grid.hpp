@@ -14,6 +14,7 @@
 
 #include "geometry/aabb.hpp"
 #include "geometry/ray.hpp"
+#include "space/boundary.hpp"
 #include "space/camera.hpp"
 
 namespace graycube {
@@ -82,6 +83,10 @@ class MacroGrid {
   /// region; nothing when it stays for good. One plane at a time, columns before rows at equal
   /// parameters; visits of length zero are normal; each plane is passed at most once.
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const;
+  /// The same for rays in one region that have reached t0: bit i of the result tells that ray i leaves it before
+  /// t1[i], which is shortened to where, and exits[i] is set.
+  RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
+                                   std::span<RegionExit, RayPacket::kSize> exits) const;
   /// The regions other than `region` itself that a ray may enter next, each once.
   std::vector<RegionIndex> neighbours_of(RegionIndex region) const;
   /// False only when the grown column certainly misses the box (each half-space tested by itself). A region
@@ -108,26 +113,8 @@ class MacroGrid {
   }
 
  private:
-  /// Boundary f(q) = normal · q − offset, with q relative to the eye and |normal| = 1. Relative to
-  /// the eye, so that f is exactly 0 at the origin of every primary ray in perspective, where
-  /// offset is 0.
-  struct Plane {
-    Vec3 normal;
-    double offset = 0;
-    /// Rays whose |normal · direction| is not above it count as parallel to the plane.
-    double flat = 0;
-
-    double at(const Vec3& q) const { return dot(normal, q) - offset; }
-  };
-  /// One bounding half-space of a column or row, and where it leads.
-  struct Side {
-    Plane plane;
-    bool far = false;  // the half-space is f ≥ 0, else f < 0
-    /// Three columns only: from column 0 the root leads to column 1 in front of the eye and to
-    /// column 2 behind it; which, boundary 2 tells.
-    bool forks = false;
-    std::uint16_t next = 0;
-  };
+  using Plane = BoundaryPlane;
+  using Side = RegionSide;
   struct Cell {
     std::array<Side, 2> sides;
     std::size_t count = 0;

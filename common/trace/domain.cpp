@@ -110,11 +110,4 @@ std::optional<bool> Domain::pass_light_borrowed(RegionIndex region, const Ray& r
   return borrowed_[place]->tree->pass_light(ray, t0, t1, scratch.borrowed[place], light);
 }
 
-bool Domain::is_past_horizon(const RayTask& task) const {
-  if (!horizons_) return false;
-  // Crossings that count end a little before the light: the ray is at most this far from it.
-  const double left = task.t_max - task.t + 4e-9 * std::fmax(1.0, max_abs(task.ray.origin));
-  return left < horizons_->distance(task.light, -task.ray.direction);
-}
-
 }  // namespace graycube

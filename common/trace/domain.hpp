@@ -1,6 +1,7 @@
 // The part of space that one process renders: all of it (serial, roth), or macro-regions of the grid.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,8 +95,14 @@ class Domain {
   /// From here on only those of the grid's regions; not while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool borrows() const { return !borrowed_.empty(); }
-  /// Whether a shadow ray that has reached t = task.t surely meets nothing more on its way to its light.
-  bool is_past_horizon(const RayTask& task) const;
+  bool has_horizons() const { return horizons_ != nullptr; }
+  /// The parameter from which on a shadow ray surely meets nothing more on its way to its light, which it reaches
+  /// at t_max; has_horizons() only. Infinitely negative where there is nothing at all that way.
+  double horizon_end(std::size_t light, const Ray& ray, double t_max) const {
+    // Crossings that count end a little before the light: the ray is at most this far from it.
+    const double distance = t_max + 4e-9 * std::fmax(1.0, max_abs(ray.origin));
+    return distance - horizons_->distance(light, -ray.direction);
+  }
 
   /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
@@ -127,6 +134,13 @@ class Domain {
   std::optional<RegionExit> exit(const RayTask& task) const {
     if (!grid_ || is_replica_) return std::nullopt;
     return grid_->exit(task.region, task.ray, task.t);
+  }
+  /// The same for rays in one region: bit i of the result tells that ray i leaves it before t1[i], which is
+  /// shortened to where, and exits[i] is set.
+  RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
+                                   std::span<RegionExit, RayPacket::kSize> exits) const {
+    if (!grid_ || is_replica_) return 0;
+    return grid_->shorten_to_exits(region, packet, exits);
   }
   RegionIndex region_of_pixel(std::uint32_t x, std::uint32_t y) const {
     return grid_ ? grid_->region_of_pixel(x, y) : RegionIndex{};

@@ -1,7 +1,9 @@
 // A ray under way: what an evaluator consumes, what crosses a macro-region's boundary, what goes on the wire.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "geometry/ray.hpp"
 #include "geometry/vec.hpp"
@@ -17,7 +19,7 @@ struct RayTask {
   Ray ray;
   /// The parameter reached so far: crossings before it are behind the ray.
   double t = 0;
-  /// Shadow rays: crossings at or beyond it don't count. Infinity otherwise.
+  /// Shadow rays: there are no crossings at or beyond it, or they don't count. Infinity otherwise.
   double t_max = 0;
   /// The product of Kr and Kt from the root of the photometric tree; for a shadow ray the light that
   /// arrives if nothing opaque stands in the way.
@@ -33,8 +35,22 @@ struct RayTask {
   std::uint16_t light = 0;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
+  /// Shadow rays: t_max is where they reach the horizon of their light.
+  bool ends_at_horizon = false;
 
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
+
+/// Calls f(region, rays) for each run of rays that are in one region.
+template <typename F>
+void for_each_region(std::span<const RayTask> rays, F&& f) {
+  while (!rays.empty()) {
+    const RegionIndex region = rays.front().region;
+    std::size_t count = 1;
+    while (count < rays.size() && rays[count].region == region) ++count;
+    f(region, rays.first(count));
+    rays = rays.subspan(count);
+  }
+}
 
 }  // namespace graycube

@@ -52,6 +52,11 @@ class CreditSplit {
   std::size_t shadow_rays_, secondary_rays_;
 };
 
+/// Whether two rays may be traced in one wave.
+bool are_alike(const RayTask& a, const RayTask& b) {
+  return a.kind == b.kind && a.depth == b.depth && a.region == b.region;
+}
+
 /// A ray from `origin` that inherits pixel and generation.
 /// Written in place, number by number: a copy made on the way would wait for its parts to reach the cache.
 void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& direction,
@@ -125,17 +130,22 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Ste
 
 void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   while (!rays.empty()) {
+    wave_.clear();
     for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {
-      const OpenRay ray{task, static_cast<std::uint32_t>(open_.size()), 0};
+      if (!are_alike(task, rays.front())) break;
+      OpenRay& ray = wave_.emplace_back();
+      ray.task = task;
+      ray.slot = static_cast<std::uint32_t>(open_.size());
       open_pixel(task.pixel);
-      if (!domain_.holds(task.region)) {
-        finish_light_ray(ray, step);
-      } else {
-        (task.kind == RayKind::kShadow ? lights_ : viewing_).push_back(ray);
-      }
     }
-    rays = rays.subspan(open_.size());
-    trace_all(step);
+    const bool are_held = domain_.holds(rays.front().region);
+    rays = rays.subspan(wave_.size());
+    if (are_held) {
+      trace_wave(step);
+      trace_all(step);
+    } else {
+      for (const OpenRay& ray : wave_) finish_light_ray(ray, step);
+    }
     close_pixels(step);
   }
 }
@@ -143,14 +153,17 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
 /// Shadow rays first, then the youngest: the stacks stay short.
 void Evaluator::trace_all(Step& step) {
   while (!lights_.empty() || !viewing_.empty()) {
-    if (!lights_.empty()) {
-      take_wave(lights_);
-      in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_light_rays(rays, step); });
-    } else {
-      take_wave(viewing_);
-      in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_viewing_rays(rays, step); });
-      trace_sent_rays(step);
-    }
+    take_wave(lights_.empty() ? viewing_ : lights_);
+    trace_wave(step);
+  }
+}
+
+void Evaluator::trace_wave(Step& step) {
+  if (wave_.front().task.kind == RayKind::kShadow) {
+    in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_light_rays(rays, step); });
+  } else {
+    in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_viewing_rays(rays, step); });
+    trace_sent_rays(step);
   }
 }
 
@@ -168,8 +181,7 @@ void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   const RayTask& top = stack.back().task;
   std::size_t first = stack.size() - 1;
   while (first > 0 && stack.size() - first < kWaveRays) {
-    const RayTask& next = stack[first - 1].task;
-    if (next.kind != top.kind || next.depth != top.depth || next.region != top.region) break;
+    if (!are_alike(stack[first - 1].task, top)) break;
     --first;
   }
   wave_.assign(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
@@ -193,30 +205,23 @@ void Evaluator::trace_sent_rays(Step& step) {
 
 /// A ray that reached its region's boundary.
 void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
-  OpenRay next = ray;
-  next.task.t = exit.t;
-  next.task.region = exit.next;
-  if (domain_.holds(exit.next)) {
-    viewing_.push_back(next);
-  } else {
-    step.leaving.push_back(next.task);
-  }
+  const bool stays = domain_.holds(exit.next);
+  RayTask& next = stays ? viewing_.emplace_back(ray).task : step.leaving.emplace_back(ray.task);
+  next.t = exit.t;
+  next.region = exit.next;
 }
 
 /// A shadow ray that reached its region's boundary, with the light that is left of it.
-void Evaluator::go_on_to_light(OpenRay ray, const RegionExit& exit, Step& step) {
-  ray.task.t = exit.t;
-  ray.task.region = exit.next;
-  if (domain_.is_past_horizon(ray.task)) {
-    ++step.rays.skipped_by_horizon;
-    light_arrives(ray, step);
-  } else if (domain_.holds(exit.next)) {
-    lights_.push_back(ray);
-  } else if (domain_.borrows()) {
-    finish_light_ray(ray, step);
-  } else {
-    step.leaving.push_back(ray.task);
-  }
+void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step) {
+  const bool stays = domain_.holds(exit.next), waits = stays || domain_.borrows();
+  RayTask& next = waits ? lights_.emplace_back(ray).task : step.leaving.emplace_back(ray.task);
+  next.weight = light;
+  next.t = exit.t;
+  next.region = exit.next;
+  if (stays || !waits) return;
+  const OpenRay on_its_way = lights_.back();
+  lights_.pop_back();
+  finish_light_ray(on_its_way, step);
 }
 
 /// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own regions waits.
@@ -233,17 +238,15 @@ void Evaluator::finish_light_ray(const OpenRay& at_border, Step& step) {
       return;
     }
     if (!*passes) return open_[ray.slot].credit.add_power(task.credit_exponent);
-    if (arrives) return light_arrives(ray, step);
+    if (arrives) return light_arrives(ray, task.weight, step);
     task.t = exit->t;
     task.region = exit->next;
-    if (!domain_.is_past_horizon(task)) continue;
-    ++step.rays.skipped_by_horizon;
-    return light_arrives(ray, step);
   }
 }
 
-void Evaluator::light_arrives(const OpenRay& ray, Step& step) {
-  contribute(ray, ray.task.weight, step);
+void Evaluator::light_arrives(const OpenRay& ray, const Rgb& light, Step& step) {
+  if (ray.task.ends_at_horizon) ++step.rays.skipped_by_horizon;
+  contribute(ray, light, step);
   open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
@@ -251,29 +254,23 @@ void Evaluator::light_arrives(const OpenRay& ray, Step& step) {
 void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
-  RayPacket::Mask leaving = 0;
   std::array<Rgb, RayPacket::kSize> light;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    const auto exit = domain_.exit(task);
-    const bool leaves = exit && exit->t < task.t_max;
-    if (leaves) {
-      exits[i] = *exit;
-      leaving |= RayPacket::Mask{1} << i;
-    }
     light[i] = task.weight;
-    packet.add(task.ray, task.t, leaves ? exit->t : task.t_max);
+    packet.add(task.ray, task.t, task.t_max);
   }
+  const RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
   const RayPacket::Mask passing = domain_.pass_lights(packet, scratch_, light);
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    const OpenRay& ray = rays[i];
     if ((passing & leaving) >> i & 1) {
-      OpenRay dimmed = rays[i];
-      dimmed.task.weight = light[i];
-      go_on_to_light(dimmed, exits[i], step);
-      continue;
+      go_on_to_light(ray, light[i], exits[i], step);
+    } else if ((passing >> i & 1) != 0) {
+      light_arrives(ray, light[i], step);
+    } else {
+      open_[ray.slot].credit.add_power(ray.task.credit_exponent);
     }
-    if ((passing >> i & 1) != 0) contribute(rays[i], light[i], step);
-    open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);
   }
 }
 
@@ -281,16 +278,8 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
 void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
-  RayPacket::Mask leaving = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RayTask& task = rays[i].task;
-    const auto exit = domain_.exit(task);
-    if (exit) {
-      exits[i] = *exit;
-      leaving |= RayPacket::Mask{1} << i;
-    }
-    packet.add(task.ray, task.t, exit ? exit->t : kInf);
-  }
+  for (const OpenRay& ray : rays) packet.add(ray.task.ray, ray.task.t, kInf);
+  const RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
   std::array<Crossing, RayPacket::kSize> found;
   RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
   hits |= entries_behind(domain_, rays.front().task.kind, packet, scratch_, found);
@@ -393,7 +382,23 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
   sent.task.light = static_cast<std::uint16_t>(light);
+  if (domain_.has_horizons() && !goes_on_to_horizon(sent.task)) {
+    ++step.rays.skipped_by_horizon;
+    contribute(sent, weight, step);
+    shadow_[light].pop_back();
+    return;
+  }
   ++at.lights;
+}
+
+/// Shortens a shadow ray to where it reaches its light's horizon; false when it begins beyond that, where nothing can
+/// stand in its way.
+bool Evaluator::goes_on_to_horizon(RayTask& task) const {
+  const double end = domain_.horizon_end(task.light, task.ray, task.t_max);
+  if (!(end < task.t_max)) return true;
+  task.t_max = end;
+  task.ends_at_horizon = true;
+  return end > task.t;
 }
 
 /// Among what each surface sends out and its own contribution.

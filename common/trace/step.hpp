@@ -26,7 +26,7 @@ struct PixelReturn {
 /// Rays by kind, each counted where it is created (and so once).
 struct RayCounts {
   std::array<std::uint64_t, kRayKinds> created{};
-  /// Shadow rays answered by a light horizon, without a walk.
+  /// Shadow rays that ended at their light's horizon.
   std::uint64_t skipped_by_horizon = 0;
 
   void add(const RayCounts& o) {
@@ -93,19 +93,21 @@ class Evaluator {
   void trace_all(Step& step);
   void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, Step& step);
   void take_wave(std::vector<OpenRay>& stack);
+  void trace_wave(Step& step);
   template <typename Trace>
   static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
   void trace_sent_rays(Step& step);
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
   void go_on(const OpenRay& ray, const RegionExit& exit, Step& step);
-  void go_on_to_light(OpenRay ray, const RegionExit& exit, Step& step);
+  void go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step);
   void finish_light_ray(const OpenRay& ray, Step& step);
-  void light_arrives(const OpenRay& ray, Step& step);
+  void light_arrives(const OpenRay& ray, const Rgb& light, Step& step);
   void shade(const OpenRay& ray, const Crossing& hit, Step& step);
   void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
+  bool goes_on_to_horizon(RayTask& task) const;
   void share_credit();
   void open_pixel(std::uint32_t pixel);
   void contribute(const OpenRay& ray, const Rgb& light, Step& step);
