@@ -68,7 +68,7 @@ class LaneItem {
           continue;
         }
       }
-      scratch.counts.primitives_tested += static_cast<unsigned>(__builtin_popcount(wanted));
+      scratch.counts.count_test(literal.kind, static_cast<unsigned>(__builtin_popcount(wanted)));
       LaneInterval own;
       if (item.is_simple || crossings::has_lane_interval(literal.kind)) {
         own = lane_interval_of(literal, tree.model(), rays);

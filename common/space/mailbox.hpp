@@ -15,13 +15,21 @@ namespace graycube {
 struct WalkCounts {
   std::uint64_t cells_visited = 0;
   std::uint64_t primitives_tested = 0;
+  /// Those of them that took a quartic equation.
+  std::uint64_t quartics_solved = 0;
 
+  void count_test(PrimitiveKind kind, std::uint64_t rays = 1) {
+    primitives_tested += rays;
+    if (kind == PrimitiveKind::kTorus || kind == PrimitiveKind::kEllipticTorus) quartics_solved += rays;
+  }
   void add(const WalkCounts& o) {
     cells_visited += o.cells_visited;
     primitives_tested += o.primitives_tested;
+    quartics_solved += o.quartics_solved;
   }
   WalkCounts since(const WalkCounts& before) const {
-    return {cells_visited - before.cells_visited, primitives_tested - before.primitives_tested};
+    return {cells_visited - before.cells_visited, primitives_tested - before.primitives_tested,
+            quartics_solved - before.quartics_solved};
   }
 };
 
@@ -42,7 +50,7 @@ class Mailbox {
       e.ray = ray_;
       e.primitive = primitive;
       e.spans = spans_along(model.primitives[primitive], model.data(), ray);
-      ++counts.primitives_tested;
+      counts.count_test(model.primitives[primitive].kind);
     }
     return e.spans;
   }

@@ -148,7 +148,7 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
       intervals[i] = {csg::kInf, -csg::kInf};
       continue;
     }
-    ++scratch.counts.primitives_tested;
+    scratch.counts.count_test(literals[i].kind);
     crossings::interval_of(literals[i], *model_, ray, intervals[i]);
     const crossings::Ends& at = intervals[i];
     if (literals[i].is_inverted) {
@@ -194,7 +194,7 @@ bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ra
       if (confines) return true;
       continue;
     }
-    ++scratch.counts.primitives_tested;
+    scratch.counts.count_test(literal.kind);
     double first = csg::kInf;
     double last = -csg::kInf;
     crossings::each_interval(literal, *model_, ray, [&](double enter, double leave) {
@@ -242,7 +242,7 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
   double from = -csg::kInf;
   double to = csg::kInf;
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
-    ++scratch.counts.primitives_tested;
+    scratch.counts.count_test(literals[i].kind);
     const std::uint32_t primitive = literals[i].primitive;
     if (literals[i].kind == PrimitiveKind::kMesh) {
       crossings::gather(scratch.meshes.spans(*model_, primitive, ray.ray), i, t0, t1, events, before);

@@ -80,9 +80,11 @@ class CoarseTrace {
     work();
     const WalkCounts walk = evaluator_.walk_counts().since(before);
     const auto& created = step_.rays.created;
-    map_.at(at.column, at.row) +=
-        static_cast<double>(std::accumulate(created.begin(), created.end(), std::uint64_t{0}) +
-                            walk.primitives_tested);
+    const auto rays = std::accumulate(created.begin(), created.end(), std::uint64_t{0});
+    map_.at(at.column, at.row) += kCreatedCost * static_cast<double>(rays) +
+                                  kCellCost * static_cast<double>(walk.cells_visited) +
+                                  kQuarticCost * static_cast<double>(walk.quartics_solved) +
+                                  static_cast<double>(walk.primitives_tested);
     for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
     waiting_count_ += step_.leaving.size();
     step_.clear();

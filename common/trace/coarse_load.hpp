@@ -16,8 +16,14 @@ inline constexpr std::uint64_t kMostCoarsePixels = 16384;
 inline constexpr std::uint64_t kCoarseCrossingsPerPixel = 1;
 inline constexpr std::uint64_t kLeastCoarseCrossings = 100'000;
 
-/// By region of `grid`, what tracing a few evenly spread pixels took there: one for each ray created and each
-/// primitive tested, and `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
+/// What things cost beside a test of a primitive: a ray that is created and shaded, a cell that a packet visits, and
+/// what a test takes longer for a quartic. Fitted to the time that evaluators took on ten farms (ARCHITECTURE.md).
+inline constexpr double kCreatedCost = 6;
+inline constexpr double kCellCost = 2;
+inline constexpr double kQuarticCost = 20;
+
+/// By region of `grid`, what tracing a few evenly spread pixels took there, in tests of primitives, with
+/// `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
 LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
                     std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
 
