@@ -67,7 +67,7 @@ std::optional<Rank> Frontal::rank_of(const PeerId& peer) const {
   return found->second;
 }
 
-void Frontal::on_message(const PeerId& peer, const Message& message) {
+void Frontal::on_message(const PeerId& peer, const MessageView& message) {
   const auto rank = rank_of(peer);
   if (rank) nodes_[rank->value].last_heard_s = now_s_;
   if (looks_like_batch(message.frame)) {

@@ -63,7 +63,7 @@ class Frontal {
   /// Seconds on a clock that never goes back, and Unix time. Call before the events of that moment; also
   /// pings, notices silence and timeouts, and reports progress.
   void on_time(double now_s, double unix_s);
-  void on_message(const PeerId& peer, const Message& message);
+  void on_message(const PeerId& peer, const MessageView& message);
   /// A node's process has ended; `how` for people ("killed by signal 9").
   void on_node_exit(Rank rank, std::uint32_t incarnation, const std::string& how);
 
@@ -116,8 +116,8 @@ class Frontal {
   };
 
   // frontal_clients.cpp
-  void on_client(const PeerId& peer, const ControlMessage& message, const Message& raw);
-  void on_submit(const PeerId& peer, const control::Submit& m, const Bytes& scene);
+  void on_client(const PeerId& peer, const ControlMessage& message, const MessageView& raw);
+  void on_submit(const PeerId& peer, const control::Submit& m, std::span<const std::byte> scene);
   void on_watch(const PeerId& peer, std::uint32_t job);
   void on_cancel(const PeerId& peer, std::uint32_t job);
   void on_fetch(const PeerId& peer, const control::Fetch& m);
@@ -145,7 +145,7 @@ class Frontal {
   void load_when_possible();
   void start_rendering();
   void hand_out(Rank rank);
-  void on_contributions(const Bytes& batch);
+  void on_contributions(std::span<const std::byte> batch);
   void lend(Rank rank, const control::Borrow& m);
   void share(Rank owner, const control::Share& m);
   void watch_for_deadlock(Rank rank, const control::WaitReport& m);

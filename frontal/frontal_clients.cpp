@@ -13,7 +13,7 @@ constexpr double kProgressInterval_s = 0.1;
 
 }  // namespace
 
-void Frontal::on_client(const PeerId& peer, const ControlMessage& message, const Message& raw) {
+void Frontal::on_client(const PeerId& peer, const ControlMessage& message, const MessageView& raw) {
   if (const auto* submit = std::get_if<control::Submit>(&message)) {
     return on_submit(peer, *submit, raw.payload);
   }
@@ -42,7 +42,7 @@ void Frontal::refuse(const PeerId& peer, std::uint32_t job, FailureCode code, st
   send(peer, control::Failed{job, code, {{std::move(where), std::move(why)}}});
 }
 
-void Frontal::on_submit(const PeerId& peer, const control::Submit& m, const Bytes& scene) {
+void Frontal::on_submit(const PeerId& peer, const control::Submit& m, std::span<const std::byte> scene) {
   if (going_down_) return refuse(peer, 0, FailureCode::kBusy, "", "the farm is going down");
   if (queue_.size() >= kMaxQueuedJobs) {
     return refuse(peer, 0, FailureCode::kBusy, "",
@@ -63,8 +63,8 @@ void Frontal::on_submit(const PeerId& peer, const control::Submit& m, const Byte
   job.info.nodes = options_.cube.nodes();
   job.info.submitted_s = unix_s_;
   job.submitted_at_s = now_s_;
-  job.work = {job.info.job,   m.scene_name,  scene,
-              m.options,      options_.cube, options_.replica_bytes};
+  job.work = {job.info.job, m.scene_name,  Bytes(scene.begin(), scene.end()),
+              m.options,    options_.cube, options_.replica_bytes};
   send(peer, control::Accepted{job.info.job});
   queue_.push_back(std::move(job));
 }

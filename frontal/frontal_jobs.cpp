@@ -93,7 +93,7 @@ void Frontal::hand_out(Rank rank) {
       {nodes_[rank.value].peer, Message::of_batch(encode_assignment(stamp, tiles))});
 }
 
-void Frontal::on_contributions(const Bytes& batch) {
+void Frontal::on_contributions(std::span<const std::byte> batch) {
   if (!running_ || !running_->is_started || running_->is_finishing) return;
   const auto header = peek_header(batch);
   if (const auto* h = std::get_if<BatchHeader>(&header);

@@ -115,7 +115,7 @@ class FrontalProcess {
   }
 
   void flush() {
-    for (const Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, o.message);
+    for (Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, std::move(o.message));
     for (const Frontal::Spawn& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
     for (const Frontal::Spawn& s : frontal_.take_spawns()) {

@@ -183,7 +183,7 @@ std::vector<std::uint32_t> RenderJob::take_relief() {
   return std::exchange(relief_, std::vector<std::uint32_t>(nodes_, 0));
 }
 
-std::string RenderJob::add_contributions(const Bytes& batch, std::vector<Rank>& opened) {
+std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened) {
   BatchLimits limits;
   limits.pixel_count = (1 + kAovPlanes) * film_.pixel_count();
   limits.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());

@@ -20,8 +20,8 @@ struct FlowLimits {
   /// rays in the machine descend from them (design section 10).
   std::uint32_t window_tiles = 64;
   /// What may be under way on a link and in its receiver's inbox.
-  std::uint64_t link_credit_bytes = std::uint64_t{1} << 20;
-  std::uint32_t batch_bytes = std::uint32_t{64} << 10;
+  std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
+  std::uint32_t batch_bytes = std::uint32_t{256} << 10;
 };
 /// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,
 /// so that light comes in fewer messages; pixels and lines are handed out as in 1987.
@@ -66,7 +66,7 @@ class RenderJob {
   std::vector<std::uint32_t> next_tiles(Rank rank);
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The nodes whose
   /// windows opened are appended to `opened`.
-  std::string add_contributions(const Bytes& batch, std::vector<Rank>& opened);
+  std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
   /// How many of each node's tiles neighbours have traced and brought back since this was last asked.
   std::vector<std::uint32_t> take_relief();
   std::uint64_t next_assignment_sequence(Rank rank) { return assignments_sent_[rank.value]++; }

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
+#include "node/outbox.hpp"
 #include "topology/rank.hpp"
-#include "trace/ray_task.hpp"
 
 namespace graycube {
 
@@ -14,8 +13,7 @@ struct Link {
   Rank peer;
   bool is_greeted = false;
 
-  /// Rays that wait to be sent, oldest first.
-  std::vector<RayTask> outbox;
+  Outbox outbox;
   /// What may still be sent before the peer grants more, in bytes of ray records.
   std::uint64_t send_credit = 0;
   std::uint64_t next_sequence = 0;

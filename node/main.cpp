@@ -46,19 +46,19 @@ class Mailroom {
         return node_.is_shut_down();
       });
       // Outside the lock: evaluators never wait for a socket.
-      for (const Node::Outgoing& o : outgoing_) send(o);
+      for (Node::Outgoing& o : outgoing_) send(o);
       if (ended) return;
     }
   }
 
  private:
-  void send(const Node::Outgoing& o) {
-    if (!o.to) return frontal_.send(o.message);
+  void send(Node::Outgoing& o) {
+    if (!o.to) return frontal_.send(std::move(o.message));
     auto link = links_.find(*o.to);
     if (link == links_.end()) {
       link = links_.emplace(*o.to, Connection(context_, node_.endpoints()[o.to->value])).first;
     }
-    link->second.send(o.message);
+    link->second.send(std::move(o.message));
   }
 
   ZmqContext context_;

@@ -194,7 +194,7 @@ void Node::on_ping(const control::Ping& m) {
   send_control(report);
 }
 
-void Node::on_frontal_batch(const Bytes& batch) {
+void Node::on_frontal_batch(std::span<const std::byte> batch) {
   std::vector<std::uint32_t> tiles;
   const auto result = decode_assignment(batch, limits_, tiles);
   if (const auto* error = std::get_if<BatchError>(&result)) {

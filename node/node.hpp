@@ -60,7 +60,7 @@ class Node {
 
   void on_frontal(const Message& message);
   /// A batch from a neighbour's inbox link. The sender is read from it and checked.
-  void on_neighbour(const Bytes& batch);
+  void on_neighbour(std::span<const std::byte> batch);
 
   /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent goes out.
   std::optional<Work> take_work();
@@ -87,6 +87,9 @@ class Node {
   std::function<void(control::NodeStats&)> measure;
 
  private:
+  /// Of rays that came across no link, or whose credit is no matter any more.
+  static constexpr std::uint32_t kNoLink = 0xFFFFFFFF;
+
   enum class State : std::uint8_t { kNoJob, kBuilding, kReady, kRendering };
 
   void on_control(const Message& message);
@@ -98,9 +101,9 @@ class Node {
   void on_lend(const control::Lend& m, const Bytes& slice);
   void on_relieved(const control::Relieved& m);
   void on_ping(const control::Ping& m);
-  void on_frontal_batch(const Bytes& batch);
-  void on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header);
-  void on_sums(const Link& link, const Bytes& batch);
+  void on_frontal_batch(std::span<const std::byte> batch);
+  void on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch, const BatchHeader& header);
+  void on_sums(const Link& link, std::span<const std::byte> batch);
   void on_signal(Link& link, const BatchHeader& header);
   void drop(const char* what, std::string_view why);
 
@@ -117,7 +120,8 @@ class Node {
   std::optional<PixelRect> next_pixels();
   void absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<Rank> helped);
   void forward(const RayTask& ray);
-  void forward_across(std::uint32_t bit, const RayTask& ray);
+  void forward_across(std::uint32_t bit, std::span<const RayTask> rays);
+  void take_from(std::uint32_t bit, std::size_t rays);
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send_stalled();
   void wait_for_model(Rank owner, const RayTask& ray);
@@ -125,7 +129,9 @@ class Node {
   void send_batch(Link& link, std::span<const RayTask> rays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
-  void grant_credit(Link& link);
+  void grant_credit(Link& link, std::uint64_t least);
+  /// How much a node at work gives back at once.
+  std::uint64_t half_credit() const { return load_.link_credit_bytes / 2; }
   void flush_on_idle();
   void pass_token(bool is_pinged = false);
   bool is_passive() const;
@@ -133,12 +139,12 @@ class Node {
   // node_sharing.cpp
   void on_copy(const control::Copy& m, const Bytes& slice);
   void adopt_copy(WorkResult& result);
-  void leave_copy(const RayTask& ray, Rank owner);
+  void leave_copy(std::span<const RayTask> rays, Rank owner);
   void offer_help();
   void on_offer(Link& link, Link::Offer offer);
   void share_work();
   bool share_with(Link& link);
-  void on_tiles(Link& link, const Bytes& batch);
+  void on_tiles(Link& link, std::span<const std::byte> batch);
   void forget_rays();
 
   NodeIdentity id_;
@@ -167,6 +173,8 @@ class Node {
   /// Own tiles that the frontal has not handed out yet; `macro` only.
   std::uint64_t unassigned_tiles_ = 0;
   RayStore rays_;
+  /// The batch of rays that came last; here so that its memory serves the next.
+  std::vector<RayTask> received_;
   /// Flow blocking: the tile that is being traced pixel by pixel, and the rays of the evaluator that wait for
   /// room in the next node's queue, oldest first.
   std::optional<PixelRect> open_tile_;

@@ -7,7 +7,7 @@
 
 namespace graycube {
 
-void Node::on_neighbour(const Bytes& batch) {
+void Node::on_neighbour(std::span<const std::byte> batch) {
   const auto peeked = peek_header(batch);
   if (const auto* error = std::get_if<BatchError>(&peeked)) {
     return drop("batch", to_string(*error));
@@ -16,7 +16,7 @@ void Node::on_neighbour(const Bytes& batch) {
   if (!cube_) {
     // A neighbour may have heard the frontal's welcome first. Anything else is for a dead predecessor.
     const bool keep = header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
-    if (keep) early_greetings_.push_back(batch);
+    if (keep) early_greetings_.emplace_back(batch.begin(), batch.end());
     return;
   }
   const std::uint32_t bit = bit_of(Rank{header.stamp.sender});
@@ -64,8 +64,8 @@ void Node::on_neighbour(const Bytes& batch) {
   drop("batch", to_string(header.type));
 }
 
-void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const BatchHeader& header) {
-  std::vector<RayTask> rays;
+void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch, const BatchHeader& header) {
+  std::vector<RayTask>& rays = received_;
   const auto result = decode_rays(batch, limits_, rays);
   if (const auto* error = std::get_if<BatchError>(&result)) {
     // A broken batch can't be repaired, and what was in it is missing from the picture.
@@ -75,11 +75,12 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
   }
   // Or the sender's own, for whom this node is to trace them; or a neighbour's: what left a copy of another
   // neighbour's regions comes this way.
-  const auto is_senders = [&](const RayTask& r) { return owner_of(r.region) == link.peer; };
-  const bool is_help = !rays.empty() && is_senders(rays.front());
-  const bool is_due = std::all_of(rays.begin(), rays.end(), [&](const RayTask& r) {
-    if (is_help) return copies_[bit] != nullptr && is_senders(r);
-    return domain_->holds(r.region) || (load_.makes_copies && bit_of(owner_of(r.region)) < links_.size());
+  const auto is_senders = [&](RegionIndex region) { return owner_of(region) == link.peer; };
+  const bool is_help = !rays.empty() && is_senders(rays.front().region);
+  bool is_due = !is_help || copies_[bit] != nullptr;
+  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask>) {
+    const bool may_pass = load_.makes_copies && bit_of(owner_of(region)) < links_.size();
+    is_due = is_due && (is_help ? is_senders(region) : domain_->holds(region) || may_pass);
   });
   if (!is_due) {
     drop("rays", "for another macro-region");
@@ -98,25 +99,22 @@ void Node::on_rays(Link& link, std::uint32_t bit, const Bytes& batch, const Batc
     return;
   }
   const std::uint64_t outbox_before = outbox_rays_;
-  for (const RayTask& ray : rays) {
-    if (domain_->holds(ray.region)) {
-      rays_.add(ray, bit);
-    } else {
-      link.ungranted += kRayBytes;
-      forward(ray);
-    }
-  }
+  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
+    if (domain_->holds(region)) return rays_.add(run, bit);
+    link.ungranted += run.size() * kRayBytes;
+    forward_across(bit_of(owner_of(region)), run);
+  });
   stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
   share_work();
   if (outbox_rays_ == outbox_before) return;
   if (all_evaluators_wait()) return flush_on_idle();
   for (Link& l : links_) send_rays(l, false);
-  if (2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
+  grant_credit(link, half_credit());
 }
 
 /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody
 /// here is at work.
-void Node::on_sums(const Link& link, const Bytes& batch) {
+void Node::on_sums(const Link& link, std::span<const std::byte> batch) {
   BatchLimits limits = limits_;
   limits.pixel_count *= 1 + kAovPlanes;
   std::vector<TileCredit> credits;

@@ -9,8 +9,9 @@
 namespace graycube {
 namespace {
 
-/// A batch this small still goes out at once when its link is empty.
-constexpr std::size_t kLeastEagerRays = 32;
+/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most that part of the
+/// link's credit is out.
+constexpr std::size_t kEagerPart = 4, kQuietPart = 8;
 /// A batch may be slow while the token goes round quickly, so after so many white rounds with the same
 /// non-zero sum each further one waits for the frontal's next ping.
 constexpr std::uint32_t kFreeRounds = 1;
@@ -29,18 +30,17 @@ void Node::send_control(const ControlMessage& message) {
 /// the link, smaller ones.
 void Node::send_rays(Link& link, bool partial) {
   const std::size_t full = std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
-  std::size_t sent = 0;
   for (;;) {
-    const std::size_t waiting = link.outbox.size() - sent;
+    const std::size_t waiting = link.outbox.size();
     const std::size_t allowed = static_cast<std::size_t>(link.send_credit / kRayBytes);
     const std::size_t count = std::min({waiting, allowed, full});
-    const bool eager = link.send_credit == load_.link_credit_bytes && waiting >= kLeastEagerRays;
+    const std::uint64_t under_way = load_.link_credit_bytes - link.send_credit;
+    const bool eager = kQuietPart * under_way <= load_.link_credit_bytes && kEagerPart * waiting >= full;
     if (count == 0 || (count < full && !partial && !eager)) break;
-    send_batch(link, {link.outbox.data() + sent, count});
-    sent += count;
+    send_batch(link, link.outbox.oldest(count));
+    link.outbox.drop_oldest(count);
+    outbox_rays_ -= count;
   }
-  outbox_rays_ -= sent;
-  link.outbox.erase(link.outbox.begin(), link.outbox.begin() + static_cast<std::ptrdiff_t>(sent));
 }
 
 void Node::send_batch(Link& link, std::span<const RayTask> rays) {
@@ -67,8 +67,9 @@ void Node::send_stalled() {
   if (was_stalled && all_evaluators_wait()) flush_on_idle();
 }
 
-void Node::grant_credit(Link& link) {
-  if (link.ungranted == 0) return;
+/// Gives back what was taken from the inbox, when it is at least so many bytes.
+void Node::grant_credit(Link& link, std::uint64_t least) {
+  if (link.ungranted == 0 || link.ungranted < least) return;
   outgoing_.push_back({link.peer, Message::of_batch(encode_link_credit(stamp(link.next_sequence++),
                                                                        link.ungranted))});
   link.granted += link.ungranted;
@@ -98,7 +99,8 @@ void Node::flush_contributions() {
 void Node::flush_on_idle() {
   for (Link& link : links_) {
     send_rays(link, true);
-    grant_credit(link);
+    // Less is kept for the next time: the peer has enough left, and each grant is a message.
+    grant_credit(link, load_.link_credit_bytes / kQuietPart);
   }
   flush_contributions();
   offer_help();
@@ -108,7 +110,7 @@ void Node::flush_on_idle() {
 bool Node::has_unfinished() const {
   return !rays_.is_empty() || !helped_.empty() || !tiles_.empty() || open_tile_ || unassigned_tiles_ != 0 ||
          !stalled_.empty() || rays_in_wait_ != 0 || !merge_.is_empty() ||
-         std::any_of(links_.begin(), links_.end(), [](const Link& l) { return !l.outbox.empty(); });
+         std::any_of(links_.begin(), links_.end(), [](const Link& l) { return !l.outbox.is_empty(); });
 }
 
 bool Node::is_passive() const {

@@ -42,14 +42,13 @@ void Node::adopt_copy(WorkResult& result) {
   links_[bit].has_offered = false;
 }
 
-/// A ray leaves a neighbour's regions, of which this node holds a copy. It crosses the bit that it would have
+/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region. They cross the bit that it would have
 /// crossed from there: who is beyond is a neighbour of the node that it goes to, and sends it on. So the owner,
 /// which is busy, has no part in it.
-void Node::leave_copy(const RayTask& ray, Rank owner) {
-  const Rank next = owner_of(ray.region);
-  if (next == id_.rank) return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
-  const auto bit = cube_->link_between(owner, next);
-  forward_across(bit.value_or(static_cast<std::uint32_t>(links_.size())), ray);
+void Node::leave_copy(std::span<const RayTask> rays, Rank owner) {
+  const Rank next = owner_of(rays.front().region);
+  if (next == id_.rank) return rays_.add(rays, kNoLink);
+  forward_across(cube_->link_between(owner, next).value_or(kNoLink), rays);
 }
 
 /// Tells the neighbours that there is nothing to do here, each once until it has sent something.
@@ -102,15 +101,13 @@ bool Node::share_with(Link& link) {
   }
   const std::size_t most = std::min({rays_.size() / 2, kMostRaysAtATime, room});
   if (rays_.size() < kRaysToShare || most == 0) return false;
-  const std::vector<RayTask> rays = rays_.take(most, [&](std::uint32_t bit) {
-    if (bit < links_.size()) links_[bit].ungranted += kRayBytes;
-  });
+  const std::vector<RayTask> rays = rays_.take(most, [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
   send_batch(link, rays);
   return true;
 }
 
 /// A neighbour's tiles, to be traced here.
-void Node::on_tiles(Link& link, const Bytes& batch) {
+void Node::on_tiles(Link& link, std::span<const std::byte> batch) {
   std::vector<std::uint32_t> tiles;
   const auto result = decode_assignment(batch, limits_, tiles);
   const auto* error = std::get_if<BatchError>(&result);

@@ -40,12 +40,9 @@ std::optional<Work> Node::take_work() {
     lent_.pop_front();
   } else if (!rays_.is_empty()) {
     RayWork batch;
-    batch.rays = rays_.take(is_blocking() ? 1 : kMaxRaysPerWork, [&](std::uint32_t bit) {
-      if (bit < links_.size()) links_[bit].ungranted += kRayBytes;
-    });
-    for (Link& link : links_) {
-      if (is_blocking() || 2 * link.ungranted >= load_.link_credit_bytes) grant_credit(link);
-    }
+    batch.rays = rays_.take(is_blocking() ? 1 : kMaxRaysPerWork,
+                            [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
+    for (Link& link : links_) grant_credit(link, is_blocking() ? 1 : half_credit());
     work.what = std::move(batch);
   } else if (!helped_.empty()) {
     work.helped = helped_.front().owner;
@@ -64,6 +61,11 @@ std::optional<Work> Node::take_work() {
   }
   ++working_;
   return work;
+}
+
+/// Rays that came across a link are taken from the store: their credit is the peer's again.
+void Node::take_from(std::uint32_t bit, std::size_t rays) {
+  if (bit < links_.size()) links_[bit].ungranted += rays * kRayBytes;
 }
 
 /// Primary rays for an evaluator: a tile of them, or a pixel's where flow is blocking.
@@ -149,15 +151,17 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<R
   stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
-  for (const RayTask& ray : step.leaving) {
-    if (helped) {
-      leave_copy(ray, *helped);
-    } else if (ray.kind == RayKind::kShadow && load_.shadows == ShadowMode::kLocal) {
-      wait_for_model(owner_of(ray.region), ray);
-    } else {
-      forward(ray);
+  for_each_region(step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
+    if (helped) return leave_copy(rays, *helped);
+    if (load_.shadows != ShadowMode::kLocal) return forward_across(bit_of(owner_of(region)), rays);
+    for (const RayTask& ray : rays) {
+      if (ray.kind == RayKind::kShadow) {
+        wait_for_model(owner_of(region), ray);
+      } else {
+        forward(ray);
+      }
     }
-  }
+  });
   for (const Step::Lacking& l : step.lacking) {
     wait_for_model(owner_of(l.region), l.task);
   }
@@ -176,18 +180,21 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<R
   }
 }
 
-void Node::forward(const RayTask& ray) { forward_across(bit_of(owner_of(ray.region)), ray); }
+void Node::forward(const RayTask& ray) { forward_across(bit_of(owner_of(ray.region)), {&ray, 1}); }
 
-void Node::forward_across(std::uint32_t bit, const RayTask& ray) {
+void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
-  ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
+  for (const RayTask& ray : rays) {
+    ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
+  }
   if (is_blocking()) {
-    stalled_.push_back(ray);
+    stalled_.insert(stalled_.end(), rays.begin(), rays.end());
     stats_.outbox_peak = std::max<std::uint64_t>(stats_.outbox_peak, stalled_.size());
     return;
   }
-  links_[bit].outbox.push_back(ray);
-  stats_.outbox_peak = std::max(stats_.outbox_peak, ++outbox_rays_);
+  links_[bit].outbox.add(rays);
+  outbox_rays_ += rays.size();
+  stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
 }
 
 /// Shadows local: a shadow ray goes on when the model that it lacks is here, or, where there is no memory for
@@ -204,7 +211,7 @@ void Node::wait_for_model(Rank owner, const RayTask& ray) {
     }
   }
   switch (b.state) {
-    case Borrowed::State::kHeld: return rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
+    case Borrowed::State::kHeld: return rays_.add({&ray, 1}, kNoLink);
     case Borrowed::State::kRefused: return forward(ray);
     default: break;
   }
@@ -240,9 +247,7 @@ void Node::adopt_borrowed(WorkResult& result) {
   domain_ = domain_->with_borrowed(cube_->column_of(from), cube_->row_of(from),
                                    std::move(result.borrowed));
   rays_in_wait_ -= b.waiting.size();
-  for (const RayTask& ray : std::exchange(b.waiting, {})) {
-    rays_.add(ray, static_cast<std::uint32_t>(links_.size()));
-  }
+  rays_.add(std::exchange(b.waiting, {}), kNoLink);
 }
 
 WaitReason Node::wait_reason() const {

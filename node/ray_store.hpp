@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "trace/ray_task.hpp"
@@ -15,18 +16,25 @@ class RayStore {
  public:
   /// Whether rays are taken as they came. The store must be empty.
   void set_fifo(bool fifo) { is_fifo_ = fifo; }
-  /// `link`: the bit across which the ray came; its credit goes back there when the ray is taken.
-  void add(const RayTask& ray, std::uint32_t link) {
-    ++size_;
-    if (is_fifo_) return line_.push_back({ray, link});
-    const std::size_t c = depth_class(ray);
-    if (c >= classes_.size()) classes_.resize(c + 1);
-    classes_[c].rays.push_back(ray);
-    classes_[c].links.push_back(link);
-    if (c > deepest_) deepest_ = c;
+  /// `link`: the bit across which the rays came; their credit goes back there when they are taken.
+  void add(std::span<const RayTask> rays, std::uint32_t link) {
+    size_ += rays.size();
+    if (is_fifo_) {
+      for (const RayTask& ray : rays) line_.push_back({ray, link});
+      return;
+    }
+    while (!rays.empty()) {
+      const std::size_t c = class_of(rays.front());
+      std::size_t count = 1;
+      while (count < rays.size() && class_of(rays[count]) == c) ++count;
+      if (c >= classes_.size()) classes_.resize(c + 1);
+      classes_[c].add(rays.first(count), link);
+      deepest_ = std::max(deepest_, c);
+      rays = rays.subspan(count);
+    }
   }
 
-  /// Takes up to `most` of the deepest rays; `taken_from(link)` is called for each.
+  /// Takes up to `most` of the deepest rays; `taken_from(link, count)` tells whose they are.
   template <typename TakenFrom>
   std::vector<RayTask> take(std::size_t most, TakenFrom&& taken_from) {
     std::vector<RayTask> taken;
@@ -35,17 +43,12 @@ class RayStore {
     size_ -= most;
     while (is_fifo_ && taken.size() < most) {
       taken.push_back(line_.front().ray);
-      taken_from(line_.front().link);
+      taken_from(line_.front().link, std::size_t{1});
       line_.pop_front();
     }
     while (taken.size() < most) {
       while (classes_[deepest_].rays.empty()) --deepest_;
-      auto& [rays, links] = classes_[deepest_];
-      const auto last = static_cast<std::ptrdiff_t>(std::min(rays.size(), most - taken.size()));
-      taken.insert(taken.end(), rays.end() - last, rays.end());
-      rays.erase(rays.end() - last, rays.end());
-      std::for_each(links.end() - last, links.end(), taken_from);
-      links.erase(links.end() - last, links.end());
+      classes_[deepest_].take(std::min(classes_[deepest_].rays.size(), most - taken.size()), taken, taken_from);
     }
     return taken;
   }
@@ -60,18 +63,45 @@ class RayStore {
   }
 
  private:
-  /// Where each ray came from stands apart: rays are taken by the hundred, as a block.
+  /// Rays of one kind and generation, and where each run of them came from.
   struct Class {
+    struct Run {
+      std::uint32_t link;
+      std::size_t count;
+    };
     std::vector<RayTask> rays;
-    std::vector<std::uint32_t> links;
+    std::vector<Run> runs;
+
+    void add(std::span<const RayTask> more, std::uint32_t link) {
+      rays.insert(rays.end(), more.begin(), more.end());
+      if (runs.empty() || runs.back().link != link) runs.push_back({link, 0});
+      runs.back().count += more.size();
+    }
+    /// The last `count`.
+    template <typename TakenFrom>
+    void take(std::size_t count, std::vector<RayTask>& taken, TakenFrom& taken_from) {
+      const auto first = rays.end() - static_cast<std::ptrdiff_t>(count);
+      taken.insert(taken.end(), first, rays.end());
+      rays.erase(first, rays.end());
+      while (count > 0) {
+        Run& run = runs.back();
+        const std::size_t part = std::min(run.count, count);
+        taken_from(run.link, part);
+        count -= part;
+        run.count -= part;
+        if (run.count == 0) runs.pop_back();
+      }
+    }
   };
   struct Held {
     RayTask ray;
     std::uint32_t link;
   };
-  /// A shadow ray is a leaf of its tree: deeper than the rays of its generation.
-  static std::size_t depth_class(const RayTask& ray) {
-    return std::size_t{2} * ray.depth + (ray.kind == RayKind::kShadow ? 1 : 0);
+  /// A shadow ray is a leaf of its tree: deeper than the rays of its generation. Rays of one kind are traced
+  /// together.
+  static std::size_t class_of(const RayTask& ray) {
+    constexpr std::size_t kOrder[kRayKinds] = {0, 3, 1, 2};
+    return std::size_t{kRayKinds} * ray.depth + kOrder[static_cast<std::size_t>(ray.kind)];
   }
 
   std::vector<Class> classes_;

@@ -57,11 +57,10 @@ void echo(const std::string& endpoint) {
     while (auto m = inbox.receive()) {
       if (m->message.frame.size() == 1) return;
       sweep();
+      Bytes answer(m->message.frame.begin(), m->message.frame.end());
       const double cpu_s = process_cpu_seconds();
-      if (m->message.frame.size() == sizeof cpu_s) {
-        std::memcpy(m->message.frame.data(), &cpu_s, sizeof cpu_s);
-      }
-      inbox.send(m->peer, m->message);
+      if (answer.size() == sizeof cpu_s) std::memcpy(answer.data(), &cpu_s, sizeof cpu_s);
+      inbox.send(m->peer, Message::of_batch(std::move(answer)));
     }
   }
 }

@@ -29,4 +29,17 @@ struct Message {
   }
 };
 
+/// A message that somebody else holds.
+struct MessageView {
+  std::span<const std::byte> frame;
+  std::span<const std::byte> payload;
+
+  MessageView() = default;
+  MessageView(const Message& m) : frame(m.frame), payload(m.payload) {}
+
+  std::string_view text() const {
+    return {reinterpret_cast<const char*>(frame.data()), frame.size()};
+  }
+};
+
 }  // namespace graycube

@@ -25,41 +25,54 @@ void configure(zmq::socket_t& socket) {
   socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kMaxMessageBytes));
 }
 
-Bytes bytes_of(const zmq::message_t& m) {
-  const auto* data = static_cast<const std::byte*>(m.data());
-  return Bytes(data, data + m.size());
+std::span<const std::byte> bytes_of(const zmq::message_t& m) {
+  return {static_cast<const std::byte*>(m.data()), m.size()};
 }
 
-void send_frames(zmq::socket_t& socket, const Message& message) {
+Bytes copy_of(std::span<const std::byte> bytes) { return Bytes(bytes.begin(), bytes.end()); }
+
+/// Short frames are copied: cheaper than to hand them over.
+constexpr std::size_t kShortFrame = 512;
+
+/// A frame that ZeroMQ frees once it is sent, from a thread of its own.
+zmq::message_t frame_of(Bytes bytes) {
+  if (bytes.size() < kShortFrame) return {bytes.data(), bytes.size()};
+  auto owned = std::make_unique<Bytes>(std::move(bytes));
+  zmq::message_t frame(
+      owned->data(), owned->size(), [](void*, void* hint) { delete static_cast<Bytes*>(hint); }, owned.get());
+  // From here on the message owns it.
+  static_cast<void>(owned.release());
+  return frame;
+}
+
+void send_frames(zmq::socket_t& socket, Message message) {
   const bool has_payload = !message.payload.empty();
-  socket.send(zmq::buffer(message.frame.data(), message.frame.size()),
+  socket.send(frame_of(std::move(message.frame)),
               has_payload ? zmq::send_flags::sndmore : zmq::send_flags::none);
-  if (has_payload) {
-    socket.send(zmq::buffer(message.payload.data(), message.payload.size()), zmq::send_flags::none);
-  }
+  if (has_payload) socket.send(frame_of(std::move(message.payload)), zmq::send_flags::none);
 }
 
 /// All frames of a message that is waiting; none when none is. Signals don't end it.
-std::vector<zmq::message_t> receive_frames(zmq::socket_t& socket) {
-  std::vector<zmq::message_t> frames;
+void receive_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) {
+  frames.clear();
   for (;;) {
     zmq::message_t frame;
     try {
-      if (!socket.recv(frame, zmq::recv_flags::dontwait)) return frames;
+      if (!socket.recv(frame, zmq::recv_flags::dontwait)) return;
     } catch (const zmq::error_t& e) {
       if (e.num() == EINTR) continue;
       throw;
     }
     const bool more = frame.more();
     frames.push_back(std::move(frame));
-    if (!more) return frames;
+    if (!more) return;
   }
 }
 
 /// Frames from `first` on as a message: one or two of them, else nothing.
-std::optional<Message> message_of(const std::vector<zmq::message_t>& frames, std::size_t first) {
+std::optional<MessageView> message_of(const std::vector<zmq::message_t>& frames, std::size_t first) {
   if (frames.size() <= first || frames.size() > first + 2) return std::nullopt;
-  Message m;
+  MessageView m;
   m.frame = bytes_of(frames[first]);
   if (frames.size() == first + 2) m.payload = bytes_of(frames[first + 1]);
   return m;
@@ -106,10 +119,14 @@ Connection::Connection(ZmqContext& context, const std::string& endpoint)
 Connection::~Connection() = default;
 Connection::Connection(Connection&&) noexcept = default;
 
-void Connection::send(const Message& message) { send_frames(impl_->socket, message); }
+void Connection::send(Message message) { send_frames(impl_->socket, std::move(message)); }
 
 std::optional<Message> Connection::receive() {
-  return message_of(receive_frames(impl_->socket), 0);
+  std::vector<zmq::message_t> frames;
+  receive_frames(impl_->socket, frames);
+  const auto view = message_of(frames, 0);
+  if (!view) return std::nullopt;
+  return Message{copy_of(view->frame), copy_of(view->payload)};
 }
 
 std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {
@@ -130,6 +147,8 @@ struct Inbox::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::router) {}
   zmq::socket_t socket;
   std::string endpoint;
+  /// What was received last.
+  std::vector<zmq::message_t> frames;
 };
 
 Inbox::Inbox(ZmqContext& context, const std::string& endpoint)
@@ -149,18 +168,17 @@ Inbox::~Inbox() {
 
 std::optional<Inbox::Received> Inbox::receive() {
   for (;;) {
-    const auto frames = receive_frames(impl_->socket);
+    std::vector<zmq::message_t>& frames = impl_->frames;
+    receive_frames(impl_->socket, frames);
     if (frames.empty()) return std::nullopt;
     // Anything but one or two frames is not of this protocol.
-    if (auto message = message_of(frames, 1)) {
-      return Received{frames.front().to_string(), std::move(*message)};
-    }
+    if (const auto message = message_of(frames, 1)) return Received{frames.front().to_string(), *message};
   }
 }
 
-void Inbox::send(const std::string& peer, const Message& message) {
+void Inbox::send(const std::string& peer, Message message) {
   impl_->socket.send(zmq::buffer(peer), zmq::send_flags::sndmore);
-  send_frames(impl_->socket, message);
+  send_frames(impl_->socket, std::move(message));
 }
 
 const std::string& Inbox::endpoint() const { return impl_->endpoint; }

@@ -60,7 +60,7 @@ class Connection {
   ~Connection();
   Connection(Connection&&) noexcept;
   /// Never blocks; messages queue while the peer isn't there.
-  void send(const Message& message);
+  void send(Message message);
   /// Nothing when no message is waiting.
   std::optional<Message> receive();
   /// As receive, waiting for up to `timeout`.
@@ -80,11 +80,12 @@ class Inbox {
   ~Inbox();
   struct Received {
     std::string peer;
-    Message message;
+    /// Until the next call.
+    MessageView message;
   };
   std::optional<Received> receive();
   /// To a peer that has sent something before; dropped when it has gone.
-  void send(const std::string& peer, const Message& message);
+  void send(const std::string& peer, Message message);
   /// The endpoint bound, with the port that was picked.
   const std::string& endpoint() const;
   void* raw();
