@@ -31,6 +31,7 @@ RayTask some_ray(Random& random) {
   task.weight = random.rgb();
   task.pixel = static_cast<std::uint32_t>(random.below(4096));
   task.kind = static_cast<RayKind>(random.below(kRayKinds));
+  task.ends_at_horizon = task.kind == RayKind::kShadow && random.chance(2);
   task.credit_exponent = static_cast<std::uint8_t>(random.below(256));
   task.depth = static_cast<std::uint16_t>(random.below(10));
   task.light = static_cast<std::uint16_t>(random.below(64));
@@ -133,6 +134,9 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   CHECK(load_little<std::uint8_t>(at + 93) == 130);
   CHECK(load_little<std::uint16_t>(at + 94) == 0x0605);
   CHECK(load_little<std::uint16_t>(at + 96) == 0x0708);
+  task.kind = RayKind::kShadow;
+  task.ends_at_horizon = true;
+  CHECK(load_little<std::uint8_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 92) == 5);
   CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
 }
 
@@ -268,6 +272,11 @@ TEST_CASE("rays with values that no ray can have are refused") {
       {"weight is negative", [](RayTask& r) { r.weight.b = -1e-9; }},
       {"pixel is outside the picture", [](RayTask& r) { r.pixel = 4096; }},
       {"kind is unknown", [](RayTask& r) { r.kind = static_cast<RayKind>(4); }},
+      {"a mirrored ray has a horizon",
+       [](RayTask& r) {
+         r.kind = RayKind::kReflection;
+         r.ends_at_horizon = true;
+       }},
       {"depth is beyond the job's", [](RayTask& r) { r.depth = 10; }},
       {"there is no such light", [](RayTask& r) { r.light = 64; }},
       {"column is outside the grid", [](RayTask& r) { r.region.column = 4; }},

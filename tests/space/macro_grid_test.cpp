@@ -6,7 +6,10 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <string>
 #include <tuple>
+
+#include "geometry/simd.hpp"
 
 namespace graycube {
 namespace {
@@ -300,6 +303,49 @@ TEST_CASE("walks along rays in boundary planes and along the axes end") {
       CHECK(grid.may_touch(region, ray.at(t + 1), 0, 1e-9));
     }
   }
+}
+
+TEST_CASE("a packet's rays leave as each does by itself, with every instruction set") {
+  Dice dice(23);
+  std::size_t leaving = 0, staying = 0;
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    const CameraFrame frame = oblique_frame(projection);
+    for (const auto& [columns, rows] : kShapes) {
+      const MacroGrid grid = MacroGrid::regular(frame, columns, rows);
+      for (int i = 0; i < 40; ++i) {
+        const RegionIndex region = at(dice.below(columns), dice.below(rows));
+        RayPacket packet;
+        for (std::uint32_t n = 1 + dice.below(RayPacket::kSize); n > 0; --n) {
+          Ray ray{dice.point(15), dice.direction()};
+          // In a plane of boundaries, and through the eye, too.
+          if (dice.below(4) == 0) ray.origin = frame.eye;
+          if (dice.below(4) == 0) ray.direction = frame.forward;
+          packet.add(ray, dice.below(2) == 0 ? 0 : dice.between(0, 20),
+                     dice.below(2) == 0 ? kInf : dice.between(0, 30));
+        }
+        for (const std::string& name : simd_names()) {
+          REQUIRE(choose_simd(name));
+          RayPacket shortened = packet;
+          std::array<RegionExit, RayPacket::kSize> exits;
+          const RayPacket::Mask mask = grid.shorten_to_exits(region, shortened, exits);
+          for (std::size_t k = 0; k < packet.count; ++k) {
+            CAPTURE(name, columns, rows, region.column, region.row, k);
+            const auto exit = grid.exit(region, packet.ray(k), packet.t0[k]);
+            const bool leaves = exit && exit->t < packet.t1[k];
+            REQUIRE((mask >> k & 1) == leaves);
+            REQUIRE(shortened.t1[k] == (leaves ? exit->t : packet.t1[k]));
+            ++(leaves ? leaving : staying);
+            if (!leaves) continue;
+            REQUIRE(exits[k].t == exit->t);
+            REQUIRE(exits[k].next == exit->next);
+          }
+        }
+      }
+    }
+  }
+  choose_simd("best");
+  CHECK(leaving > 5000);
+  CHECK(staying > 5000);
 }
 
 TEST_CASE("a ray is handed on one plane at a time, columns before rows") {

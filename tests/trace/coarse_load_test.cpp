@@ -35,6 +35,22 @@ TEST_CASE("balanced boundaries are drawn together where the work is") {
   CHECK(heaviest(load, balanced_cuts(load, 4, 4)) < 0.95 * heaviest(load, even_cuts(load, 4, 4)));
 }
 
+TEST_CASE("a coarse render knows that tori take longer than balls") {
+  // One of either, each in its half of the picture and as wide; no light, so that nothing else is traced.
+  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64},
+    "camera": {"type": "orthographic", "eye": [0,0,-9], "look_at": [0,0,0], "up": [0,1,0], "width": 8},
+    "lights": [], "materials": {"m": {}},
+    "objects": [{"material": "m", "csg": {"type": "torus", "center": [-2,0,0], "axis": [0,0,1], "major": 1, "minor": 0.5}},
+                {"material": "m", "csg": {"type": "sphere", "center": [2,0,0], "radius": 1.5}}]})");
+  REQUIRE(read.scene);
+  const Model model = compile_scene(*read.scene);
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid = MacroGrid::regular(frame, 2, 1);
+  const LoadMap load = coarse_load(Domain(model), grid, nullptr, 0);
+  const std::uint32_t torus = grid.region_of_point({-2, 0, 0}).column;
+  CHECK(load.at(torus, 0) > 1.5 * load.at(1 - torus, 0));
+}
+
 TEST_CASE("between mirrors the coarse render ends early, and has looked everywhere") {
   std::string lights;
   for (int i = 0; i < 24; ++i) {
