@@ -81,13 +81,13 @@ bool load_contribution(const std::byte* at, const BatchLimits& limits, Contribut
 }
 
 /// Fills `records` with `count` records of `size` bytes; empties it when one of them is wrong.
-template <class Record>
+template <class Record, class Load>
 bool load_all(const std::byte* at, std::size_t count, std::size_t size, const BatchLimits& limits,
-              bool (*load)(const std::byte*, const BatchLimits&, Record&),
-              std::vector<Record>& records) {
-  records.resize(count);
-  for (Record& record : records) {
-    if (!load(at, limits, record)) [[unlikely]] {
+              Load&& load, std::vector<Record>& records) {
+  records.clear();
+  records.reserve(count);
+  while (records.size() < count) {
+    if (!load(at, limits, records.emplace_back())) [[unlikely]] {
       records.clear();
       return false;
     }

@@ -129,6 +129,8 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Ste
 }
 
 void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
+  step.leaving.reserve(step.leaving.size() + rays.size());
+  step.returns.reserve(step.returns.size() + rays.size());
   while (!rays.empty()) {
     wave_.clear();
     for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {

@@ -3,8 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "node/node.hpp"
-#include "proto/control.hpp"
+#include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
 #include "scene/compile_scene.hpp"
@@ -12,10 +11,11 @@
 #include "space/restrict.hpp"
 
 using namespace graycube;
+using namespace graycube::testing;
 
 namespace {
 
-constexpr std::uint32_t kIncarnation = 7, kSide = 64;
+constexpr std::uint32_t kSide = 64;
 const Hypercube kCube = *Hypercube::of_size(4);
 
 /// A mirror ball in the middle of four macro-regions of 32 × 32 pixels, each of four tiles.
@@ -46,59 +46,21 @@ std::vector<std::uint32_t> tiles_of(Rank rank) {
   return {tiles.begin(), tiles.end()};
 }
 
+control::Load load() {
+  control::Load m;
+  m.grid = {2, 2, 1, {kSide / 2}, {kSide / 2}};
+  m.tile_size = 16;
+  m.link_credit_bytes = 1 << 20;
+  m.window_tiles = 64;
+  m.makes_copies = true;
+  return m;
+}
+
 /// One of four nodes, when a picture has begun or is about to.
-class NodeAtWork {
- public:
-  explicit NodeAtWork(Rank rank, bool begins = true)
-      : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), rank_(rank), sent_(4, 0) {
-    tell(control::Welcome{4, "test", {"ipc://a", "ipc://b", "ipc://c", "ipc://d"}, 1000});
-    for (const Rank r : neighbours()) {
-      node.on_neighbour(encode_signal({0, 0, r.value, kIncarnation, 0}, BatchType::kGreetingAck));
-    }
-    control::Load load;
-    load.job = 1;
-    load.grid = {2, 2, 1, {kSide / 2}, {kSide / 2}};
-    load.tile_size = 16;
-    load.link_credit_bytes = 1 << 20;
-    load.window_tiles = 64;
-    load.makes_copies = true;
-    tell(load, slice_of(rank));
-    work();
-    node.take_outgoing();
+struct Worker : NodeAtWork {
+  explicit Worker(Rank rank, bool begins = true) : NodeAtWork(kCube, rank, load(), slice_of(rank)) {
     if (begins) begin();
   }
-
-  void begin() {
-    tell(control::Start{1, 0, std::vector<std::uint32_t>(4, kIncarnation)});
-    node.take_outgoing();
-  }
-
-  std::vector<Rank> neighbours() const { return {kCube.neighbour(rank_, 0), kCube.neighbour(rank_, 1)}; }
-  BatchStamp stamp_of(Rank sender) { return {1, 0, sender.value, kIncarnation, sent_[sender.value]++}; }
-
-  void tell(const ControlMessage& message, Bytes payload = {}) {
-    node.on_frontal(Message::of_text(encode(message), std::move(payload)));
-  }
-  void assign(const std::vector<std::uint32_t>& tiles) {
-    node.on_frontal(Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, assigned_++}, tiles)));
-  }
-  /// Does what there is to do; returns the number of pieces.
-  int work() {
-    int pieces = 0;
-    for (auto piece = node.take_work(); piece; piece = node.take_work()) {
-      node.give_result(bench_.run(*std::move(piece)));
-      ++pieces;
-    }
-    return pieces;
-  }
-
-  Node node;
-
- private:
-  Rank rank_;
-  std::vector<std::uint64_t> sent_;  // by sender
-  std::uint64_t assigned_ = 0;
-  Workbench bench_;
 };
 
 /// What a node sends, sorted.
@@ -152,8 +114,8 @@ RayTask ray_in(RegionIndex region) {
 }  // namespace
 
 TEST_CASE("a node with tiles left has its slice copied to a neighbour that is idle, and then gives it half of them") {
-  NodeAtWork owner(Rank{0});
-  const Rank helper = owner.neighbours()[1];
+  Worker owner(Rank{0});
+  const Rank helper = owner.neighbour(1);
   const auto own = tiles_of(Rank{0});
   REQUIRE(own.size() == 4);
   owner.assign(own);
@@ -178,8 +140,8 @@ TEST_CASE("a node with tiles left has its slice copied to a neighbour that is id
 }
 
 TEST_CASE("an offer that comes before the picture begins here is not forgotten") {
-  NodeAtWork owner(Rank{0}, false);
-  const Rank helper = owner.neighbours()[1];
+  Worker owner(Rank{0}, false);
+  const Rank helper = owner.neighbour(1);
   owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdle));
   CHECK(Sent(owner.node).wishes.empty());
   owner.begin();
@@ -190,8 +152,8 @@ TEST_CASE("an offer that comes before the picture begins here is not forgotten")
 }
 
 TEST_CASE("an idle node says so once, and again with a copy; then it traces its neighbour's tiles") {
-  NodeAtWork helper(Rank{0});
-  const Rank owner = helper.neighbours()[0];
+  Worker helper(Rank{0});
+  const Rank owner = helper.neighbour(0);
   helper.assign(tiles_of(Rank{0}));
   CHECK(helper.work() == 4);
   const Sent idle(helper.node);
@@ -223,8 +185,8 @@ TEST_CASE("an idle node says so once, and again with a copy; then it traces its 
 }
 
 TEST_CASE("an idle node gets rays of a neighbour's regions and traces them there") {
-  NodeAtWork helper(Rank{0});
-  const Rank owner = helper.neighbours()[1];
+  Worker helper(Rank{0});
+  const Rank owner = helper.neighbour(1);
   SECTION("with a copy") {
     helper.tell(control::Copy{1, 0, owner.value}, slice_of(owner));
     helper.work();
@@ -240,8 +202,8 @@ TEST_CASE("an idle node gets rays of a neighbour's regions and traces them there
 }
 
 TEST_CASE("rays for another neighbour are sent on, others refused") {
-  NodeAtWork between(Rank{0});
-  const Rank from = between.neighbours()[0], to = between.neighbours()[1];
+  Worker between(Rank{0});
+  const Rank from = between.neighbour(0), to = between.neighbour(1);
   SECTION("a neighbour's") {
     between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}));
     CHECK(between.work() == 0);
@@ -259,8 +221,8 @@ TEST_CASE("rays for another neighbour are sent on, others refused") {
 }
 
 TEST_CASE("tiles that a node can't trace are refused") {
-  NodeAtWork helper(Rank{0});
-  const Rank owner = helper.neighbours()[0], other = helper.neighbours()[1];
+  Worker helper(Rank{0});
+  const Rank owner = helper.neighbour(0), other = helper.neighbour(1);
   SECTION("without a copy") {
     helper.node.on_neighbour(encode_assignment(helper.stamp_of(owner), tiles_of(owner)));
     CHECK(Sent(helper.node).errors.size() == 1);

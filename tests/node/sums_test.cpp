@@ -1,17 +1,15 @@
 // A node in the tree of sums: what it does with the light that others send it.
 #include <catch2/catch.hpp>
 
-#include "node/node.hpp"
-#include "proto/control.hpp"
+#include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 
 using namespace graycube;
+using namespace graycube::testing;
 
 namespace {
-
-constexpr std::uint32_t kIncarnation = 7;
 
 Model one_ball() {
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 16, "height": 16},
@@ -22,52 +20,28 @@ Model one_ball() {
   return compile_scene(*read.scene);
 }
 
-/// One of two nodes, each of which has a tile, when a picture has begun.
-class NodeAtWork {
- public:
-  NodeAtWork(Rank rank, SumsMode sums) : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), rank_(rank) {
-    tell(control::Welcome{2, "test", {"ipc://a", "ipc://b"}, 1000});
-    node.on_neighbour(encode_signal(stamp(0), BatchType::kGreetingAck));
-    control::Load load;
-    load.job = 1;
-    load.grid = {2, 1, 1, {8}, {}};
-    load.tile_size = 16;
-    load.link_credit_bytes = 1 << 20;
-    load.window_tiles = 64;
-    load.sums = sums;
-    tell(load, encode_model(one_ball()));
-    do_work();
-    tell(control::Start{1, 0, {kIncarnation, kIncarnation}});
-    node.take_outgoing();
-  }
+control::Load load(SumsMode sums) {
+  control::Load m;
+  m.grid = {2, 1, 1, {8}, {}};
+  m.tile_size = 16;
+  m.link_credit_bytes = 1 << 20;
+  m.window_tiles = 64;
+  m.sums = sums;
+  return m;
+}
 
-  void tell(const ControlMessage& message, Bytes payload = {}) {
-    node.on_frontal(Message::of_text(encode(message), std::move(payload)));
-  }
-  void assign(std::uint32_t tile) {
-    node.on_frontal(Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, 0}, std::span(&tile, 1))));
+/// One of two nodes, each of which has a tile, when a picture has begun.
+struct Summer : NodeAtWork {
+  Summer(Rank rank, SumsMode sums) : NodeAtWork(*Hypercube::of_size(2), rank, load(sums), encode_model(one_ball())) {
+    begin();
   }
   /// Light that the other node sends, with half a ray's credit of the other tile.
   void receive(std::uint32_t pixel, const FixedRgb& light) {
     TileCredit credit{1, {}};
     credit.credit.add_power(1);
     const Contribution c{pixel, light};
-    node.on_neighbour(encode_contributions(stamp(sequence_++), std::span(&credit, 1), std::span(&c, 1)));
+    node.on_neighbour(encode_contributions(stamp_of(neighbour(0)), std::span(&credit, 1), std::span(&c, 1)));
   }
-  void do_work() {
-    auto work = node.take_work();
-    REQUIRE(work);
-    node.give_result(bench_.run(*std::move(work)));
-  }
-
-  Node node;
-
- private:
-  BatchStamp stamp(std::uint64_t sequence) const { return {1, 0, 1 - rank_.value, kIncarnation, sequence}; }
-
-  Rank rank_;
-  std::uint64_t sequence_ = 0;
-  Workbench bench_;
 };
 
 /// The one batch of contributions among what a node sends; to the frontal or to that rank.
@@ -110,7 +84,7 @@ bool is_refused(Node& node) {
 }  // namespace
 
 TEST_CASE("a node that has nothing to do sends its child's light on at once, all of it as one batch") {
-  NodeAtWork root(Rank{0}, SumsMode::kTree);
+  Summer root(Rank{0}, SumsMode::kTree);
   root.receive(9, {1, 2, 3});
   root.receive(9, {10, 20, 30});
   const SentLight sent(root.node.take_outgoing(), std::nullopt);
@@ -122,8 +96,8 @@ TEST_CASE("a node that has nothing to do sends its child's light on at once, all
 }
 
 TEST_CASE("light that comes while an evaluator is at work goes on with the node's own") {
-  NodeAtWork root(Rank{0}, SumsMode::kTree);
-  root.assign(0);
+  Summer root(Rank{0}, SumsMode::kTree);
+  root.assign({0});
   auto work = root.node.take_work();
   REQUIRE(work);
   root.receive(0, {1, 2, 3});
@@ -139,22 +113,22 @@ TEST_CASE("light that comes while an evaluator is at work goes on with the node'
 }
 
 TEST_CASE("a node sends its own light to its parent, in the order of the link's other batches") {
-  NodeAtWork leaf(Rank{1}, SumsMode::kTree);
-  leaf.assign(1);
-  leaf.do_work();
+  Summer leaf(Rank{1}, SumsMode::kTree);
+  leaf.assign({1});
+  CHECK(leaf.work_once());
   CHECK_FALSE(leaf.node.take_work());
   const SentLight sent(leaf.node.take_outgoing(), Rank{0});
   CHECK(sent.of(15) == FixedRgb{1ll << 32, 1ll << 31, 1ll << 30});
 }
 
 TEST_CASE("contributions from anybody but a child are an error, and so are all where sums are direct") {
-  NodeAtWork leaf(Rank{1}, SumsMode::kTree);
+  Summer leaf(Rank{1}, SumsMode::kTree);
   leaf.receive(9, {1, 2, 3});
   CHECK(is_refused(leaf.node));
-  NodeAtWork direct(Rank{0}, SumsMode::kDirect);
+  Summer direct(Rank{0}, SumsMode::kDirect);
   direct.receive(9, {1, 2, 3});
   CHECK(is_refused(direct.node));
-  NodeAtWork root(Rank{0}, SumsMode::kTree);
+  Summer root(Rank{0}, SumsMode::kTree);
   root.receive(4 * 256, {1, 2, 3});  // beyond the AOVs' slots
   CHECK(is_refused(root.node));
 }
