@@ -46,20 +46,12 @@ class CoarseTrace {
     }
   }
 
-  /// Traces what has left its region, the fullest region first, until nothing is left.
+  /// Traces what has left its region, region by region to and fro, until nothing is left: what goes the same way
+  /// gathers on it.
   void finish() {
-    for (;;) {
-      const auto most = std::max_element(
-          waiting_.begin(), waiting_.end(),
-          [](const auto& a, const auto& b) { return a.size() < b.size(); });
-      if (most->empty()) return;
-      taken_.swap(*most);
-      const RegionIndex at = taken_.front().region;
-      crossings_ += taken_.size();
-      waiting_count_ -= taken_.size();
-      map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
-      trace(at, [&] { evaluator_.trace_rays(taken_, step_); });
-      taken_.clear();
+    const std::size_t last = waiting_.size() - 1;
+    for (bool forth = true; waiting_count_ > 0; forth = !forth) {
+      for (std::size_t i = 0; i <= last; ++i) trace_waiting(waiting_[forth ? i : last - i]);
     }
   }
   bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
@@ -69,6 +61,16 @@ class CoarseTrace {
   const LoadMap& map() const { return map_; }
 
  private:
+  void trace_waiting(std::vector<RayTask>& rays) {
+    if (rays.empty()) return;
+    taken_.swap(rays);
+    const RegionIndex at = taken_.front().region;
+    crossings_ += taken_.size();
+    waiting_count_ -= taken_.size();
+    map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
+    trace(at, [&] { evaluator_.trace_rays(taken_, step_); });
+    taken_.clear();
+  }
   std::size_t index_of(RegionIndex r) const {
     return std::size_t{r.row} * grid_.columns() + r.column;
   }
