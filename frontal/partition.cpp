@@ -38,15 +38,16 @@ Partition partition_of(const Model& model, const Hypercube& cube, std::uint32_t 
   const bool too_costly = wanted == PartitionMode::kAuto &&
                           primary_rays(image) < kPrimaryRaysPerPrimitive * model.primitives.size();
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
-    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows)};
+    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  const LoadMap load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
-  const RectilinearCuts cuts = balanced_cuts(load, columns, rows);
+  const CoarseLoad load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
+  const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
   for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
-  return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges))};
+  return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges)),
+          load.rays_per_primary};
 }
 
 }  // namespace graycube

@@ -16,6 +16,8 @@ struct Partition {
   /// What was picked: never kAuto.
   PartitionMode mode = PartitionMode::kRegular;
   MacroGrid grid;
+  /// As CoarseLoad says; 0 where there was no pre-render.
+  double rays_per_primary = 0;
 };
 
 /// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse

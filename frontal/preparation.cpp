@@ -99,6 +99,7 @@ void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScen
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
   out.partition = cut.mode;
+  out.rays_per_primary = cut.rays_per_primary;
   out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};
   out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid);
   if (out.has_replicas) {

@@ -49,6 +49,8 @@ struct PreparedScene {
   bool has_replicas = false;
   /// In `macro`: nodes that run dry may get copies of their neighbours' slices, to help them.
   bool makes_copies = false;
+  /// The rays that descend from a primary ray, itself included, on average; 0 where nothing tells.
+  double rays_per_primary = 0;
   double load_s = 0, partition_s = 0;
 };
 

@@ -106,7 +106,7 @@ control::Load RenderJob::load() const {
   m.makes_copies = scene_.makes_copies;
   m.sums = sums_;
   m.link_credit_bytes = limits_.link_credit_bytes;
-  m.window_tiles = is_roth() ? window(ledger_.tile_count()) : limits_.window_tiles;
+  m.window_tiles = is_roth() ? window(ledger_.tile_count()) : most_open_tiles();
   m.batch_bytes = limits_.batch_bytes;
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
@@ -118,13 +118,22 @@ control::Load RenderJob::load() const {
   return m;
 }
 
+std::uint32_t RenderJob::most_open_tiles() const {
+  const ImageSize& image = scene_.settings.image;
+  const double primaries = static_cast<double>(image.width) * image.height * image.samples * image.samples;
+  const double rays_per_tile = scene_.rays_per_primary * primaries / static_cast<double>(ledger_.tile_count());
+  const double fitting = rays_per_tile > 0 ? limits_.window_rays / rays_per_tile : limits_.window_tiles;
+  const std::uint32_t least = std::min(limits_.least_window_tiles, limits_.window_tiles);
+  return static_cast<std::uint32_t>(std::clamp<double>(fitting, least, limits_.window_tiles));
+}
+
 std::uint32_t RenderJob::window(std::size_t left) const {
   if (is_roth()) {
     const auto share = static_cast<std::uint32_t>(left / (std::size_t{kPartOfRothShare} * nodes_ * threads_));
     const std::uint32_t most = scene_.grain == Grain::kTile ? kMostRothTilesPerThread : kRothTilesPerThread;
     return std::clamp(share, kRothTilesPerThread, most) * threads_;
   }
-  const std::uint32_t most = limits_.window_tiles;
+  const std::uint32_t most = most_open_tiles();
   if (!scene_.has_replicas) return most;
   const auto part = static_cast<std::uint32_t>(left / kPartOfTilesLeft);
   return std::clamp(part, std::min(kLeastTilesPerThread * threads_, most), most);

@@ -19,6 +19,9 @@ struct FlowLimits {
   /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all their light. All
   /// rays in the machine descend from them (design section 10).
   std::uint32_t window_tiles = 64;
+  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not fewer than the least.
+  double window_rays = 300'000;
+  std::uint32_t least_window_tiles = 8;
   /// What may be under way on a link and in its receiver's inbox.
   std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
   std::uint32_t batch_bytes = std::uint32_t{256} << 10;
@@ -102,7 +105,9 @@ class RenderJob {
   /// Whether any neighbour ever can have a copy of a node's slice.
   bool may_be_copied(Rank owner) const;
   bool all_batches_in() const;
-  /// Tiles that a node may have open at a time, when so many are left of those that it takes from.
+  /// Tiles that a node may have open at a time in `macro`, at most.
+  std::uint32_t most_open_tiles() const;
+  /// The same, when so many are left of those that it takes from.
   std::uint32_t window(std::size_t left) const;
   Rank owner_of(std::uint32_t tile) const;
   /// The tiles of the neighbour that has most left, where a node that has none left may help.

@@ -1,6 +1,7 @@
 #include "trace/coarse_load.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -59,6 +60,11 @@ class CoarseTrace {
   /// So far, of the rays that do not wait.
   std::uint64_t crossings() const { return crossings_; }
   const LoadMap& map() const { return map_; }
+  double rays_per_primary() const {
+    const auto all = std::accumulate(created_.begin(), created_.end(), std::uint64_t{0});
+    const std::uint64_t primary = created_[static_cast<std::size_t>(RayKind::kPrimary)];
+    return primary > 0 ? static_cast<double>(all) / static_cast<double>(primary) : 0;
+  }
 
  private:
   void trace_waiting(std::vector<RayTask>& rays) {
@@ -83,6 +89,7 @@ class CoarseTrace {
     const WalkCounts walk = evaluator_.walk_counts().since(before);
     const auto& created = step_.rays.created;
     const auto rays = std::accumulate(created.begin(), created.end(), std::uint64_t{0});
+    for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
     map_.at(at.column, at.row) += kCreatedCost * static_cast<double>(rays) +
                                   kCellCost * static_cast<double>(walk.cells_visited) +
                                   kQuarticCost * static_cast<double>(walk.quartics_solved) +
@@ -103,6 +110,7 @@ class CoarseTrace {
   std::size_t waiting_count_ = 0;
   std::vector<RayTask> taken_;
   std::uint64_t crossings_ = 0;
+  std::array<std::uint64_t, kRayKinds> created_{};  // by kind
   Step step_;
 };
 
@@ -116,7 +124,7 @@ std::uint32_t spreading_step(std::uint32_t count) {
 
 }  // namespace
 
-LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
                     std::shared_ptr<const LightHorizons> horizons, double crossing_cost) {
   CoarseTrace trace(whole, grid, std::move(horizons), crossing_cost);
   const ImageSize& image = whole.settings().image;
@@ -140,7 +148,7 @@ LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
     at = (at + stride) % count;
   }
   trace.finish();
-  return trace.map();
+  return {trace.map(), trace.rays_per_primary()};
 }
 
 }  // namespace graycube

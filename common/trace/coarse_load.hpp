@@ -22,9 +22,15 @@ inline constexpr double kCreatedCost = 6;
 inline constexpr double kCellCost = 2;
 inline constexpr double kQuarticCost = 20;
 
-/// By region of `grid`, what tracing a few evenly spread pixels took there, in tests of primitives, with
-/// `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
-LoadMap coarse_load(const Domain& whole, const MacroGrid& grid,
+struct CoarseLoad {
+  /// By region, what tracing a few evenly spread pixels took there, in tests of primitives.
+  LoadMap map;
+  /// The rays that descend from a primary ray, itself included, on average.
+  double rays_per_primary;
+};
+
+/// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
                     std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
 
 }  // namespace graycube

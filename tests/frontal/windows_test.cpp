@@ -1,4 +1,4 @@
-// How many tiles nodes have open at a time in roth.
+// How many tiles nodes have open at a time.
 #include <catch2/catch.hpp>
 
 #include "frontal/prepared.hpp"
@@ -32,6 +32,25 @@ TEST_CASE("roth hands out many tiles while many are left, and few towards the en
   RenderJob few = roth_job(Grain::kTile, 64);
   CHECK(few.tiles() == 16);
   CHECK(few.next_tiles(Rank{0}).size() == kRothTilesPerThread * kThreads);
+}
+
+TEST_CASE("in macro windows shrink where many rays descend from a pixel") {
+  const auto job = [](Scene scene, FlowLimits limits) {
+    scene.settings.image = {1024, 1024, 1};
+    return RenderJob(1, prepared(scene, {}, kNodes), *Hypercube::of_size(kNodes), 1, limits);
+  };
+  const Scene plain = corner_scene();
+  RenderJob open = job(plain, {});
+  CHECK(open.next_tiles(Rank{0}).size() == FlowLimits{}.window_tiles);
+  CHECK(open.load().window_tiles == FlowLimits{}.window_tiles);
+  // A third of the rays that 64 such tiles may bring, each of 256 primary rays and more than one in all for each.
+  RenderJob narrow = job(plain, {.window_rays = 64 * 256 / 3.0});
+  const std::size_t fewer = narrow.next_tiles(Rank{0}).size();
+  CHECK(fewer < 64 / 3);
+  CHECK(fewer > FlowLimits{}.least_window_tiles);
+  CHECK(narrow.load().window_tiles == fewer);
+  CHECK(job(plain, {.window_rays = 1}).next_tiles(Rank{0}).size() == FlowLimits{}.least_window_tiles);
+  CHECK(job(plain, {.window_tiles = 3, .window_rays = 1}).next_tiles(Rank{0}).size() == 3);
 }
 
 TEST_CASE("roth hands out pixels and lines as in 1987") {
