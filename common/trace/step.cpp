@@ -215,15 +215,20 @@ void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
 
 /// A shadow ray that reached its region's boundary, with the light that is left of it.
 void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step) {
-  const bool stays = domain_.holds(exit.next), waits = stays || domain_.borrows();
-  RayTask& next = waits ? lights_.emplace_back(ray).task : step.leaving.emplace_back(ray.task);
-  next.weight = light;
-  next.t = exit.t;
-  next.region = exit.next;
-  if (stays || !waits) return;
-  const OpenRay on_its_way = lights_.back();
-  lights_.pop_back();
-  finish_light_ray(on_its_way, step);
+  const auto move_on = [&](RayTask& task) {
+    task.weight = light;
+    task.t = exit.t;
+    task.region = exit.next;
+  };
+  if (domain_.holds(exit.next)) {
+    move_on(lights_.emplace_back(ray).task);
+  } else if (domain_.borrows()) {
+    OpenRay next = ray;
+    move_on(next.task);
+    finish_light_ray(next, step);
+  } else {
+    move_on(step.leaving.emplace_back(ray.task));
+  }
 }
 
 /// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own regions waits.
