@@ -108,6 +108,10 @@ control::Load RenderJob::load() const {
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(ledger_.tile_count()) : most_open_tiles();
   m.batch_bytes = limits_.batch_bytes;
+  // Classes beyond the last would share its credit and could wait for themselves.
+  if (most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows) < kMaxHops) {
+    m.outbox_rays = limits_.outbox_rays;
+  }
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
     m.threads = 1;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
+#include <vector>
 
 #include "node/outbox.hpp"
 #include "topology/rank.hpp"
@@ -17,6 +19,13 @@ struct Link {
   /// What may still be sent before the peer grants more, in bytes of ray records.
   std::uint64_t send_credit = 0;
   std::uint64_t next_sequence = 0;
+
+  /// A full node's rays for the peer that descend from rays on class credit; and the classes of which a ray is on
+  /// its way to the peer on their credit, or waits there.
+  std::vector<RayTask> class_outbox;
+  std::set<std::uint16_t> classes_out;
+  /// The same the other way: of these classes a ray of the peer's waits here.
+  std::set<std::uint16_t> classes_in;
 
   /// Taken from the inbox by evaluators, but not yet granted back.
   std::uint64_t ungranted = 0;
@@ -35,6 +44,9 @@ struct Link {
     offer = Offer::kNone;
     has_asked = false;
     outbox.clear();
+    class_outbox.clear();
+    classes_out.clear();
+    classes_in.clear();
     send_credit = credit;
     ungranted = 0;
     next_sequence = 0;

@@ -157,6 +157,10 @@ void Node::forget_rays() {
   tiles_.clear();
   open_tile_.reset();
   rays_.clear();
+  own_rays_.clear();
+  class_rays_.clear();
+  class_outbox_rays_.clear();
+  passing_.clear();
   rays_.set_fifo(is_blocking());
   stalled_.clear();
   for (Borrowed& b : borrowed_) b.waiting.clear();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "coordination/termination.hpp"
+#include "node/class_store.hpp"
 #include "node/link.hpp"
 #include "node/merge_buffer.hpp"
 #include "node/ray_store.hpp"
@@ -37,13 +39,15 @@ struct NodeIdentity {
 /// Why an evaluator gets no work (design section 6).
 enum class WaitReason : std::uint8_t {
   kReady,    ///< it would get some now
-  kBlocked,  ///< there are rays that may not go on: the next queue is full
+  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold, is full
   kWindow,   ///< there are only unstarted primary rays, and the window is closed
   kIdle,     ///< there is neither
 };
 
 /// Received rays handed to an evaluator in one piece.
 inline constexpr std::size_t kMaxRaysPerWork = 256;
+/// Once this part of what the outboxes may hold has left in a piece of work, the rest of it is set aside.
+inline constexpr std::uint64_t kWorksPerOutboxes = 16;
 
 class Node {
  public:
@@ -118,15 +122,19 @@ class Node {
   Rank owner_of(const RegionIndex& region) const { return cube_->owner_of(region.column, region.row); }
   const std::shared_ptr<const Domain>& domain_of(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
-  void absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<Rank> helped);
-  void forward(const RayTask& ray);
+  void absorb(WorkResult& result);
+  void absorb_rays(WorkResult& result);
   void forward_across(std::uint32_t bit, std::span<const RayTask> rays);
+  void count_forwarded(std::uint32_t bit, std::span<const RayTask> rays);
+  bool may_start_tiles() const;
+  bool is_due_here(const RegionIndex& region) const;
+  void note_queue();
   void take_from(std::uint32_t bit, std::size_t rays);
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send_stalled();
-  void wait_for_model(Rank owner, const RayTask& ray);
+  [[nodiscard]] bool waits_for_model(Rank owner, const RayTask& ray);
   void adopt_borrowed(WorkResult& result);
-  void send_batch(Link& link, std::span<const RayTask> rays);
+  void send_batch(Link& link, std::span<const RayTask> rays, BatchType type = BatchType::kRays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
   void grant_credit(Link& link, std::uint64_t least);
@@ -135,6 +143,21 @@ class Node {
   void flush_on_idle();
   void pass_token(bool is_pinged = false);
   bool is_passive() const;
+
+  // node_classes.cpp
+  bool is_full() const;
+  std::uint32_t most_children() const;
+  bool has_room_after(std::uint16_t of_class) const;
+  bool has_class_ray_to_take() const;
+  bool take_class_rays(Work& work);
+  void release_room_after(std::uint16_t of_class);
+  void give_back_classes(Link& link, std::span<const std::uint16_t> classes);
+  void leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::span<const RayTask> rays);
+  void send_on_class(Link& link);
+  void on_class_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch);
+  void on_class_credit(Link& link, std::span<const std::byte> batch);
+  void pass_on(std::uint32_t from_bit, std::span<const RayTask> rays);
+  void pass_on_what_waits();
 
   // node_sharing.cpp
   void on_copy(const control::Copy& m, const Bytes& slice);
@@ -173,6 +196,17 @@ class Node {
   /// Own tiles that the frontal has not handed out yet; `macro` only.
   std::uint64_t unassigned_tiles_ = 0;
   RayStore rays_;
+  /// Rays in this node's own regions that came across no link, or came long ago: work was set aside.
+  RayStore own_rays_;
+  ClassStore class_rays_;
+  /// Rays of each class in the class outboxes, and those that evaluators may add.
+  std::map<std::uint16_t, std::uint64_t> class_outbox_rays_;
+  /// Rays on their way between neighbours, which came while this node was full; and across which bit.
+  struct Passing {
+    std::uint32_t bit;
+    std::vector<RayTask> rays;
+  };
+  std::deque<Passing> passing_;
   /// The batch of rays that came last; here so that its memory serves the next.
   std::vector<RayTask> received_;
   /// Flow blocking: the tile that is being traced pixel by pixel, and the rays of the evaluator that wait for
@@ -193,12 +227,15 @@ class Node {
   struct Helped {
     Rank owner;
     std::vector<RayTask> rays;
+    /// Whether they came by their owner's link, and take up its credit.
+    bool is_received = true;
   };
   /// Rays in neighbours' regions.
   std::deque<Helped> helped_;
   /// Other nodes' models that came and are not subdivided yet.
   std::deque<std::variant<BorrowWork, CopyWork>> lent_;
   std::uint64_t borrowed_bytes_ = 0, rays_in_wait_ = 0;
+  /// In outboxes and class outboxes.
   std::uint64_t outbox_rays_ = 0;
   MergeBuffer merge_;
   /// The tree of sums: where contributions go instead of to the frontal, and whether other nodes' come here.

@@ -35,6 +35,8 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
         job_, "a batch from node " + std::to_string(s.sender) + " was lost on its link"});
   }
   if (header.type == BatchType::kRays) return on_rays(link, bit, batch, header);
+  if (header.type == BatchType::kClassRays) return on_class_rays(link, bit, batch);
+  if (header.type == BatchType::kClassCredit) return on_class_credit(link, batch);
   if (header.type == BatchType::kContributions) return on_sums(link, batch);
   if (header.type == BatchType::kAssignment) return on_tiles(link, batch);
   if (header.type == BatchType::kIdle) return on_offer(link, Link::Offer::kIdle);
@@ -79,8 +81,7 @@ void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> bat
   const bool is_help = !rays.empty() && is_senders(rays.front().region);
   bool is_due = !is_help || copies_[bit] != nullptr;
   for_each_region(rays, [&](RegionIndex region, std::span<const RayTask>) {
-    const bool may_pass = load_.makes_copies && bit_of(owner_of(region)) < links_.size();
-    is_due = is_due && (is_help ? is_senders(region) : domain_->holds(region) || may_pass);
+    is_due = is_due && (is_help ? is_senders(region) : is_due_here(region));
   });
   if (!is_due) {
     drop("rays", "for another macro-region");
@@ -93,23 +94,32 @@ void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> bat
     stats_.rays_taken_over += rays.size();
     link.has_offered = false;
     helped_.push_back({link.peer, std::move(rays)});
-    std::size_t held = rays_.size();
-    for (const Helped& h : helped_) held += h.rays.size();
-    stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, held);
-    return;
+    return note_queue();
   }
   const std::uint64_t outbox_before = outbox_rays_;
   for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
     if (domain_->holds(region)) return rays_.add(run, bit);
-    link.ungranted += run.size() * kRayBytes;
-    forward_across(bit_of(owner_of(region)), run);
+    if (is_full()) return passing_.push_back({bit, {run.begin(), run.end()}});
+    pass_on(bit, run);
   });
-  stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, rays_.size());
+  note_queue();
   share_work();
   if (outbox_rays_ == outbox_before) return;
   if (all_evaluators_wait()) return flush_on_idle();
   for (Link& l : links_) send_rays(l, false);
   grant_credit(link, half_credit());
+}
+
+/// A ray for a region of this node, or on its way from a helper to a neighbour of this node.
+bool Node::is_due_here(const RegionIndex& region) const {
+  return domain_->holds(region) || (load_.makes_copies && bit_of(owner_of(region)) < links_.size());
+}
+
+void Node::note_queue() {
+  std::size_t held = rays_.size() + class_rays_.size();
+  for (const Helped& h : helped_) held += h.is_received ? h.rays.size() : 0;
+  for (const Passing& p : passing_) held += p.rays.size();
+  stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, held);
 }
 
 /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody

@@ -29,6 +29,7 @@ void Node::send_control(const ControlMessage& message) {
 /// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under way on
 /// the link, smaller ones.
 void Node::send_rays(Link& link, bool partial) {
+  if (!link.class_outbox.empty() && link.send_credit >= kRayBytes) send_on_class(link);
   const std::size_t full = std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
   for (;;) {
     const std::size_t waiting = link.outbox.size();
@@ -41,15 +42,16 @@ void Node::send_rays(Link& link, bool partial) {
     link.outbox.drop_oldest(count);
     outbox_rays_ -= count;
   }
+  if (link.send_credit < kRayBytes && (is_full() || !link.class_outbox.empty())) send_on_class(link);
 }
 
-void Node::send_batch(Link& link, std::span<const RayTask> rays) {
-  Bytes batch = encode_rays(stamp(link.next_sequence++), rays);
+void Node::send_batch(Link& link, std::span<const RayTask> rays, BatchType type) {
+  Bytes batch = encode_rays(stamp(link.next_sequence++), rays, type);
   ring_.message_sent();
   ++stats_.ray_batches;
   stats_.ray_bytes += batch.size();
   stats_.rays_out += rays.size();
-  link.send_credit -= rays.size() * kRayBytes;
+  if (type == BatchType::kRays) link.send_credit -= rays.size() * kRayBytes;
   outgoing_.push_back({link.peer, Message::of_batch(std::move(batch))});
 }
 
@@ -108,9 +110,9 @@ void Node::flush_on_idle() {
 }
 
 bool Node::has_unfinished() const {
-  return !rays_.is_empty() || !helped_.empty() || !tiles_.empty() || open_tile_ || unassigned_tiles_ != 0 ||
-         !stalled_.empty() || rays_in_wait_ != 0 || !merge_.is_empty() ||
-         std::any_of(links_.begin(), links_.end(), [](const Link& l) { return !l.outbox.is_empty(); });
+  return !rays_.is_empty() || !own_rays_.is_empty() || !class_rays_.is_empty() || !passing_.empty() ||
+         !helped_.empty() || !tiles_.empty() || open_tile_ || unassigned_tiles_ != 0 || !stalled_.empty() ||
+         rays_in_wait_ != 0 || outbox_rays_ != 0 || !merge_.is_empty();
 }
 
 bool Node::is_passive() const {

@@ -47,14 +47,14 @@ void Node::adopt_copy(WorkResult& result) {
 /// which is busy, has no part in it.
 void Node::leave_copy(std::span<const RayTask> rays, Rank owner) {
   const Rank next = owner_of(rays.front().region);
-  if (next == id_.rank) return rays_.add(rays, kNoLink);
+  if (next == id_.rank) return own_rays_.add(rays, kNoLink);
   forward_across(cube_->link_between(owner, next).value_or(kNoLink), rays);
 }
 
 /// Tells the neighbours that there is nothing to do here, each once until it has sent something.
 void Node::offer_help() {
   const bool is_dry =
-      state_ == State::kRendering && tiles_.empty() && unassigned_tiles_ == 0 && all_evaluators_wait();
+      state_ == State::kRendering && tiles_.empty() && unassigned_tiles_ == 0 && !is_full() && all_evaluators_wait();
   if (!load_.makes_copies || !is_dry) return;
   for (std::uint32_t bit = 0; bit < links_.size(); ++bit) {
     Link& link = links_[bit];

@@ -12,14 +12,16 @@ namespace graycube {
 
 namespace {
 
-/// No primary rays are started while so many rays wait to be sent. What has arrived is always traced, so the
-/// neighbours' inboxes and with them the outboxes empty themselves.
+/// No primary rays are started while so many rays wait to be sent.
 constexpr std::uint64_t kLongOutboxes = 8192;
 
 }  // namespace
 
 std::optional<Work> Node::take_work() {
-  Work work{job_, epoch_, std::nullopt, domain_, {}};
+  Work work;
+  work.job = job_;
+  work.epoch = epoch_;
+  work.domain = domain_;
   if (state_ == State::kBuilding && unbuilt_slice_) {
     BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, load_.is_replica, std::nullopt, {}};
     unbuilt_slice_.reset();
@@ -35,9 +37,17 @@ std::optional<Work> Node::take_work() {
     flush_on_idle();
     return std::nullopt;
   }
+  pass_on_what_waits();
+  if (!is_blocking()) work.most_leaving = std::max<std::uint64_t>(1, load_.outbox_rays / kWorksPerOutboxes);
   if (!lent_.empty()) {
     std::visit([&](auto& model) { work.what = std::move(model); }, lent_.front());
     lent_.pop_front();
+  } else if (take_class_rays(work)) {
+  } else if (is_full()) {
+    flush_on_idle();
+    return std::nullopt;
+  } else if (!own_rays_.is_empty()) {
+    work.what = RayWork{own_rays_.take(kMaxRaysPerWork, [](std::uint32_t, std::size_t) {})};
   } else if (!rays_.is_empty()) {
     RayWork batch;
     batch.rays = rays_.take(is_blocking() ? 1 : kMaxRaysPerWork,
@@ -47,10 +57,10 @@ std::optional<Work> Node::take_work() {
   } else if (!helped_.empty()) {
     work.helped = helped_.front().owner;
     work.domain = copies_[bit_of(*work.helped)];
-    links_[bit_of(*work.helped)].ungranted += helped_.front().rays.size() * kRayBytes;
+    if (helped_.front().is_received) take_from(bit_of(*work.helped), helped_.front().rays.size());
     work.what = RayWork{std::move(helped_.front().rays)};
     helped_.pop_front();
-  } else if (const auto pixels = outbox_rays_ < kLongOutboxes ? next_pixels() : std::nullopt) {
+  } else if (const auto pixels = may_start_tiles() ? next_pixels() : std::nullopt) {
     const std::uint32_t tile = plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
     work.domain = domain_of(tile);
     if (work.domain != domain_) work.helped = owner_of(plan_->region_of_tile(tile));
@@ -98,7 +108,7 @@ void Node::give_result(WorkResult result) {
   } else if (result.copied_from) {
     adopt_copy(result);
   } else {
-    absorb(result.step, result.tile, result.helped);
+    absorb(result);
   }
   pass_token();
 }
@@ -126,6 +136,8 @@ void Node::adopt_domain(WorkResult& result) {
   limits_.columns = domain_->grid() != nullptr ? domain_->grid()->columns() : 1;
   limits_.rows = domain_->grid() != nullptr ? domain_->grid()->rows() : 1;
   limits_.nodes = cube_->nodes();
+  limits_.max_hops = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(most_hops(limits_.max_depth, limits_.columns, limits_.rows), kMaxHops));
   state_ = State::kReady;
   forget_rays();
   send_ready_when_complete();
@@ -141,8 +153,8 @@ void Node::send_ready_when_complete() {
                               domain_->cell_count(), build_s_});
 }
 
-/// `tile`: the tile whose primary rays the step traced, if it did; `helped`: the neighbour that it was done for.
-void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<Rank> helped) {
+void Node::absorb(WorkResult& result) {
+  const Step& step = result.step;
   const auto& created = step.rays.created;
   stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
   stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
@@ -151,25 +163,12 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<R
   stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
-  for_each_region(step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
-    if (helped) return leave_copy(rays, *helped);
-    if (load_.shadows != ShadowMode::kLocal) return forward_across(bit_of(owner_of(region)), rays);
-    for (const RayTask& ray : rays) {
-      if (ray.kind == RayKind::kShadow) {
-        wait_for_model(owner_of(region), ray);
-      } else {
-        forward(ray);
-      }
-    }
-  });
-  for (const Step::Lacking& l : step.lacking) {
-    wait_for_model(owner_of(l.region), l.task);
-  }
+  absorb_rays(result);
   std::span<const PixelReturn> returns = step.returns;
   while (!returns.empty()) {
     // Where children's light for the same pixels will come, each has its one place.
-    returns = returns.subspan(tile && !has_children_
-                                  ? merge_.add_tile(returns, *tile, *plan_)
+    returns = returns.subspan(result.tile && !has_children_
+                                  ? merge_.add_tile(returns, *result.tile, *plan_)
                                   : merge_.add(returns, *plan_));
     if (merge_.is_full()) flush_contributions();
   }
@@ -180,13 +179,42 @@ void Node::absorb(Step& step, std::optional<std::uint32_t> tile, std::optional<R
   }
 }
 
-void Node::forward(const RayTask& ray) { forward_across(bit_of(owner_of(ray.region)), {&ray, 1}); }
+/// The rays of a step: those that leave, those that lack a model, those that were set aside.
+void Node::absorb_rays(WorkResult& result) {
+  const Step& step = result.step;
+  if (result.on_class) release_room_after(*result.on_class);
+  for_each_region(step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
+    if (result.helped) return leave_copy(rays, *result.helped);
+    const std::uint32_t bit = bit_of(owner_of(region));
+    if (load_.shadows != ShadowMode::kLocal) return leave(result.on_class, bit, rays);
+    for (const RayTask& ray : rays) {
+      if (ray.kind == RayKind::kShadow && waits_for_model(owner_of(region), ray)) continue;
+      leave(result.on_class, bit, {&ray, 1});
+    }
+  });
+  for (const Step::Lacking& l : step.lacking) {
+    if (waits_for_model(owner_of(l.region), l.task)) continue;
+    leave(result.on_class, bit_of(owner_of(l.task.region)), {&l.task, 1});
+  }
+  if (step.set_aside.empty()) return;
+  if (result.on_class) {
+    class_rays_.add_own(step.set_aside);
+  } else if (result.helped) {
+    helped_.push_front({*result.helped, std::move(result.step.set_aside), false});
+  } else {
+    own_rays_.add(step.set_aside, kNoLink);
+  }
+}
 
-void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
+void Node::count_forwarded(std::uint32_t bit, std::span<const RayTask> rays) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
   for (const RayTask& ray : rays) {
     ++(ray.kind == RayKind::kShadow ? stats_.forwarded_shadow : stats_.forwarded_secondary);
   }
+}
+
+void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
+  count_forwarded(bit, rays);
   if (is_blocking()) {
     stalled_.insert(stalled_.end(), rays.begin(), rays.end());
     stats_.outbox_peak = std::max<std::uint64_t>(stats_.outbox_peak, stalled_.size());
@@ -197,9 +225,9 @@ void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
   stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
 }
 
-/// Shadows local: a shadow ray goes on when the model that it lacks is here, or, where there is no memory for
-/// that, with the neighbour whose region it has entered.
-void Node::wait_for_model(Rank owner, const RayTask& ray) {
+/// Shadows local: a shadow ray goes on when the model that it lacks is here. False where there is no memory for that:
+/// then it goes on with the neighbour whose region it has entered.
+bool Node::waits_for_model(Rank owner, const RayTask& ray) {
   Borrowed& b = borrowed_[owner.value];
   if (b.state == Borrowed::State::kUnasked) {
     const std::uint64_t room = load_.borrow_bytes - std::min(load_.borrow_bytes, borrowed_bytes_);
@@ -211,12 +239,13 @@ void Node::wait_for_model(Rank owner, const RayTask& ray) {
     }
   }
   switch (b.state) {
-    case Borrowed::State::kHeld: return rays_.add({&ray, 1}, kNoLink);
-    case Borrowed::State::kRefused: return forward(ray);
+    case Borrowed::State::kHeld: own_rays_.add({&ray, 1}, kNoLink); return true;
+    case Borrowed::State::kRefused: return false;
     default: break;
   }
   b.waiting.push_back(ray);
   ++rays_in_wait_;
+  return true;
 }
 
 void Node::on_lend(const control::Lend& m, const Bytes& slice) {
@@ -228,7 +257,7 @@ void Node::on_lend(const control::Lend& m, const Bytes& slice) {
   Borrowed& b = borrowed_[m.rank];
   b.state = Borrowed::State::kRefused;
   rays_in_wait_ -= b.waiting.size();
-  for (const RayTask& ray : std::exchange(b.waiting, {})) forward(ray);
+  for (const RayTask& ray : std::exchange(b.waiting, {})) forward_across(bit_of(owner_of(ray.region)), {&ray, 1});
   // No evaluator may come by to send what is left.
   for (Link& link : links_) send_rays(link, true);
   pass_token();
@@ -247,15 +276,19 @@ void Node::adopt_borrowed(WorkResult& result) {
   domain_ = domain_->with_borrowed(cube_->column_of(from), cube_->row_of(from),
                                    std::move(result.borrowed));
   rays_in_wait_ -= b.waiting.size();
-  rays_.add(std::exchange(b.waiting, {}), kNoLink);
+  own_rays_.add(std::exchange(b.waiting, {}), kNoLink);
 }
+
+/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty themselves.
+bool Node::may_start_tiles() const { return outbox_rays_ < kLongOutboxes && !is_full(); }
 
 WaitReason Node::wait_reason() const {
   if (!stalled_.empty()) return WaitReason::kBlocked;
-  if (!lent_.empty() || !rays_.is_empty() || !helped_.empty()) return WaitReason::kReady;
-  if (!tiles_.empty() || open_tile_) {
-    return outbox_rays_ < kLongOutboxes ? WaitReason::kReady : WaitReason::kWindow;
-  }
+  if (!lent_.empty() || has_class_ray_to_take()) return WaitReason::kReady;
+  const bool has_rays = !rays_.is_empty() || !own_rays_.is_empty() || !helped_.empty() || !passing_.empty() ||
+                        !class_rays_.is_empty();
+  if (has_rays) return is_full() ? WaitReason::kBlocked : WaitReason::kReady;
+  if (!tiles_.empty() || open_tile_) return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return unassigned_tiles_ > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

@@ -11,7 +11,11 @@ namespace graycube {
 
 class Outbox {
  public:
-  void add(std::span<const RayTask> rays) { rays_.insert(rays_.end(), rays.begin(), rays.end()); }
+  /// Each is about to cross one link more.
+  void add(std::span<const RayTask> rays) {
+    rays_.insert(rays_.end(), rays.begin(), rays.end());
+    for (RayTask& ray : std::span(rays_).last(rays.size())) cross_link(ray);
+  }
   std::size_t size() const { return rays_.size() - sent_; }
   bool is_empty() const { return size() == 0; }
   /// The `count` oldest; until the next call that changes anything.

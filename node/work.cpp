@@ -72,6 +72,7 @@ WorkResult Workbench::run(Work work) {
   result.job = work.job;
   result.epoch = work.epoch;
   result.helped = work.helped;
+  result.on_class = work.on_class;
   if (auto* b = std::get_if<BuildWork>(&work.what)) {
     build(std::move(*b), result);
     return result;
@@ -88,6 +89,7 @@ WorkResult Workbench::run(Work work) {
     return result;
   }
   Evaluator& evaluator = evaluator_for(std::move(work.domain));
+  evaluator.stop_after(work.most_leaving);
   const WalkCounts before = evaluator.walk_counts();
   if (const auto* tile = std::get_if<TileWork>(&work.what)) {
     evaluator.trace_pixels(tile->rect, result.step);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,12 +59,17 @@ struct Work {
   /// TileWork, RayWork: traced for this neighbour, in the copy of its regions.
   std::optional<Rank> helped;
   std::shared_ptr<const Domain> domain;
+  /// RayWork: a ray that a full node traces on its class's credit.
+  std::optional<std::uint16_t> on_class;
+  /// TileWork, RayWork: once so many rays have left, the rest is set aside.
+  std::size_t most_leaving = std::numeric_limits<std::size_t>::max();
   std::variant<BuildWork, BorrowWork, CopyWork, TileWork, RayWork> what;
 };
 
 struct WorkResult {
   std::uint32_t job = 0, epoch = 0;
   std::optional<Rank> helped;
+  std::optional<std::uint16_t> on_class;
   /// BuildWork, CopyWork: the domain, or why there is none.
   std::shared_ptr<const Domain> domain;
   std::string error;

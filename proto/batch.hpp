@@ -20,12 +20,12 @@ namespace graycube {
 
 /// "GCB1", read as a little-endian integer.
 inline constexpr std::uint32_t kBatchMagic = 0x31424347;
-inline constexpr std::uint16_t kBatchVersion = 1;
+inline constexpr std::uint16_t kBatchVersion = 2;
 inline constexpr std::size_t kBatchHeaderBytes = 44;
 /// The sender "rank" of the frontal.
 inline constexpr std::uint32_t kFrontalRank = 0xFFFFFFFF;
 
-inline constexpr std::size_t kRayBytes = 100;
+inline constexpr std::size_t kRayBytes = 102;
 inline constexpr std::size_t kTileCreditBytes = 44;
 inline constexpr std::size_t kContributionBytes = 28;
 inline constexpr std::size_t kTokenBytes = 25;
@@ -35,6 +35,7 @@ inline constexpr std::size_t kMaxContributionBatchBytes = std::size_t{8} << 20;
 inline constexpr std::size_t kMaxBatchBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxRaysPerBatch = (kMaxBatchBytes - kBatchHeaderBytes) / kRayBytes;
 inline constexpr std::size_t kMaxTilesPerAssignment = (kMaxBatchBytes - kBatchHeaderBytes) / 4;
+inline constexpr std::size_t kMaxClassesPerGrant = (kMaxBatchBytes - kBatchHeaderBytes) / 2;
 /// Most bytes that one link-credit grant may give back.
 inline constexpr std::uint64_t kMaxLinkCreditBytes = std::uint64_t{1} << 32;
 /// Largest |direction · direction − 1| of a ray.
@@ -53,6 +54,9 @@ enum class BatchType : std::uint8_t {
   /// The sender has nothing to do; and it holds a copy of the receiver's slice.
   kIdle = 10,
   kIdleWithCopy = 11,
+  /// Rays on the credit of their classes, and that credit given back (ARCHITECTURE.md, "Flow").
+  kClassRays = 12,
+  kClassCredit = 13,
 };
 
 /// Who sent a batch, and to what it belongs.
@@ -72,7 +76,7 @@ struct BatchStamp {
 struct BatchHeader {
   BatchStamp stamp;
   BatchType type = BatchType::kRays;
-  /// Records: rays, tile credits, assigned tiles; 1 for a grant or a token, 0 for greetings and
+  /// Records: rays, tile credits, assigned tiles, classes; 1 for a grant or a token, 0 for greetings and
   /// goodbyes.
   std::uint32_t count = 0;
   /// Contributions: pixels. 0 otherwise.
@@ -104,6 +108,8 @@ struct BatchLimits {
   /// A ray of a scene without lights still has the number 0.
   std::uint32_t lights = kMaxCreditLights;
   std::uint32_t max_exponent = 255;
+  /// Links that a ray may have crossed, those before it included.
+  std::uint32_t max_hops = kMaxHops;
   /// The grid of macro-regions, scattered ones included: a receiver sets its job's.
   std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;
   /// Senders are ranks below it, or the frontal.
@@ -123,8 +129,11 @@ struct TokenRecord {
   friend bool operator==(const TokenRecord&, const TokenRecord&) = default;
 };
 
-/// At most kMaxRaysPerBatch rays.
-std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays);
+/// At most kMaxRaysPerBatch rays; of type kRays or kClassRays.
+std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays,
+                                   BatchType type = BatchType::kRays);
+/// At most kMaxClassesPerGrant classes.
+std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes);
 /// Both together at most kMaxContributionBatchBytes, see contribution_batch_bytes.
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
@@ -155,14 +164,17 @@ bool looks_like_batch(std::span<const std::byte> message);
 
 /// Each decodes a whole message of its type. The vectors are replaced; after an error they are
 /// empty (other outputs untouched).
+/// Of type kRays or kClassRays.
 [[nodiscard]] BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
-                                      std::vector<RayTask>& rays);
+                                      std::vector<RayTask>& rays, BatchType type = BatchType::kRays);
 [[nodiscard]] BatchResult decode_contributions(std::span<const std::byte> message,
                                                const BatchLimits& limits,
                                                std::vector<TileCredit>& credits,
                                                std::vector<Contribution>& contributions);
 [[nodiscard]] BatchResult decode_link_credit(std::span<const std::byte> message,
                                              const BatchLimits& limits, std::uint64_t& bytes);
+[[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message, const BatchLimits& limits,
+                                              std::vector<std::uint16_t>& classes);
 [[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,
                                        const BatchLimits& limits, TokenRecord& token);
 [[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,

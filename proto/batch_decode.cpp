@@ -14,7 +14,7 @@ using namespace batch_layout;
 /// A tile's credit never exceeds its number of primary rays, nor that the whole picture's.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 
-bool is_known(std::uint8_t type) { return type >= 1 && type <= 11; }
+bool is_known(std::uint8_t type) { return type >= 1 && type <= 13; }
 
 /// The framing and the sender checked, and the type; `payload` is the bytes behind the header.
 BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,
@@ -47,6 +47,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.depth = load_little<std::uint8_t>(at + 94);
   task.light = load_little<std::uint8_t>(at + 95);
   task.region = {load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98)};
+  task.hops = load_little<std::uint16_t>(at + 100);
   task.ends_at_horizon = (kind & kHorizonFlag) != 0;
   task.kind = static_cast<RayKind>(kind & ~kHorizonFlag);
   if (task.kind > RayKind::kRefraction || (task.ends_at_horizon && task.kind != RayKind::kShadow)) return false;
@@ -56,7 +57,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
          std::isfinite(task.t) && task.t >= 0 && task.t_max >= 0 && is_weight(weight.x) &&
          is_weight(weight.y) && is_weight(weight.z) && task.pixel < limits.pixel_count &&
          task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
-         task.light < limits.lights &&
+         task.light < limits.lights && task.hops <= limits.max_hops &&
          task.region.column < limits.columns && task.region.row < limits.rows;
 }
 
@@ -94,6 +95,11 @@ bool load_all(const std::byte* at, std::size_t count, std::size_t size, const Ba
     at += size;
   }
   return true;
+}
+
+bool load_class(const std::byte* at, const BatchLimits& limits, std::uint16_t& hops) {
+  hops = load_little<std::uint16_t>(at);
+  return hops <= limits.max_hops;
 }
 
 bool load_tile(const std::byte* at, const BatchLimits& limits, std::uint32_t& tile) {
@@ -134,9 +140,9 @@ BatchResult peek_header(std::span<const std::byte> message) {
 }
 
 BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
-                        std::vector<RayTask>& rays) {
+                        std::vector<RayTask>& rays, BatchType type) {
   const std::byte* at = nullptr;
-  const BatchResult result = open(message, limits, BatchType::kRays, at);
+  const BatchResult result = open(message, limits, type, at);
   const auto* h = std::get_if<BatchHeader>(&result);
   if (h == nullptr) {
     rays.clear();
@@ -173,6 +179,17 @@ BatchResult decode_link_credit(std::span<const std::byte> message, const BatchLi
   const auto granted = load_little<std::uint64_t>(at);
   if (granted > kMaxLinkCreditBytes) return BatchError::kBadValue;
   bytes = granted;
+  return result;
+}
+
+BatchResult decode_class_credit(std::span<const std::byte> message, const BatchLimits& limits,
+                                std::vector<std::uint16_t>& classes) {
+  classes.clear();
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kClassCredit, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  if (!load_all(at, h->count, 2, limits, load_class, classes)) return BatchError::kBadValue;
   return result;
 }
 

@@ -56,12 +56,15 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_little(at + 95, static_cast<std::uint8_t>(task.light));
   store_little(at + 96, task.region.column);
   store_little(at + 98, task.region.row);
+  store_little(at + 100, task.hops);
 }
 
 }  // namespace
 
-std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays) {
-  ByteWriter w = begin(stamp, BatchType::kRays, rays.size(), 0);
+std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays, BatchType type) {
+  GRAYCUBE_CHECK(type == BatchType::kRays || type == BatchType::kClassRays, "rays in a %s batch",
+                 to_string(type).data());
+  ByteWriter w = begin(stamp, type, rays.size(), 0);
   std::byte* at = w.room(rays.size() * kRayBytes);
   for (const RayTask& task : rays) {
     store_ray(at, task);
@@ -90,6 +93,12 @@ std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
 std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t bytes) {
   ByteWriter w = begin(stamp, BatchType::kLinkCredit, 1, 0);
   w.put(bytes);
+  return std::move(w).take();
+}
+
+std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes) {
+  ByteWriter w = begin(stamp, BatchType::kClassCredit, classes.size(), 0);
+  for (const std::uint16_t c : classes) w.put(c);
   return std::move(w).take();
 }
 
@@ -141,6 +150,8 @@ std::string_view to_string(BatchType type) {
     case BatchType::kGoodbyeAck: return "goodbye_ack";
     case BatchType::kIdle: return "idle";
     case BatchType::kIdleWithCopy: return "idle_with_copy";
+    case BatchType::kClassRays: return "class_rays";
+    case BatchType::kClassCredit: return "class_credit";
   }
   return "unknown";
 }

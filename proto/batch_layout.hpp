@@ -19,12 +19,14 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
   const std::uint64_t count = h.count, second = h.second_count;
   const bool single = second == 0;
   switch (h.type) {
-    case BatchType::kRays: return {single, count * kRayBytes};
+    case BatchType::kRays:
+    case BatchType::kClassRays: return {single, count * kRayBytes};
     case BatchType::kContributions:
       return {true, count * kTileCreditBytes + second * kContributionBytes};
     case BatchType::kLinkCredit: return {single && count == 1, 8};
     case BatchType::kToken: return {single && count == 1, kTokenBytes};
     case BatchType::kAssignment: return {single, count * 4};
+    case BatchType::kClassCredit: return {single, count * 2};
     case BatchType::kGreeting:
     case BatchType::kGreetingAck:
     case BatchType::kGoodbye:

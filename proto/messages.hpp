@@ -302,6 +302,8 @@ struct Load {
   /// Own tiles that may be open at a time.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
+  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
+  std::uint64_t outbox_rays = 0xFFFF'FFFF;
   std::uint64_t horizon_bytes = 0;
   /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
   std::uint64_t borrow_bytes = 0;

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct Outcome {
   std::vector<std::string> violations;
   /// By rank, also of a job that failed; empty when the nodes were not asked.
   std::vector<control::NodeStats> reports;
+  /// Rays that were sent on the credit of their classes.
+  std::uint64_t class_rays = 0;
   /// Simulated seconds from the barrier to the end, or to the last thing that anybody did before a failure.
   double render_s = 0;
   /// CPU seconds that reading and cutting the scene took here; it takes no simulated time.
@@ -77,6 +80,8 @@ class Farm {
     bool is_rendering = false;
     /// By bit: bytes of rays sent across that link for which no credit has come back.
     std::vector<std::uint64_t> unreturned;
+    /// By bit: classes whose credit is out.
+    std::vector<std::set<std::uint16_t>> classes_out;
   };
 
   Cores& cores_of(Place place);
@@ -113,6 +118,7 @@ class Farm {
   void watch_to_node(const Message& message);
   void watch_to_frontal(const Message& message);
   void watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent);
+  void watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent);
   void check_quiet();
   bool is_alive(Rank rank, std::uint32_t incarnation) const;
 

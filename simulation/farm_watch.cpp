@@ -56,7 +56,10 @@ void Farm::watch_to_node(const Message& message) {
   }
   if (const auto* load = std::get_if<control::Load>(m)) {
     load_ = *load;
-    for (Process& p : processes_) std::ranges::fill(p.unreturned, 0);
+    for (Process& p : processes_) {
+      std::ranges::fill(p.unreturned, 0);
+      std::ranges::fill(p.classes_out, std::set<std::uint16_t>{});
+    }
   }
 }
 
@@ -80,9 +83,12 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto header = peek_header(batch);
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr) return;
-  if (h->type == BatchType::kRays) rays_under_way_ += is_sent ? 1 : -1;
+  if (h->type == BatchType::kRays || h->type == BatchType::kClassRays) rays_under_way_ += is_sent ? 1 : -1;
   if (h->type == BatchType::kContributions) sums_under_way_ += is_sent ? 1 : -1;
   if (h->stamp.job != load_.job) return;
+  if (h->type == BatchType::kClassRays || h->type == BatchType::kClassCredit) {
+    return watch_classes(from, to, batch, h->type, is_sent);
+  }
   if (h->type == BatchType::kRays) {
     if (!is_sent) return;
     if (is_over_) outcome_.violations.push_back("rays were sent after the token's end");
@@ -99,6 +105,30 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
     std::uint64_t& unreturned = processes_[to.value].unreturned[bit_between(cube_, from, to)];
     if (bytes > unreturned) outcome_.violations.push_back("a link got more credit than it gave");
     unreturned -= std::min(unreturned, bytes);
+  }
+}
+
+/// One ray of each class may be on its way on a link, or wait behind it, on its class's credit.
+void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent) {
+  BatchLimits limits{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = cube_.nodes()};
+  if (type == BatchType::kClassRays && is_sent) {
+    if (is_over_) outcome_.violations.push_back("class rays were sent after the token's end");
+    auto& out = processes_[from.value].classes_out[bit_between(cube_, from, to)];
+    std::vector<RayTask> rays;
+    if (std::holds_alternative<BatchError>(decode_rays(batch, limits, rays, type))) {
+      outcome_.violations.push_back("a broken batch of class rays was sent");
+    }
+    outcome_.class_rays += rays.size();
+    for (const RayTask& ray : rays) {
+      if (!out.insert(ray.hops).second) outcome_.violations.push_back("a class's credit was used twice");
+    }
+  } else if (type == BatchType::kClassCredit && !is_sent) {
+    auto& out = processes_[to.value].classes_out[bit_between(cube_, from, to)];
+    std::vector<std::uint16_t> classes;
+    if (std::holds_alternative<BatchError>(decode_class_credit(batch, limits, classes))) return;
+    for (const std::uint16_t c : classes) {
+      if (out.erase(c) == 0) outcome_.violations.push_back("a class got more credit than it gave");
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/ray.hpp"
 #include "geometry/vec.hpp"
+#include "shading/settings.hpp"
 #include "space/macro_grid.hpp"
 
 namespace graycube {
@@ -31,15 +32,31 @@ struct RayTask {
   std::uint8_t credit_exponent = 0;
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
-  /// Shadow rays: the light that they go to, as numbered in the settings.
-  std::uint16_t light = 0;
+  /// Shadow rays: the light that they go to, as numbered in the settings, and whether t_max is where they reach its
+  /// horizon.
+  std::uint16_t light : 15 = 0;
+  bool ends_at_horizon : 1 = false;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
-  /// Shadow rays: t_max is where they reach the horizon of their light.
-  bool ends_at_horizon = false;
+  /// Links crossed since the primary ray, by this ray and those that it descends from: its class in the flow of rays.
+  std::uint16_t hops = 0;
 
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
+
+static_assert(kMaxLights <= 1u << 15);
+
+inline constexpr std::uint32_t kMaxHops = 0xFFFF;
+
+/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region, each further
+/// generation passes each boundary once, and what a neighbour traces for its owner crosses two links for one.
+constexpr std::uint64_t most_hops(std::uint32_t max_depth, std::uint32_t columns, std::uint32_t rows) {
+  return std::uint64_t{2} * (max_depth + 1) * (columns + rows);
+}
+
+inline void cross_link(RayTask& ray) {
+  if (ray.hops < kMaxHops) ++ray.hops;
+}
 
 /// Calls f(region, rays) for each run of rays that are in one region.
 template <typename F>

@@ -70,6 +70,7 @@ void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& 
   r.kind = kind;
   r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
   r.region = parent.region;
+  r.hops = parent.hops;
 }
 
 }  // namespace
@@ -80,6 +81,7 @@ Evaluator::Evaluator(const Domain& domain)
 void Step::clear() {
   leaving.clear();
   lacking.clear();
+  set_aside.clear();
   returns.clear();
   rays = {};
   rounding = {};
@@ -132,6 +134,10 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   step.leaving.reserve(step.leaving.size() + rays.size());
   step.returns.reserve(step.returns.size() + rays.size());
   while (!rays.empty()) {
+    if (has_enough(step)) {
+      step.set_aside.insert(step.set_aside.end(), rays.begin(), rays.end());
+      return;
+    }
     wave_.clear();
     for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {
       if (!are_alike(task, rays.front())) break;
@@ -155,8 +161,22 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
 /// Shadow rays first, then the youngest: the stacks stay short.
 void Evaluator::trace_all(Step& step) {
   while (!lights_.empty() || !viewing_.empty()) {
+    if (has_enough(step)) return set_all_aside(step);
     take_wave(lights_.empty() ? viewing_ : lights_);
     trace_wave(step);
+  }
+}
+
+bool Evaluator::has_enough(const Step& step) const {
+  return step.leaving.size() + step.lacking.size() >= most_leaving_;
+}
+
+/// Viewing rays first, then shadow rays, each in the order of their stack: whoever takes the last first goes on
+/// where this ended.
+void Evaluator::set_all_aside(Step& step) {
+  for (std::vector<OpenRay>* stack : {&viewing_, &lights_}) {
+    for (const OpenRay& ray : *stack) step.set_aside.push_back(ray.task);
+    stack->clear();
   }
 }
 
@@ -388,7 +408,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.slot = at.ray->slot;
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
-  sent.task.light = static_cast<std::uint16_t>(light);
+  sent.task.light = static_cast<std::uint16_t>(light & 0x7FFF);
   if (domain_.has_horizons() && !goes_on_to_horizon(sent.task)) {
     ++step.rays.skipped_by_horizon;
     contribute(sent, weight, step);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct Step {
     RegionIndex region;
   };
   std::vector<Lacking> lacking;
+  /// What was left when enough had left: rays in the domain, still to be traced.
+  std::vector<RayTask> set_aside;
   /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it would hold
   /// too many contributions.
   std::vector<PixelReturn> returns;
@@ -57,7 +60,15 @@ struct Step {
 /// generation, the youngest first, so that what is under way stays little. One evaluator a thread.
 class Evaluator {
  public:
+  /// So many rays are under way together: an 8 × 8 block of pixels, and what descends from it.
+  static constexpr std::uint32_t kBlockSide = 8;
+  static constexpr std::size_t kWaveRays = kBlockSide * kBlockSide;
+
   explicit Evaluator(const Domain& domain);
+
+  /// Once so many rays of a step have left, or wait for a model, what else is under way is set aside. That is looked
+  /// at between packets of at most kWaveRays rays, each of which may send out a ray to each light and two others.
+  void stop_after(std::size_t most_leaving) { most_leaving_ = most_leaving; }
 
   /// Traces the primary rays of a rectangle of pixels; appends to `step`.
   void trace_pixels(const PixelRect& rect, Step& step);
@@ -83,15 +94,14 @@ class Evaluator {
     Vec3 mirror;
     std::uint32_t lights = 0, secondary_rays = 0;
   };
-  /// So many rays are under way together: an 8 × 8 block of pixels, and what descends from it.
-  static constexpr std::uint32_t kBlockSide = 8;
-  static constexpr std::size_t kWaveRays = kBlockSide * kBlockSide;
   /// A coordinate of every surface of a wave.
   using Coordinates = std::array<double, kWaveRays>;
 
   void trace_block(const PixelRect& block, Step& step);
   void trace_all(Step& step);
   void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, Step& step);
+  bool has_enough(const Step& step) const;
+  void set_all_aside(Step& step);
   void take_wave(std::vector<OpenRay>& stack);
   void trace_wave(Step& step);
   template <typename Trace>
@@ -114,6 +124,7 @@ class Evaluator {
   void close_pixels(Step& step);
 
   const Domain& domain_;
+  std::size_t most_leaving_ = std::numeric_limits<std::size_t>::max();
   CrossingScratch scratch_;
   /// Rays of one kind, generation and region, under way together.
   std::vector<OpenRay> wave_;

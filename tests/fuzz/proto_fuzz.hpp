@@ -19,7 +19,8 @@ namespace graycube {
 inline bool fuzz_batch(std::span<const std::byte> bytes) {
   const BatchLimits limits{
       .pixel_count = 4096, .tile_count = 64, .max_depth = 9, .columns = 4, .rows = 2, .nodes = 8};
-  std::vector<RayTask> rays;
+  std::vector<RayTask> rays, class_rays;
+  std::vector<std::uint16_t> classes;
   std::vector<TileCredit> credits;
   std::vector<Contribution> contributions;
   std::vector<std::uint32_t> tiles;
@@ -30,7 +31,9 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
                                  decode_link_credit(bytes, limits, granted),
                                  decode_token(bytes, limits, token),
                                  decode_assignment(bytes, limits, tiles),
-                                 decode_signal(bytes, limits)};
+                                 decode_signal(bytes, limits),
+                                 decode_rays(bytes, limits, class_rays, BatchType::kClassRays),
+                                 decode_class_credit(bytes, limits, classes)};
   const BatchHeader* header = nullptr;
   for (const BatchResult& result : results) {
     const auto* accepted = std::get_if<BatchHeader>(&result);
@@ -42,6 +45,10 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
   std::vector<std::byte> again;
   switch (header->type) {
     case BatchType::kRays: again = encode_rays(header->stamp, rays); break;
+    case BatchType::kClassRays:
+      again = encode_rays(header->stamp, class_rays, BatchType::kClassRays);
+      break;
+    case BatchType::kClassCredit: again = encode_class_credit(header->stamp, classes); break;
     case BatchType::kContributions:
       again = encode_contributions(header->stamp, credits, contributions);
       break;

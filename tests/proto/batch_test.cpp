@@ -34,9 +34,10 @@ RayTask some_ray(Random& random) {
   task.ends_at_horizon = task.kind == RayKind::kShadow && random.chance(2);
   task.credit_exponent = static_cast<std::uint8_t>(random.below(256));
   task.depth = static_cast<std::uint16_t>(random.below(10));
-  task.light = static_cast<std::uint16_t>(random.below(64));
+  task.light = static_cast<std::uint16_t>(random.below(64) & 63);
   task.region = {static_cast<std::uint16_t>(random.below(4)),
                  static_cast<std::uint16_t>(random.below(2))};
+  task.hops = static_cast<std::uint16_t>(random.below(kMaxHops + 1));
   return task;
 }
 
@@ -73,7 +74,9 @@ std::vector<Bytes> one_of_each(Random& random) {
           encode_signal(kStamp, BatchType::kGoodbye),
           encode_signal(kStamp, BatchType::kGoodbyeAck),
           encode_signal(kStamp, BatchType::kIdle),
-          encode_signal(kStamp, BatchType::kIdleWithCopy)};
+          encode_signal(kStamp, BatchType::kIdleWithCopy),
+          encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
+          encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF})};
 }
 
 template <class T>
@@ -97,9 +100,9 @@ BatchResult decode_rays_of(const Bytes& bytes) {
 TEST_CASE("a batch's header lies at the offsets that FORMAT.md gives") {
   Random random(1);
   const Bytes bytes = encode_rays(kStamp, some_rays(random, 2));
-  REQUIRE(bytes.size() == 44 + 2 * 100);
+  REQUIRE(bytes.size() == 44 + 2 * 102);
   CHECK(std::memcmp(bytes.data(), "GCB1", 4) == 0);
-  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 1);
+  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 2);
   CHECK(load_little<std::uint8_t>(bytes.data() + 6) == 1);
   CHECK(load_little<std::uint8_t>(bytes.data() + 7) == 0);
   CHECK(load_little<std::uint32_t>(bytes.data() + 8) == 3);
@@ -108,7 +111,7 @@ TEST_CASE("a batch's header lies at the offsets that FORMAT.md gives") {
   CHECK(load_little<std::uint64_t>(bytes.data() + 20) == 1ull << 40);
   CHECK(load_little<std::uint32_t>(bytes.data() + 28) == 2);
   CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 0);
-  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 200);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 204);
   CHECK(load_little<std::uint32_t>(bytes.data() + 40) == 77);
 }
 
@@ -124,6 +127,7 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.depth = 0x05;
   task.light = 0x06;
   task.region = {0x0708, 0x090A};
+  task.hops = 0x0B0C;
   const Bytes bytes = encode_rays(kStamp, std::span(&task, 1));
   const std::byte* at = bytes.data() + 44;
   const double expected[] = {1, 2, 3, 0, 0.6, 0.8, 4, 5, 0.25, 0.5, 0.75};
@@ -138,6 +142,7 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.ends_at_horizon = true;
   CHECK(load_little<std::uint8_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 92) == 5);
   CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
+  CHECK(load_little<std::uint16_t>(at + 100) == 0x0B0C);
 }
 
 TEST_CASE("rays keep every bit on the wire") {
@@ -152,7 +157,7 @@ TEST_CASE("rays keep every bit on the wire") {
     CHECK(std::get<BatchHeader>(result).count == rays.size());
     REQUIRE(again.size() == rays.size());
     // No padding before the last field: memcmp compares all bits.
-    constexpr std::size_t kSize = offsetof(RayTask, region) + sizeof(RegionIndex);
+    constexpr std::size_t kSize = offsetof(RayTask, hops) + sizeof(RayTask::hops);
     // Depth and light take a byte less each on the wire.
     static_assert(kSize == kRayBytes + 2);
     for (std::size_t i = 0; i < rays.size(); ++i)
@@ -212,7 +217,7 @@ TEST_CASE("a damaged header is refused, and the error says what is wrong") {
   const Bytes good = encode_rays(kStamp, some_rays(random, 2));
   REQUIRE(peek_header(good).index() == 0);
   CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
-  CHECK(error_of(peek_header(with(good, 4, std::uint16_t{2}))) == BatchError::kBadVersion);
+  CHECK(error_of(peek_header(with(good, 4, std::uint16_t{3}))) == BatchError::kBadVersion);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{12}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
@@ -295,6 +300,13 @@ TEST_CASE("rays with values that no ray can have are refused") {
   good[0].credit_exponent = 101;
   std::vector<RayTask> rays;
   CHECK(error_of(decode_rays(encode_rays(kStamp, good), narrow, rays)) == BatchError::kBadValue);
+  narrow = kLimits;
+  narrow.max_hops = 120;
+  good = some_rays(random, 2);
+  for (RayTask& ray : good) ray.hops = 120;
+  CHECK(decode_rays(encode_rays(kStamp, good), narrow, rays).index() == 0);
+  ++good[1].hops;
+  CHECK(error_of(decode_rays(encode_rays(kStamp, good), narrow, rays)) == BatchError::kBadValue);
 }
 
 TEST_CASE("contributions with values that nobody can have made are refused") {
@@ -329,6 +341,14 @@ TEST_CASE("grants, tokens and assignments with values out of range are refused")
   CHECK(error_of(decode_assignment(encode_assignment(kStamp, std::vector<std::uint32_t>{1, 64}),
                                    kLimits, tiles)) == BatchError::kBadValue);
   CHECK(tiles.empty());
+  BatchLimits few_hops = kLimits;
+  few_hops.max_hops = 12;
+  std::vector<std::uint16_t> classes;
+  CHECK(error_of(decode_class_credit(encode_class_credit(kStamp, std::vector<std::uint16_t>{12, 13}), few_hops,
+                                     classes)) == BatchError::kBadValue);
+  CHECK(classes.empty());
+  CHECK(decode_class_credit(encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 12}), few_hops, classes).index() == 0);
+  CHECK(classes == std::vector<std::uint16_t>{0, 12});
 }
 
 TEST_CASE("a batch cut anywhere, or with a byte too many, is refused") {

@@ -14,14 +14,14 @@ using namespace graycube::simulation;
 
 namespace {
 
-constexpr std::uint32_t kSide = 16, kNodes = 8, kScatter = 4;
+constexpr std::uint32_t kSide = 16, kNodes = 8, kScatter = 4, kThreads = 2, kLights = 8;
 /// Rays of a link's credit; a batch has a quarter of it.
 constexpr std::uint32_t kCredit = 64;
 
 /// Between two mirrors a wall of glass balls, and eight lights.
 std::string hall_of_mirrors() {
   std::string lights;
-  for (int i = 0; i < 8; ++i) {
+  for (std::uint32_t i = 0; i < kLights; ++i) {
     lights += std::string(i == 0 ? "" : ",") + R"({"type": "point", "color": [0.2,0.2,0.2], "position": [)" +
               std::to_string(i % 4 - 1.5) + "," + std::to_string(i < 4 ? 1.8 : -1.2) + ",-1.5]}";
   }
@@ -64,12 +64,14 @@ std::vector<std::uint64_t> trees_of(const std::string& text) {
   return trees;
 }
 
-Outcome render(const std::string& text, const Picture& expected, std::uint64_t seed, std::uint32_t window) {
-  RandomFarmOptions options{.nodes = kNodes, .threads = 2, .seed = seed, .link_delay_s = 1};
+Outcome render(const std::string& text, const Picture& expected, std::uint64_t seed, std::uint32_t window,
+               std::uint64_t outbox_rays = FlowLimits{}.outbox_rays) {
+  RandomFarmOptions options{.nodes = kNodes, .threads = kThreads, .seed = seed, .link_delay_s = 1};
   options.heartbeat_s = 1e4;
   options.stalled_s = 1e7;
   options.limits = {.window_tiles = window, .link_credit_bytes = kCredit * kRayBytes,
-                    .batch_bytes = kCredit / 4 * kRayBytes};
+                    .batch_bytes = kCredit / 4 * kRayBytes,
+                    .outbox_rays = outbox_rays};
   control::JobOptions job = with(Algorithm::kMacro);
   job.shadows = ShadowMode::kForward;
   job.scatter = kScatter;
@@ -104,5 +106,24 @@ TEST_CASE("between mirrors and glass at depth 12 with eight lights, windows boun
     }
     // Many times as much waits where the whole picture is open: it is the window that bounds it.
     CHECK(largest_outbox(wide) > 4 * largest_outbox(narrow));
+  }
+}
+
+TEST_CASE("between mirrors and glass, nodes that are full hold no more, whatever the windows") {
+  const std::string text = hall_of_mirrors();
+  const Picture expected = serial_picture(text);
+  constexpr std::uint64_t kMost = 64;
+  // What an evaluator adds: a part of it, and then a packet's rays or what its class keeps room for.
+  constexpr std::uint64_t kBound =
+      kMost + kThreads * (kMost / kWorksPerOutboxes + (Evaluator::kWaveRays + 1) * (kLights + 2));
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const Outcome free = render(text, expected, seed, 64);
+    const Outcome full = render(text, expected, seed, 64, kMost);
+    INFO("seed " << seed << ", bound " << kBound << ", peaks " << largest_outbox(full) << " and "
+                 << largest_outbox(free) << ", " << full.class_rays << " rays on class credit");
+    CHECK(largest_outbox(full) <= kBound);
+    CHECK(largest_outbox(free) > 2 * kBound);
+    CHECK(free.class_rays == 0);
+    CHECK(full.class_rays > 0);
   }
 }

@@ -90,6 +90,7 @@ Trial trial_of(std::uint64_t seed) {
   }
   if (below(2) == 0) t.farm.replica_bytes = 0;
   if (below(2) == 0) t.job.sums = SumsMode::kTree;
+  if (below(2) == 0) t.farm.limits.outbox_rays = 1 + below(40);
   return t;
 }
 
@@ -97,18 +98,29 @@ Trial trial_of(std::uint64_t seed) {
 /// each light.
 constexpr std::uint64_t largest_tree() { return ((std::uint64_t{2} << kDepth) - 1) * (1 + kLights); }
 
-/// What a node may hold: in its inbox what its links' credit allows, in its outboxes what descends from the tiles
-/// that are open anywhere.
+/// What a node may hold: in its inbox what its links' credit and its classes allow, in its outboxes what descends from
+/// the tiles that are open anywhere, and what it may hold before it is full, with what its evaluators add to that.
 void check_bounds(const Trial& t, const Outcome& outcome, std::uint64_t pixels) {
   if (t.job.algorithm != Algorithm::kMacro) return;
   const std::uint64_t links = Hypercube::of_size(t.farm.nodes)->dimension();
-  std::uint64_t inbox = links * (t.farm.limits.link_credit_bytes / kRayBytes);
+  const Hypercube cube = *Hypercube::of_size(t.farm.nodes);
+  const std::uint64_t classes =
+      t.job.flow == FlowMode::kBlocking
+          ? 0
+          : most_hops(kDepth, t.job.scatter * cube.columns(), t.job.scatter * cube.rows());
+  constexpr std::uint64_t kChildren = kLights + 2;
+  const std::uint64_t own = classes * t.farm.threads * kChildren * (kDepth + 1);
+  std::uint64_t inbox = links * (t.farm.limits.link_credit_bytes / kRayBytes + classes) + own;
   if (t.job.flow == FlowMode::kBlocking) inbox = links == 0 ? 0 : std::max<std::uint64_t>(t.job.queue, links);
   REQUIRE(outcome.reports.size() == t.farm.nodes);
   for (const control::NodeStats& n : outcome.reports) {
     // Rays that waited for a borrowed model lie there too.
     if (t.job.shadows != ShadowMode::kLocal) CHECK(n.queue_peak <= inbox);
     CHECK(n.outbox_peak <= pixels * largest_tree());
+    const std::uint64_t most = t.farm.limits.outbox_rays;
+    const std::uint64_t added =
+        std::max<std::uint64_t>(1, most / kWorksPerOutboxes) + (Evaluator::kWaveRays + classes) * kChildren;
+    CHECK(n.outbox_peak <= most + t.farm.threads * added);
   }
 }
 
@@ -124,7 +136,7 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
   const std::uint64_t only = number_in_environment("GRAYCUBE_SEED", 0);
   const std::uint64_t last = only != 0 ? only : number_in_environment("GRAYCUBE_SEEDS", kSeeds);
   std::map<std::string, unsigned> ways;
-  std::uint64_t deadlocks = 0, beyond_credit = 0;
+  std::uint64_t deadlocks = 0, beyond_credit = 0, on_class = 0;
   for (std::uint64_t seed = only != 0 ? only : 1; seed <= last; ++seed) {
     const Trial t = trial_of(seed);
     INFO("seed " << seed << ": " << t.name() << ", " << t.farm.nodes << " nodes, scatter " << t.job.scatter);
@@ -132,6 +144,7 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
     RandomFarm farm(t.farm);
     const Outcome outcome = farm.render(pictures.text, t.job);
     ++ways[t.name()];
+    on_class += outcome.class_rays;
     for (const control::NodeStats& n : outcome.reports) {
       beyond_credit += n.outbox_peak * kRayBytes > t.farm.limits.link_credit_bytes;
     }
@@ -150,5 +163,6 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
   // out and queues fill.
   CHECK(ways.size() == 2 * (3 + 3 * 2 * 2));
   CHECK(deadlocks > 5);
+  CHECK(on_class > 10 * last);
   CHECK(beyond_credit > last / 4);
 }
