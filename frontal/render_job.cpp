@@ -108,10 +108,11 @@ control::Load RenderJob::load() const {
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(ledger_.tile_count()) : most_open_tiles();
   m.batch_bytes = limits_.batch_bytes;
-  // Classes beyond the last would share its credit and could wait for themselves.
-  if (most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows) < kMaxHops) {
-    m.outbox_rays = limits_.outbox_rays;
-  }
+  const std::uint64_t classes = most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows);
+  // Classes beyond the last would share its places and could wait for themselves.
+  if (classes < kMaxHops) m.outbox_rays = limits_.outbox_rays;
+  m.class_places = static_cast<std::uint32_t>(std::max<std::uint64_t>(
+      1, limits_.outbox_rays / (4 * classes * std::max(1u, cube_.dimension()))));
   if (scene_.flow == FlowMode::kBlocking) {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
     m.threads = 1;

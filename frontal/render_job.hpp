@@ -25,7 +25,8 @@ struct FlowLimits {
   /// What may be under way on a link and in its receiver's inbox.
   std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
   std::uint32_t batch_bytes = std::uint32_t{256} << 10;
-  /// What a node's outboxes may hold: then it traces only what comes on class credit.
+  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places for such rays behind a
+  /// node's links are a quarter of it, or one for each class and link.
   std::uint64_t outbox_rays = std::uint64_t{1} << 18;
 };
 /// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <vector>
 
+#include "node/class_places.hpp"
 #include "node/outbox.hpp"
 #include "topology/rank.hpp"
 
@@ -20,12 +20,10 @@ struct Link {
   std::uint64_t send_credit = 0;
   std::uint64_t next_sequence = 0;
 
-  /// A full node's rays for the peer that descend from rays on class credit; and the classes of which a ray is on
-  /// its way to the peer on their credit, or waits there.
+  /// A full node's rays for the peer that descend from rays on class credit; and the places that rays on class credit
+  /// have taken, on the way to the peer and on the way here.
   std::vector<RayTask> class_outbox;
-  std::set<std::uint16_t> classes_out;
-  /// The same the other way: of these classes a ray of the peer's waits here.
-  std::set<std::uint16_t> classes_in;
+  ClassPlaces places_out, places_in;
 
   /// Taken from the inbox by evaluators, but not yet granted back.
   std::uint64_t ungranted = 0;
@@ -45,8 +43,8 @@ struct Link {
     has_asked = false;
     outbox.clear();
     class_outbox.clear();
-    classes_out.clear();
-    classes_in.clear();
+    places_out.clear();
+    places_in.clear();
     send_credit = credit;
     ungranted = 0;
     next_sequence = 0;

@@ -147,6 +147,7 @@ class Node {
   // node_classes.cpp
   bool is_full() const;
   std::uint32_t most_children() const;
+  std::uint64_t rays_per_class_work() const;
   bool has_room_after(std::uint16_t of_class) const;
   bool has_class_ray_to_take() const;
   bool take_class_rays(Work& work);

@@ -1,9 +1,11 @@
 // How a full node goes on (ARCHITECTURE.md, "Flow"). Where the outboxes hold all that they may, evaluators trace only
-// rays that came on the credit of their classes, one at a time, and only while there is room for what may descend from
-// one: its class is one higher. The highest class sends nothing on, so that every class finds room in the end.
+// rays that came on the credit of their classes, of one class at a time, and only while there is room for what may
+// descend from them: its class is one higher. The highest class sends nothing on, so that every class finds room in the
+// end.
 #include <algorithm>
 #include <utility>
 
+#include "geometry/check.hpp"
 #include "node/node.hpp"
 #include "proto/control.hpp"
 
@@ -19,11 +21,19 @@ std::uint32_t Node::most_children() const {
   return static_cast<std::uint32_t>(domain_->settings().lights.size()) + 2;
 }
 
-/// Whether the class outboxes have room for what a ray of this class may send on.
+/// Rays on class credit that an evaluator of a full node traces together: for all classes, the room for what they may
+/// send on is a quarter of the outboxes, or enough for one.
+std::uint64_t Node::rays_per_class_work() const {
+  const std::uint64_t classes = most_hops(limits_.max_depth, limits_.columns, limits_.rows);
+  const std::uint64_t fitting = load_.outbox_rays / (4 * classes * load_.threads * most_children());
+  return std::clamp<std::uint64_t>(fitting, 1, Evaluator::kWaveRays);
+}
+
+/// Whether the class outboxes have room for what rays of this class may send on.
 bool Node::has_room_after(std::uint16_t of_class) const {
   const auto next = class_outbox_rays_.find(static_cast<std::uint16_t>(of_class + 1));
   if (next == class_outbox_rays_.end()) return true;
-  return next->second <= std::uint64_t{load_.threads - 1} * most_children();
+  return next->second <= (load_.threads - 1) * rays_per_class_work() * most_children();
 }
 
 bool Node::has_class_ray_to_take() const {
@@ -34,14 +44,18 @@ bool Node::has_class_ray_to_take() const {
          class_rays_.highest([this](std::uint16_t c) { return has_room_after(c); }).has_value();
 }
 
-/// Rays that came on class credit: while the node is full one, otherwise many. Those that only pass through go on
-/// at once. False when none is left to be traced.
+/// Rays that came on class credit: while the node is full those of one class, otherwise any. Those that only pass
+/// through go on at once. False when none is left to be traced.
 bool Node::take_class_rays(Work& work) {
   const bool full = is_full();
+  if (class_rays_.is_empty() || (full && rays_in_wait_ > 0)) return false;
   std::vector<std::vector<std::uint16_t>> taken(links_.size());
   RayWork batch;
-  while (batch.rays.size() < (full ? 1 : kMaxRaysPerWork) && !(full && rays_in_wait_ > 0)) {
-    const auto of_class = class_rays_.highest([&](std::uint16_t c) { return !full || has_room_after(c); });
+  while (batch.rays.size() < (full ? rays_per_class_work() : kMaxRaysPerWork)) {
+    const bool begun = full && !batch.rays.empty();
+    const auto of_class = class_rays_.highest([&](std::uint16_t c) {
+      return begun ? c == batch.rays.front().hops : !full || has_room_after(c);
+    });
     if (!of_class) break;
     const ClassStore::Held held = class_rays_.take(*of_class);
     if (held.link) taken[*held.link].push_back(*of_class);
@@ -57,7 +71,7 @@ bool Node::take_class_rays(Work& work) {
   if (full) {
     work.on_class = batch.rays.front().hops;
     work.most_leaving = 1;
-    class_outbox_rays_[static_cast<std::uint16_t>(*work.on_class + 1)] += most_children();
+    class_outbox_rays_[static_cast<std::uint16_t>(*work.on_class + 1)] += rays_per_class_work() * most_children();
   }
   work.what = std::move(batch);
   return true;
@@ -65,13 +79,13 @@ bool Node::take_class_rays(Work& work) {
 
 void Node::release_room_after(std::uint16_t of_class) {
   const auto next = class_outbox_rays_.find(static_cast<std::uint16_t>(of_class + 1));
-  next->second -= most_children();
+  next->second -= rays_per_class_work() * most_children();
   if (next->second == 0) class_outbox_rays_.erase(next);
 }
 
 void Node::give_back_classes(Link& link, std::span<const std::uint16_t> classes) {
   if (classes.empty()) return;
-  for (const std::uint16_t c : classes) link.classes_in.erase(c);
+  for (const std::uint16_t c : classes) GRAYCUBE_CHECK(link.places_in.give_back(c), "class %u held no place", c);
   outgoing_.push_back({link.peer, Message::of_batch(encode_class_credit(stamp(link.next_sequence++), classes))});
 }
 
@@ -89,8 +103,8 @@ void Node::leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::
   stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
 }
 
-/// What descends from rays on class credit goes first; a full node that has no other credit sends the rest by single
-/// rays of each class.
+/// What descends from rays on class credit goes first; a full node that has no other credit sends the rest while there
+/// are places for their classes.
 void Node::send_on_class(Link& link) {
   std::vector<RayTask>& waiting = link.class_outbox;
   const auto forget = [this](const RayTask& ray) {
@@ -107,13 +121,15 @@ void Node::send_on_class(Link& link) {
   if (link.send_credit >= kRayBytes) return;
   std::vector<RayTask> rays;
   std::erase_if(waiting, [&](const RayTask& ray) {
-    if (rays.size() == kMaxRaysPerBatch || !link.classes_out.insert(ray.hops).second) return false;
+    if (rays.size() == kMaxRaysPerBatch || !link.places_out.take(ray.hops, load_.class_places)) {
+      return false;
+    }
     rays.push_back(ray);
     forget(ray);
     return true;
   });
   while (is_full() && !link.outbox.is_empty() && rays.size() < kMaxRaysPerBatch &&
-         link.classes_out.insert(link.outbox.oldest(1).front().hops).second) {
+         link.places_out.take(link.outbox.oldest(1).front().hops, load_.class_places)) {
     rays.push_back(link.outbox.oldest(1).front());
     link.outbox.drop_oldest(1);
     --outbox_rays_;
@@ -125,9 +141,8 @@ void Node::on_class_rays(Link& link, std::uint32_t bit, std::span<const std::byt
   std::vector<RayTask>& rays = received_;
   const auto result = decode_rays(batch, limits_, rays, BatchType::kClassRays);
   const auto* error = std::get_if<BatchError>(&result);
-  // One ray of each class at a time.
   const bool is_due = error == nullptr && std::all_of(rays.begin(), rays.end(), [&](const RayTask& ray) {
-    return is_due_here(ray.region) && link.classes_in.insert(ray.hops).second;
+    return is_due_here(ray.region) && link.places_in.take(ray.hops, load_.class_places);
   });
   if (!is_due) {
     drop("class rays", error != nullptr ? to_string(*error) : "for another macro-region, or without credit");
@@ -145,7 +160,7 @@ void Node::on_class_credit(Link& link, std::span<const std::byte> batch) {
   const auto result = decode_class_credit(batch, limits_, classes);
   if (std::holds_alternative<BatchError>(result)) return drop("class credit", "malformed");
   for (const std::uint16_t c : classes) {
-    if (link.classes_out.erase(c) == 0) drop("class credit", "of a class that it was not due for");
+    if (!link.places_out.give_back(c)) drop("class credit", "of a class that it was not due for");
   }
   send_rays(link, all_evaluators_wait());
 }

@@ -304,6 +304,8 @@ struct Load {
   std::uint32_t batch_bytes = 65536;
   /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
   std::uint64_t outbox_rays = 0xFFFF'FFFF;
+  /// Rays of each class that a link has places for beside its credit.
+  std::uint32_t class_places = 1;
   std::uint64_t horizon_bytes = 0;
   /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
   std::uint64_t borrow_bytes = 0;

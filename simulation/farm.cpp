@@ -93,7 +93,7 @@ void Farm::start(const Frontal::Spawn& spawn) {
   };
   p.incarnation = spawn.incarnation;
   p.unreturned.assign(cube_.dimension(), 0);
-  p.classes_out.assign(cube_.dimension(), {});
+  p.places_out.assign(cube_.dimension(), {});
   machine_.on_start(spawn.rank);
   const PeerId peer = peer_of(spawn.rank, spawn.incarnation);
   peers_[peer] = spawn.rank;

@@ -8,7 +8,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -80,8 +79,8 @@ class Farm {
     bool is_rendering = false;
     /// By bit: bytes of rays sent across that link for which no credit has come back.
     std::vector<std::uint64_t> unreturned;
-    /// By bit: classes whose credit is out.
-    std::vector<std::set<std::uint16_t>> classes_out;
+    /// By bit.
+    std::vector<ClassPlaces> places_out;
   };
 
   Cores& cores_of(Place place);

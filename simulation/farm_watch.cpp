@@ -58,7 +58,7 @@ void Farm::watch_to_node(const Message& message) {
     load_ = *load;
     for (Process& p : processes_) {
       std::ranges::fill(p.unreturned, 0);
-      std::ranges::fill(p.classes_out, std::set<std::uint16_t>{});
+      std::ranges::fill(p.places_out, ClassPlaces{});
     }
   }
 }
@@ -108,26 +108,26 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   }
 }
 
-/// One ray of each class may be on its way on a link, or wait behind it, on its class's credit.
+/// So many rays of each class may be on their way on a link, or wait behind it, as it has places for them.
 void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent) {
   BatchLimits limits{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = cube_.nodes()};
   if (type == BatchType::kClassRays && is_sent) {
     if (is_over_) outcome_.violations.push_back("class rays were sent after the token's end");
-    auto& out = processes_[from.value].classes_out[bit_between(cube_, from, to)];
+    ClassPlaces& out = processes_[from.value].places_out[bit_between(cube_, from, to)];
     std::vector<RayTask> rays;
     if (std::holds_alternative<BatchError>(decode_rays(batch, limits, rays, type))) {
       outcome_.violations.push_back("a broken batch of class rays was sent");
     }
     outcome_.class_rays += rays.size();
     for (const RayTask& ray : rays) {
-      if (!out.insert(ray.hops).second) outcome_.violations.push_back("a class's credit was used twice");
+      if (!out.take(ray.hops, load_.class_places)) outcome_.violations.push_back("a class has more rays on a link than places");
     }
   } else if (type == BatchType::kClassCredit && !is_sent) {
-    auto& out = processes_[to.value].classes_out[bit_between(cube_, from, to)];
+    ClassPlaces& out = processes_[to.value].places_out[bit_between(cube_, from, to)];
     std::vector<std::uint16_t> classes;
     if (std::holds_alternative<BatchError>(decode_class_credit(batch, limits, classes))) return;
     for (const std::uint16_t c : classes) {
-      if (out.erase(c) == 0) outcome_.violations.push_back("a class got more credit than it gave");
+      if (!out.give_back(c)) outcome_.violations.push_back("a class got more credit than it gave");
     }
   }
 }

@@ -95,7 +95,7 @@ inline std::vector<ControlMessage> example_messages() {
       Goodbye{},
       Welcome{2, "0.1.0", {"ipc://a", ""}, 500},
       Load{9, 1, Algorithm::kMacro, 2, grid, Grain::kTile, 16, ShadowMode::kForward,
-           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 4000, 98304, 1 << 28, true, true, SumsMode::kTree},
+           FlowMode::kCredit, 64, 1 << 20, 8, 65536, 4000, 3, 98304, 1 << 28, true, true, SumsMode::kTree},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       Relieved{9, 1, 12},
