@@ -8,8 +8,13 @@
  * than there really are. Left out are the token (token.pml) and the frontal's links, which carry only tiles
  * and contributions: a Window may look as late as it likes.
  *
+ * With -DCLASSES a node is full while more than STALL rays wait to be sent (node/node_classes.cpp): then its evaluators
+ * take only rays in places, of which every link has one for each class, and only while there is room kept for what
+ * these may send on. A full node without credit sends from its outbox to free places, too.
+ *
  * Without one of the rules:
  *   -DSTALL=n   as in 1987: an evaluator takes nothing while more than n rays wait to be sent.
+ *   -DROOMLESS  with classes, rays in places are taken whether or not there is room for what they send on.
  *   -DKEEP      new credit sends full batches only, even where all evaluators wait.
  *   -DHOARD=n   credit returns once n rays of it are due, not half of it, and not when an evaluator finds
  *               nothing to do.
@@ -88,6 +93,14 @@
 chan outbox[LINKS] = [BOUND] of { byte };
 chan inbox[LINKS] = [CREDIT] of { byte };   /* on the link or received over it, deepest ray first */
 chan grants[LINKS] = [CREDIT] of { byte };  /* on their way back to the link's sender */
+#ifdef CLASSES
+/* A received ray has crossed a link; the fewer it may still cross, the higher its class. */
+#define AT(l, h) ((l) * HOPS + (h))
+chan placed[LINKS * HOPS] = [1] of { byte };         /* on the link or received */
+chan class_outbox[LINKS * HOPS] = [FAN] of { byte };
+bool taken[LINKS * HOPS];                           /* as the link's sender knows, who hears later that it is free */
+byte promised[N];                                   /* evaluators that may fill the highest class's outboxes */
+#endif
 chan tiles[N] = [WINDOW] of { byte };       /* by place, not started */
 byte credit[LINKS] = CREDIT;
 byte ungranted[LINKS];
@@ -106,13 +119,69 @@ byte whole = 0;          /* places whose tiles are all done */
 #define TO_SEND(i) (len(outbox[i]) + len(outbox[N + i]))
 #define RECEIVED(i) (len(inbox[BEFORE(i)]) + len(inbox[N + NEXT(i)]))
 #endif
+#ifdef CLASSES
+#if HOPS == 1
+#define IN_CLASSES(l) (len(class_outbox[l]))
+#else
+#define IN_CLASSES(l) (len(class_outbox[AT(l, 0)]) + len(class_outbox[AT(l, 1)]))
+#endif
+#if WAYS == 1
+#define CLASS_RAYS(i) IN_CLASSES(i)
+#define CLASS_WAITS(i, h) (len(class_outbox[AT(i, h)]))
+#define PLACED(i, h) MAY_TAKE_PLACED(i, BEFORE(i), h)
+#else
+#define CLASS_RAYS(i) (IN_CLASSES(i) + IN_CLASSES(N + i))
+#define CLASS_WAITS(i, h) (len(class_outbox[AT(i, h)]) + len(class_outbox[AT(N + i, h)]))
+#define PLACED(i, h) (MAY_TAKE_PLACED(i, BEFORE(i), h) || MAY_TAKE_PLACED(i, N + NEXT(i), h))
+#endif
+#define MAY_TAKE_PLACED(i, l, h) (len(placed[AT(l, h)]) > 0 && (!STALLED(i) || HAS_ROOM_AFTER(i, h)))
+#if HOPS == 1
+#define ANY_PLACED(i) PLACED(i, 0)
+#else
+#define ANY_PLACED(i) (PLACED(i, 0) || PLACED(i, 1))
+#endif
+#if HOPS == 1 || defined(ROOMLESS)
+#define HAS_ROOM_AFTER(i, h) true
+#else
+#define HAS_ROOM_AFTER(i, h) (h == 0 || (CLASS_WAITS(i, 0) == 0 && promised[i] == 0))
+#endif
+#else
+#define CLASS_RAYS(i) 0
+#define ANY_PLACED(i) false
+#endif
 #ifdef STALL
-#define STALLED(i) (TO_SEND(i) > STALL)
+#define STALLED(i) (TO_SEND(i) + CLASS_RAYS(i) > STALL)
 #else
 #define STALLED(i) false
 #endif
 #define MAY_START(i) (!STALLED(i) && len(tiles[i]) > 0 && TO_SEND(i) < LONG)
-#define MAY_TAKE(i) (!STALLED(i) && RECEIVED(i) > 0)
+#define MAY_TAKE(i) ((!STALLED(i) && RECEIVED(i) > 0) || ANY_PLACED(i))
+
+#ifdef CLASSES
+inline send_to_places(l) {
+  for (h : 0 .. (HOPS - 1)) {
+    do
+    :: len(class_outbox[AT(l, h)]) > 0 && credit[l] > 0 ->
+       class_outbox[AT(l, h)]?sent; leave_home(sent, FROM(l)); inbox[l]!!sent; credit[l]--
+    :: len(class_outbox[AT(l, h)]) > 0 && credit[l] == 0 && !taken[AT(l, h)] ->
+       class_outbox[AT(l, h)]?sent; leave_home(sent, FROM(l)); taken[AT(l, h)] = true; placed[AT(l, h)]!sent
+    :: else -> break
+    od
+  }
+  do
+  :: STALLED(FROM(l)) && credit[l] == 0 && len(outbox[l]) > 0 ->
+     outbox[l]?<sent>;
+     h = HOPS_LEFT(sent);
+     if
+     :: !taken[AT(l, h)] ->
+        outbox[l]?sent; leave_home(sent, FROM(l)); taken[AT(l, h)] = true; placed[AT(l, h)]!sent
+     :: else -> break
+     fi
+  :: else -> break
+  od;
+  sent = 0; h = 0
+}
+#endif
 
 inline send_rays(l, partial) {
   do
@@ -134,6 +203,10 @@ inline send_rays(l, partial) {
      od
   :: else -> break
   od
+#ifdef CLASSES
+  ;
+  send_to_places(l)
+#endif
 }
 
 inline grant(l) {
@@ -155,8 +228,8 @@ inline flush_on_idle(i) {
 #endif
 #endif
 #ifndef SILENT
-  for (place : 0 .. (PLACES - 1)) { held_by[place] = held_by[place] & (255 - (1 << i)) }
-  place = 0
+  for (tile : 0 .. (PLACES - 1)) { held_by[tile] = held_by[tile] & (255 - (1 << i)) }
+  tile = 0
 #endif
 }
 
@@ -172,6 +245,19 @@ inline take_received(i, l) {
   working[i]++;
   busy = true
 }
+
+#ifdef CLASSES
+inline take_placed(i, l, h) {
+  on_class = STALLED(i);
+  placed[AT(l, h)]?ray;
+  if
+  :: on_class && h > 0 -> promised[i]++
+  :: else
+  fi;
+  working[i]++;
+  busy = true
+}
+#endif
 
 inline come_home(r, i) {
 #ifdef LOCAL
@@ -196,8 +282,15 @@ inline leave_home(r, i) {
 }
 
 inline forward(l) {
+#ifdef CLASSES
+  if
+  :: on_class -> assert(len(class_outbox[AT(l, HOPS_LEFT(ray) - 1)]) < FAN); class_outbox[AT(l, HOPS_LEFT(ray) - 1)]!(ray - PLACES)
+  :: else -> assert(len(outbox[l]) < BOUND); outbox[l]!(ray - PLACES)
+  fi;
+#else
   assert(len(outbox[l]) < BOUND);
   outbox[l]!(ray - PLACES);
+#endif
   under_way[PLACE(ray)]++;
   come_home(ray, FROM(l))
 }
@@ -207,9 +300,9 @@ inline trace_ray(i) {
   :: HOPS_LEFT(ray) > 0 ->
      for (child : 1 .. FAN) {
        if
-       :: forward(i)
+       :: true -> forward(i)
 #if WAYS == 2
-       :: forward(N + i)
+       :: true -> forward(N + i)
 #endif
        :: break
        fi
@@ -221,6 +314,13 @@ inline trace_ray(i) {
   :: HOPS_LEFT(ray) == HOPS -> leave_home(ray, i)
   :: else
   fi;
+#ifdef CLASSES
+  if
+  :: on_class && HOPS_LEFT(ray) > 0 -> promised[i]--
+  :: else
+  fi;
+  on_class = false;
+#endif
   under_way[PLACE(ray)]--;
   held_by[PLACE(ray)] = held_by[PLACE(ray)] | (1 << i);
   ray = 0
@@ -234,6 +334,9 @@ inline give_result(i) {
   send_rays(N + i, false);
 #endif
   assert(RECEIVED(i) + TO_SEND(i) + working[i] <= BOUND);
+#ifdef CLASSES
+  assert(TO_SEND(i) <= STALL + THREADS * FAN);
+#endif
   if
   :: MAY_START(i) || MAY_TAKE(i)
   :: !MAY_START(i) -> flush_on_idle(i)  /* what there is to take may still be on the link */
@@ -242,12 +345,28 @@ inline give_result(i) {
 
 proctype Evaluator(byte i) {
   bool busy;
-  byte ray, child, place, room, sent;
+  byte ray, child, tile, room, sent;
+#ifdef CLASSES
+  bool on_class;
+  byte h;
+#endif
 end:
   do
   :: atomic { !busy && !STALLED(i) && len(inbox[BEFORE(i)]) > 0 -> take_received(i, BEFORE(i)) }
 #if WAYS == 2
   :: atomic { !busy && !STALLED(i) && len(inbox[N + NEXT(i)]) > 0 -> take_received(i, N + NEXT(i)) }
+#endif
+#ifdef CLASSES
+  :: atomic { !busy && MAY_TAKE_PLACED(i, BEFORE(i), 0) -> take_placed(i, BEFORE(i), 0) }
+#if HOPS == 2
+  :: atomic { !busy && MAY_TAKE_PLACED(i, BEFORE(i), 1) -> take_placed(i, BEFORE(i), 1) }
+#endif
+#if WAYS == 2
+  :: atomic { !busy && MAY_TAKE_PLACED(i, N + NEXT(i), 0) -> take_placed(i, N + NEXT(i), 0) }
+#if HOPS == 2
+  :: atomic { !busy && MAY_TAKE_PLACED(i, N + NEXT(i), 1) -> take_placed(i, N + NEXT(i), 1) }
+#endif
+#endif
 #endif
   :: atomic { !busy && MAY_START(i) -> tiles[i]?ray; ray = RAY(ray, HOPS); working[i]++; busy = true }
   :: atomic { busy -> trace_ray(i); give_result(i) }
@@ -257,8 +376,17 @@ end:
 /* Takes in grants for link l. */
 proctype Mailroom(byte l) {
   byte room, sent;
+#ifdef CLASSES
+  byte h;
+#endif
 end:
   do
+#ifdef CLASSES
+  :: atomic { taken[AT(l, 0)] && len(placed[AT(l, 0)]) == 0 -> taken[AT(l, 0)] = false; send_to_places(l) }
+#if HOPS == 2
+  :: atomic { taken[AT(l, 1)] && len(placed[AT(l, 1)]) == 0 -> taken[AT(l, 1)] = false; send_to_places(l) }
+#endif
+#endif
   :: atomic { len(grants[l]) > 0 ->
        grants[l]?sent;
        credit[l] = credit[l] + sent;
