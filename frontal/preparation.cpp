@@ -154,9 +154,7 @@ PreparationResult run(const PreparationWork& work) {
   PreparationResult result;
   result.job = work.job;
   const auto started = Clock::now();
-  const std::string_view text{reinterpret_cast<const char*>(work.scene_text.data()),
-                              work.scene_text.size()};
-  ReadResult read = read_scene_text(text);
+  ReadResult read = read_scene_text(text_of(work.scene_text));
   for (const SceneError& e : read.errors) add_error(result.errors, e.pointer, e.message);
   if (!read.scene) return result;
   check_is_built(*read.scene, result.errors);
