@@ -49,7 +49,7 @@ ExitStatus run(const SubmitCommand& command) {
   try {
     stats = follow_job(farm, job, display);
   } catch (const Failure& failure) {
-    if (!failure.statistics().empty()) write_stats(command.outputs, failure.statistics());
+    write_stats(command.outputs, failure.statistics());
     throw;
   }
   display.clear();
