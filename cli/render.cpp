@@ -80,9 +80,7 @@ ExitStatus run(const RenderCommand& command) {
     write_outputs(command, outputs, name, rendered, started);
     return ExitStatus::kDone;
   }
-  RenderSettings settings = scene.scene.settings;
-  apply_overrides(command.options, settings);
-  check_farm_limits(scene, settings);
+  check_farm_limits(scene, command.options);
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
   scene.scene = {};
