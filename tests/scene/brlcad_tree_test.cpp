@@ -111,3 +111,18 @@ TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is n
   for (std::size_t i = 0; i <= kMaxBrlcadTreeDepth; ++i) deep = "- {l s} {" + deep + "}";
   CHECK(read(deep).second.find("deeper than 100 levels") != std::string::npos);
 }
+
+TEST_CASE("a name with braces is the same where g2asc puts it and in a tree") {
+  const Scene scene = scene_of(
+      R"(title {\{t\}}
+put {a\{b} ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}
+put {c\{d\}} ell V {5 0 0} A {1 0 0} B {0 1 0} C {0 0 1}
+put {r\}} comb region yes tree {u {l a\{b} {l {c{d}}}}
+attr set {r\}} {rgb} {255/0/0}
+)",
+      {"r}"});
+  CHECK(holds(scene, 0, 0, 0));
+  CHECK(holds(scene, 5, 0, 0));
+  REQUIRE(scene.materials.size() == 1);
+  CHECK(scene.materials[0].material.color.g == 0);
+}
