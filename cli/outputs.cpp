@@ -87,7 +87,7 @@ void write_pictures(const Outputs& outputs, const Picture& picture, const std::s
 }
 
 void write_stats(const Outputs& outputs, const std::string& stats) {
-  if (!outputs.stats.empty()) write_text_file(outputs.stats, stats + "\n");
+  if (!outputs.stats.empty() && !stats.empty()) write_text_file(outputs.stats, stats + "\n");
 }
 
 void write_text_file(const fs::path& path, const std::string& text) {

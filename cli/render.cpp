@@ -40,19 +40,17 @@ Rendered render_on_farm(const RenderCommand& command, SceneInput scene, FrontalP
   return rendered;
 }
 
-/// The nodes' times and queues of a render that ended in a deadlock are worth as much as a picture's.
-void write_stats_of_failure(const Outputs& outputs, const Failure& failure, Clock::time_point started) {
-  if (failure.statistics().empty()) return;
+/// With what the whole command took, which it returns.
+double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started) {
   const double wall_s = std::chrono::duration<double>(Clock::now() - started).count();
-  write_stats(outputs, with_command_times(failure.statistics(), wall_s, own_cpu_seconds()));
+  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds()));
+  return wall_s;
 }
 
 void write_outputs(const RenderCommand& command, const Outputs& outputs, const std::string& scene,
-                   Rendered& rendered, Clock::time_point started) {
+                   const Rendered& rendered, Clock::time_point started) {
   write_pictures(outputs, rendered.picture, scene);
-  const double wall_s = std::chrono::duration<double>(Clock::now() - started).count();
-  rendered.stats = with_command_times(rendered.stats, wall_s, own_cpu_seconds());
-  write_stats(outputs, rendered.stats);
+  const double wall_s = write_timed_stats(outputs, rendered.stats, started);
   if (command.is_quiet) return;
   std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
               rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
@@ -82,9 +80,7 @@ ExitStatus run(const RenderCommand& command) {
     write_outputs(command, outputs, name, rendered, started);
     return ExitStatus::kDone;
   }
-  RenderSettings settings = scene.scene.settings;
-  apply_overrides(command.options, settings);
-  check_farm_limits(scene, settings);
+  check_farm_limits(scene, command.options);
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
   scene.scene = {};
@@ -92,7 +88,7 @@ ExitStatus run(const RenderCommand& command) {
   try {
     rendered = render_on_farm(command, std::move(scene), frontal);
   } catch (const Failure& failure) {
-    write_stats_of_failure(outputs, failure, started);
+    write_timed_stats(outputs, failure.statistics(), started);
     throw;
   }
   // The files are written while the farm stops; from here on an interrupt changes nothing any more.

@@ -242,7 +242,9 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   settings.aovs = parse_aovs(options.aov).value_or(AovSet{});
 }
 
-void check_farm_limits(const SceneInput& input, const RenderSettings& settings) {
+void check_farm_limits(const SceneInput& input, const control::JobOptions& options) {
+  RenderSettings settings = input.scene.settings;
+  apply_overrides(options, settings);
   const auto refuse = [&](const char* what, std::uint32_t most, std::uint64_t found) {
     throw Failure(ExitStatus::kBadInput,
                   Problem{"scene", input.name + ":" + what,

@@ -57,7 +57,7 @@ void check_is_built(const std::filesystem::path& path, const Scene& scene);
 /// The options' overrides, applied.
 void apply_overrides(const control::JobOptions& options, RenderSettings& settings);
 
-/// Throws a Failure of status 2 when the scene can't be rendered but by `serial`.
-void check_farm_limits(const SceneInput& input, const RenderSettings& settings);
+/// Throws a Failure of status 2 when the scene, with the options' overrides, can't be rendered but by `serial`.
+void check_farm_limits(const SceneInput& input, const control::JobOptions& options);
 
 }  // namespace graycube

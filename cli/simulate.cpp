@@ -232,9 +232,9 @@ ExitStatus run(const SimulateCommand& command) {
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);
   }
+  check_farm_limits(scene, command.options);
   RenderSettings settings = scene.scene.settings;
   apply_overrides(command.options, settings);
-  check_farm_limits(scene, settings);
   ProgressDisplay display(stderr, command.is_quiet);
   const Rendered serial = render_here(scene, command.options, 1, display);
   const double serial_s = figures_of(serial.stats).nodes.front().busy_s * command.cpu_scale;

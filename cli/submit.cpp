@@ -35,9 +35,7 @@ ExitStatus run(const SubmitCommand& command) {
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
-  RenderSettings settings = scene.scene.settings;
-  apply_overrides(command.options, settings);
-  check_farm_limits(scene, settings);
+  check_farm_limits(scene, command.options);
   FarmClient farm(command.connect);
   if (command.nodes != 0) check_farm_size(farm, command.nodes);
   const std::uint32_t job = submit_scene(farm, scene, command.options);
@@ -49,7 +47,7 @@ ExitStatus run(const SubmitCommand& command) {
   try {
     stats = follow_job(farm, job, display);
   } catch (const Failure& failure) {
-    if (!failure.statistics().empty()) write_stats(command.outputs, failure.statistics());
+    write_stats(command.outputs, failure.statistics());
     throw;
   }
   display.clear();

@@ -28,15 +28,15 @@ std::uint64_t primary_rays(const ImageSize& image) {
 
 }  // namespace
 
-Partition partition_of(const Model& model, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
-                       const std::shared_ptr<const LightHorizons>& horizons) {
-  const ImageSize& image = model.settings.image;
-  const auto frame = CameraFrame::from(model.settings.camera, image);
+Partition partition_of(const std::shared_ptr<const Model>& model, const Hypercube& cube, std::uint32_t scatter,
+                       PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons) {
+  const ImageSize& image = model->settings.image;
+  const auto frame = CameraFrame::from(model->settings.camera, image);
   const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
   const std::uint32_t fine = std::clamp(kMostCells / std::max(columns, rows), kLeastFineCells, kFineCells);
   const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
   const bool too_costly = wanted == PartitionMode::kAuto &&
-                          primary_rays(image) < kPrimaryRaysPerPrimitive * model.primitives.size();
+                          primary_rays(image) < kPrimaryRaysPerPrimitive * model->primitives.size();
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
     return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0};
   }

@@ -23,7 +23,7 @@ struct Partition {
 /// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse
 /// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
 /// the picture. `horizons` may be null.
-Partition partition_of(const Model& model, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
-                       const std::shared_ptr<const LightHorizons>& horizons);
+Partition partition_of(const std::shared_ptr<const Model>& model, const Hypercube& cube, std::uint32_t scatter,
+                       PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons);
 
 }  // namespace graycube

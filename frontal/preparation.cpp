@@ -81,7 +81,8 @@ PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
                                                                                : work.options.partition;
 }
 
-void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScene& out) {
+void cut_for_macro(const PreparationWork& work, const std::shared_ptr<const Model>& whole, PreparedScene& out) {
+  const Model& model = *whole;
   const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
   out.shadows = work.options.shadows;
   out.flow = work.options.flow;
@@ -94,7 +95,7 @@ void cut_for_macro(const PreparationWork& work, const Model& model, PreparedScen
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  const Partition cut = partition_of(model, work.cube, k, chosen_partition(work, out.has_replicas), horizons);
+  const Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), horizons);
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
@@ -154,9 +155,7 @@ PreparationResult run(const PreparationWork& work) {
   PreparationResult result;
   result.job = work.job;
   const auto started = Clock::now();
-  const std::string_view text{reinterpret_cast<const char*>(work.scene_text.data()),
-                              work.scene_text.size()};
-  ReadResult read = read_scene_text(text);
+  ReadResult read = read_scene_text(text_of(work.scene_text));
   for (const SceneError& e : read.errors) add_error(result.errors, e.pointer, e.message);
   if (!read.scene) return result;
   check_is_built(*read.scene, result.errors);
@@ -179,7 +178,7 @@ PreparationResult run(const PreparationWork& work) {
   if (scene.algorithm == Algorithm::kRoth) {
     cut_for_roth(model, work.cube, scene);
   } else {
-    cut_for_macro(work, model, scene);
+    cut_for_macro(work, std::make_shared<const Model>(std::move(model)), scene);
   }
   scene.partition_s = seconds_since(cutting);
   return result;

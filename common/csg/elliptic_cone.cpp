@@ -54,7 +54,7 @@ Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
   const Quadratic x = product(q.x, u.x, 1 - k * q.z, -k * u.z);
   const Quadratic y = product(q.y, u.y, 1 - q.z, -u.z);
   const Quadratic w = product(1 - q.z, -u.z, 1 - k * q.z, -k * u.z);
-  return quartic_spans(SquaresQuartic{x, y, w}, {i.enter, i.leave, nearest, speed});
+  return quartic_spans(SquaresQuartic{x, y, w}, QuarticRange::of_ray(i.enter, i.leave, nearest, speed));
 }
 
 bool elliptic_cone_contains(const Primitive& p, const Vec3& q) {

@@ -32,7 +32,8 @@ Spans elliptic_torus_spans(const Primitive& p, const Ray& ray) {
                     alpha * r2.c + gamma * u.z * u.z};
   const double h0 = 2 * alpha - 2 * beta * q.z, h1 = -2 * beta * u.z;
   const ProductQuartic<2> line{{{{1, g, g}, {-1, product(h0, h1, h0, h1), r2}}}};
-  return quartic_spans(line, {(nearest - reach) / speed, (nearest + reach) / speed, nearest, speed});
+  return quartic_spans(
+      line, QuarticRange::of_ray((nearest - reach) / speed, (nearest + reach) / speed, nearest, speed));
 }
 
 bool elliptic_torus_contains(const Primitive& p, const Vec3& q) {

@@ -147,19 +147,25 @@ Knots<5> quartic_extremes(const Line& line, double lo, double hi) {
   return r;
 }
 
-/// A piece of a ray and how its parameter t goes with the quartic's s: t = (s + nearest) / speed.
+/// A piece of a ray, from `enter` to `leave`, and the quartic's parameters of its ends; t = (s + nearest) / speed.
 struct QuarticRange {
   double enter, leave;
+  double s_enter, s_leave;
   double nearest, speed;
 
-  double s_of(double t) const { return t * speed - nearest; }
+  static QuarticRange of_ray(double enter, double leave, double nearest, double speed) {
+    return {enter, leave, enter * speed - nearest, leave * speed - nearest, nearest, speed};
+  }
+  static QuarticRange of_line(double s_enter, double s_leave, double nearest, double speed) {
+    return {(s_enter + nearest) / speed, (s_leave + nearest) / speed, s_enter, s_leave, nearest, speed};
+  }
   double t_of(double s) const { return (s + nearest) / speed; }
 };
 
 /// Where the quartic is negative between enter and leave; spans that reach an end have exactly its parameter.
 template <typename Line>
 Spans quartic_spans(const Line& line, const QuarticRange& range) {
-  const Knots<5> knots = quartic_extremes(line, range.s_of(range.enter), range.s_of(range.leave));
+  const Knots<5> knots = quartic_extremes(line, range.s_enter, range.s_leave);
   Spans spans;
   bool inside = line.f(knots.at[0]) < 0;
   double enter = range.enter;

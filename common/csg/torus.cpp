@@ -79,26 +79,7 @@ Spans torus_spans(const Primitive& p, const Ray& ray) {
                        q.x * u.x + q.y * u.y, q.x * q.x + q.y * q.y};
   const auto near = part_near_torus(q, u, minor, std::sqrt(reach2));
   if (!near) return {};
-  const Knots<5> knots = quartic_extremes(line, near->enter, near->leave);
-  Spans spans;
-  double enter = 0;
-  bool inside = false;
-  for (int i = 0; i + 1 < knots.count; ++i) {
-    const double a = knots.at[static_cast<std::size_t>(i)];
-    const double b = knots.at[static_cast<std::size_t>(i + 1)];
-    const bool inside_at_b = line.f(b) < 0;
-    if (inside_at_b == inside) continue;
-    const double s = bracketed_root([&](double x) { return line.f(x); },
-                                    [&](double x) { return line.df(x); }, a, b);
-    const double t = (nearest + s) / speed;
-    if (inside) {
-      spans.add(enter + 0.0, t + 0.0);
-    } else {
-      enter = t;
-    }
-    inside = inside_at_b;
-  }
-  return spans;
+  return quartic_spans(line, QuarticRange::of_line(near->enter, near->leave, nearest, speed));
 }
 
 bool torus_contains(const Primitive& p, const Vec3& q) {

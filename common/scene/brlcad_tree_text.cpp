@@ -13,16 +13,15 @@ using Op = BrlcadTree::Op;
 
 class TreeTextReader {
  public:
-  TreeTextReader(std::string_view text, std::string& problem)
-      : words_(text, TclWords::Ends::kAtBrace), problem_(problem) {}
+  TreeTextReader(std::string_view text, BrlcadTreeBuilder& builder, std::string& problem)
+      : words_(text, TclWords::Ends::kAtBrace), builder_(builder), problem_(problem) {}
 
-  std::optional<BrlcadTree> read() {
+  /// False when the text is no tree.
+  bool read() {
     do {
-      if (!head()) return std::nullopt;
+      if (!head()) return false;
     } while (!is_whole_);
-    std::optional<BrlcadTree> tree = words_.at_end_of_list() ? builder_.finish() : std::nullopt;
-    if (!tree) wrong_tree();
-    return tree;
+    return words_.at_end_of_list() || wrong_tree();
   }
 
  private:
@@ -57,11 +56,20 @@ class TreeTextReader {
     if (!words_.next(word)) return wrong_tree();
     if (word == "l") return leaf() && tail();
     const auto op = operation_of(word);
-    if (!op || !words_.open_list()) return wrong_tree();
+    if (!op) return wrong_tree();
     // An operation of two operands has a member of its own.
     if (levels_.size() >= kMaxBrlcadMembers) return too_many();
     levels_.push_back({*op, 0});
-    return true;
+    return operand() && (is_in_braces_ || tail());
+  }
+
+  /// Goes into the operand that comes where it is in braces, as BRL-CAD writes them; reads it whole where it is quoted in
+  /// another of Tcl's ways. Few of those stand in each other: each takes twice the backslashes of the one around it.
+  bool operand() {
+    is_in_braces_ = words_.open_list();
+    if (is_in_braces_) return true;
+    std::string text;
+    return words_.next(text) ? TreeTextReader(text, builder_, problem_).read() : wrong_tree();
   }
 
   bool leaf() {
@@ -82,30 +90,38 @@ class TreeTextReader {
     return builder_.leaves() <= kMaxBrlcadMembers || too_many();
   }
 
-  /// Behind a node: ends what ends with it.
+  /// Behind an operand: ends what ends with it.
   bool tail() {
     while (!levels_.empty()) {
       Level& level = levels_.back();
-      if (!words_.close_list()) return wrong_tree();
-      if (++level.operands < (level.op == Op::kNot ? 1 : 2)) return words_.open_list() || wrong_tree();
+      if (is_in_braces_ && !words_.close_list()) return wrong_tree();
+      if (++level.operands < (level.op == Op::kNot ? 1 : 2)) {
+        if (!operand()) return false;
+        if (is_in_braces_) return true;
+        continue;
+      }
       if (!builder_.operation(level.op)) return wrong_tree();
       levels_.pop_back();
+      is_in_braces_ = true;
     }
     is_whole_ = true;
     return true;
   }
 
   TclWords words_;
+  BrlcadTreeBuilder& builder_;
   std::string& problem_;
-  BrlcadTreeBuilder builder_;
   std::vector<Level> levels_;
+  /// Of the operand under way.
+  bool is_in_braces_ = true;
   bool is_whole_ = false;
 };
 
 }  // namespace
 
 std::optional<BrlcadTree> read_brlcad_tree_text(std::string_view text, std::string& problem) {
-  return TreeTextReader(text, problem).read();
+  BrlcadTreeBuilder builder;
+  return TreeTextReader(text, builder, problem).read() ? builder.finish() : std::nullopt;
 }
 
 }  // namespace graycube

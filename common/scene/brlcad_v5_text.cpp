@@ -48,6 +48,17 @@ constexpr Layout kLayouts[] = {
 
 using Words = std::vector<std::string>;
 
+/// g2asc puts a name in braces and a backslash before each brace of its own. Tcl leaves the backslashes there, but in a tree
+/// the name stands without them.
+std::string name_of(std::string_view word) {
+  std::string name;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const bool escapes = word[i] == '\\' && i + 1 < word.size() && (word[i + 1] == '{' || word[i + 1] == '}');
+    if (!escapes) name += word[i];
+  }
+  return name;
+}
+
 class V5TextReader {
  public:
   V5TextReader(std::string_view text, BrlcadReport& report)
@@ -86,7 +97,7 @@ class V5TextReader {
     } else if (verb == "attr" && words.size() >= 3 && words[1] == "set") {
       attributes(words);
     } else if (verb == "title" && words.size() >= 2) {
-      database_.title = words[1];
+      database_.title = name_of(words[1]);
     } else if (verb == "color" && words.size() >= 6) {
       color(words);
     } else if (verb == "put" || verb == "attr") {
@@ -105,7 +116,7 @@ class V5TextReader {
   }
 
   void attributes(const Words& words) {
-    BrlcadObject* object = database_.find(words[2]);
+    BrlcadObject* object = database_.find(name_of(words[2]));
     BrlcadComb* comb = object != nullptr ? std::get_if<BrlcadComb>(&object->value) : nullptr;
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
       if (words[2] == "_GLOBAL") {
@@ -118,7 +129,7 @@ class V5TextReader {
 
   void put(const Words& words) {
     BrlcadObject object;
-    object.name = words[1];
+    object.name = name_of(words[1]);
     object.where = where();
     const std::string& kind = words[2];
     if (kind == "comb") {

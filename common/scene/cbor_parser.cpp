@@ -1,15 +1,13 @@
 // Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser: it decides what is CBOR here, and words what is wrong.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "scene/cbor_fast_reader.hpp"
-#include "scene/json_tree.hpp"
+#include "scene/json_filling.hpp"
 #include "scene/tracked_text.hpp"
 
 namespace graycube {
@@ -22,7 +20,7 @@ using Json = nlohmann::json;
 /// The library calls what has the names of its json_sax.
 class CborEvents {
  public:
-  CborEvents(std::string_view bytes, JsonTree& tree) : bytes_(bytes), tree_(tree) {}
+  CborEvents(std::string_view bytes, JsonTree& tree) : bytes_(bytes), tree_(tree), filling_(tree) {}
 
   void parse() {
     const char* const begin = bytes_.data() + kCborMagic.size();
@@ -30,31 +28,32 @@ class CborEvents {
     Json::sax_parse(TrackedText(begin, &reached_), TrackedText(bytes_.data() + bytes_.size(), &reached_), this,
                     Json::input_format_t::cbor, true);
     // Also after a failure, so that pointers to what was read stay right.
-    while (!open_.empty()) close();
+    filling_.close_all();
   }
 
-  bool null() { return add(JsonKind::kNull) != nullptr; }
-  bool boolean(bool value) { return add(value ? JsonKind::kTrue : JsonKind::kFalse) != nullptr; }
+  bool null() { return add(JsonKind::kNull); }
+  bool boolean(bool value) { return add(value ? JsonKind::kTrue : JsonKind::kFalse); }
   bool number_integer(Json::number_integer_t value) { return add_number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return add_number(static_cast<double>(value)); }
   bool number_float(double value, std::string_view) {
-    if (!std::isfinite(value)) return fail(offset(), "expected a finite number");
+    if (!std::isfinite(value)) return filling_.fail(offset(), "expected a finite number");
     return add_number(value);
   }
   bool string(std::string_view value) {
-    Text text;
-    JsonTree::Value* added = keep(value, text) ? add(JsonKind::kString) : nullptr;
-    if (added == nullptr) return false;
-    added->payload = std::uint64_t{text.begin} << 32 | text.length;
-    added->string_is_decoded = text.decoded;
+    if (!fits(value) || !has_room()) return false;
+    filling_.add_string(offset(), kept(value));
     return true;
   }
-  bool key(std::string_view value) { return keep(value, key_); }
+  bool key(std::string_view value) {
+    if (!fits(value)) return false;
+    filling_.set_key(kept(value));
+    return true;
+  }
   bool start_object(std::size_t) { return open(JsonKind::kObject); }
   bool start_array(std::size_t) { return open(JsonKind::kArray); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
-  bool binary(Json::binary_t&) { return fail(offset(), "byte strings are not accepted"); }
+  bool binary(Json::binary_t&) { return filling_.fail(offset(), "byte strings are not accepted"); }
 
   /// `position` counts the bytes read behind the magic, the end as one.
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) {
@@ -63,82 +62,52 @@ class CborEvents {
     const std::size_t parsing = why.find(kParsing);
     if (parsing != std::string_view::npos) why.remove_prefix(parsing + kParsing.size());
     const std::size_t last = kCborMagic.size() + (position > 0 ? position - 1 : 0);
-    return fail(std::min(last, bytes_.size()), std::string(why));
+    return filling_.fail(std::min(last, bytes_.size()), std::string(why));
   }
 
  private:
-  /// A string as found: a range of the bytes, or an index into the tree's decoded strings.
-  struct Text {
-    std::uint32_t begin = 0, length = 0;
-    bool decoded = false;
-  };
-
   /// Just behind the last byte that the library has read.
   std::size_t offset() const { return static_cast<std::size_t>(reached_ - bytes_.data()); }
 
-  /// Null after a failure.
-  JsonTree::Value* add(JsonKind kind) {
-    const auto self = static_cast<JsonIndex>(tree_.values_.size());
-    if (self == kMaxCborValues) {
-      fail(offset(), "more than " + std::to_string(kMaxCborValues) + " values");
-      return nullptr;
-    }
-    if (!open_.empty()) ++tree_.values_[open_.back()].payload;
-    JsonTree::Value& value = tree_.values_.emplace_back();
-    value.kind = kind;
-    value.begin = static_cast<std::uint32_t>(offset());
-    value.next = self + 1;
-    value.key_begin = key_.begin;
-    value.key_length = static_cast<std::uint16_t>(key_.length);
-    value.key_is_decoded = key_.decoded;
-    key_ = {};
-    return &value;
+  bool has_room() {
+    return tree_.value_count() < kMaxCborValues ||
+           filling_.fail(offset(), "more than " + std::to_string(kMaxCborValues) + " values");
   }
-
+  bool add(JsonKind kind) {
+    if (!has_room()) return false;
+    filling_.add(kind, offset());
+    return true;
+  }
   bool add_number(double number) {
-    JsonTree::Value* added = add(JsonKind::kNumber);
-    if (added != nullptr) added->payload = std::bit_cast<std::uint64_t>(number);
-    return added != nullptr;
+    if (!has_room()) return false;
+    filling_.add_number(offset(), number);
+    return true;
   }
 
   bool open(JsonKind kind) {
-    const auto self = static_cast<JsonIndex>(tree_.values_.size());
-    if (add(kind) == nullptr) return false;
-    if (open_.size() >= kMaxJsonNesting) {
-      return fail(offset(), "arrays and maps nest deeper than " + std::to_string(kMaxJsonNesting));
-    }
-    open_.push_back(self);
-    return true;
+    if (!has_room()) return false;
+    return filling_.open(kind, offset()) ||
+           filling_.fail(offset(), "arrays and maps nest deeper than " + std::to_string(kMaxJsonNesting));
   }
   bool close() {
-    tree_.values_[open_.back()].next = static_cast<JsonIndex>(tree_.values_.size());
-    open_.pop_back();
+    filling_.close();
     return true;
   }
 
+  bool fits(std::string_view value) {
+    return value.size() <= kMaxJsonString ||
+           filling_.fail(offset(), "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
+  }
   /// A string in one piece stays among the bytes; one in chunks is copied.
-  bool keep(std::string_view value, Text& out) {
-    if (value.size() > kMaxJsonString) {
-      return fail(offset(), "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
-    }
-    out.length = static_cast<std::uint32_t>(value.size());
-    out.decoded = bytes_.substr(offset() - value.size(), value.size()) != value;
-    out.begin = static_cast<std::uint32_t>(out.decoded ? tree_.decoded_.size() : offset() - value.size());
-    if (out.decoded) tree_.decoded_.emplace_back(value);
-    return true;
-  }
-
-  bool fail(std::size_t at, std::string message) {
-    const std::size_t count = tree_.values_.size();
-    tree_.syntax_error_ = {at, static_cast<JsonIndex>(count == 0 ? 0 : count - 1), std::move(message)};
-    return false;
+  JsonFilling::Text kept(std::string_view value) {
+    const std::size_t begin = offset() - value.size();
+    return filling_.keep(value, bytes_.substr(begin, value.size()) == value, begin);
   }
 
   std::string_view bytes_;
-  JsonTree& tree_;
+  const JsonTree& tree_;
+  JsonFilling filling_;
   const char* reached_ = nullptr;
-  std::vector<JsonIndex> open_;  // containers around the next value, outermost first
-  Text key_;                     // of the next value; empty in an array
 };
 
 void JsonTree::read_cbor() {

@@ -1,15 +1,12 @@
 // Fills a JsonTree from the events of nlohmann's parser. It decides what is JSON here, and words what is wrong.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "scene/json_tree.hpp"
+#include "scene/json_filling.hpp"
 #include "scene/tracked_text.hpp"
 
 namespace graycube {
@@ -58,7 +55,7 @@ struct Complaint {
 /// The library calls what has the names of its json_sax.
 class JsonEvents {
  public:
-  JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {}
+  JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree), filling_(tree) {}
 
   void parse() {
     if (text_.starts_with(kByteOrderMark)) last_end_ = kByteOrderMark.size();
@@ -67,9 +64,9 @@ class JsonEvents {
         Json::sax_parse(TrackedText(text_.data(), &reached_), TrackedText(end, &reached_), this);
     // The library takes a zero byte for the end of the text.
     if (good && next_token() < text_.size())
-      fail(next_token(), "expected the end of the text, found " + found(next_token()));
+      filling_.fail(next_token(), "expected the end of the text, found " + found(next_token()));
     // Also after a failure, so that pointers to what was read stay right.
-    while (!open_.empty()) close();
+    filling_.close_all();
   }
 
   bool null() { return add_word(JsonKind::kNull); }
@@ -84,17 +81,15 @@ class JsonEvents {
   bool number_float(double value, std::string_view) { return add_number(value); }
 
   bool string(std::string_view value) {
-    Text text;
-    if (!keep(value, text)) return false;
-    JsonTree::Value& added = add(JsonKind::kString);
-    added.payload = std::uint64_t{text.begin} << 32 | text.length;
-    added.string_is_decoded = text.decoded;
+    if (!fits(value)) return false;
+    filling_.add_string(next_token(), kept(value));
     last_end_ = read_so_far();
     return true;
   }
 
   bool key(std::string_view value) {
-    if (!keep(value, key_)) return false;
+    if (!fits(value)) return false;
+    filling_.set_key(kept(value));
     last_end_ = read_so_far();
     return true;
   }
@@ -110,35 +105,29 @@ class JsonEvents {
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) {
     if (error.id == kNumberOverflow) {
-      const auto self = static_cast<JsonIndex>(tree_.values_.size());
-      const std::size_t begin = add(JsonKind::kNumber).begin;
-      return fail(begin, "expected a finite number, found " + tree_.describe(self));
+      const auto self = static_cast<JsonIndex>(tree_.value_count());
+      const std::size_t begin = next_token();
+      filling_.add(JsonKind::kNumber, begin);
+      return filling_.fail(begin, "expected a finite number, found " + tree_.describe(self));
     }
     const std::size_t last_read = std::min(position - 1, text_.size());
     const std::size_t token = std::min(next_token(), last_read);
-    if (open_.empty() && !tree_.values_.empty())
-      return fail(token, "expected the end of the text, found " + found(token));
+    if (!filling_.has_open() && tree_.value_count() > 0)
+      return filling_.fail(token, "expected the end of the text, found " + found(token));
     const Complaint complaint(error.what());
-    if (complaint.context == kValueContext) add(JsonKind::kNull);
+    if (complaint.context == kValueContext) filling_.add(JsonKind::kNull, next_token());
     const auto known =
         std::find_if(kExpectations.begin(), kExpectations.end(),
                      [&](const Expectation& e) { return e.context == complaint.context; });
     if (!complaint.is_about_token() || known == kExpectations.end())
-      return fail(last_read, std::string(complaint.reason));
-    return fail(token, "expected " + std::string(known->expected) + ", found " + found(token));
+      return filling_.fail(last_read, std::string(complaint.reason));
+    return filling_.fail(token, "expected " + std::string(known->expected) + ", found " + found(token));
   }
 
  private:
   static bool is_between_tokens(char c) {
     return c == ' ' || c == ',' || c == ':' || c == '\n' || c == '\r' || c == '\t';
   }
-
-  /// A string as found: a range of the text, or an index into the tree's decoded strings.
-  struct Text {
-    std::uint32_t begin = 0;
-    std::uint32_t length = 0;
-    bool decoded = false;
-  };
 
   /// Offset just behind the last byte that the library has read.
   std::size_t read_so_far() const { return static_cast<std::size_t>(reached_ - text_.data()); }
@@ -151,28 +140,14 @@ class JsonEvents {
     return at;
   }
 
-  JsonTree::Value& add(JsonKind kind) {
-    const auto self = static_cast<JsonIndex>(tree_.values_.size());
-    if (!open_.empty()) ++tree_.values_[open_.back()].payload;
-    JsonTree::Value& value = tree_.values_.emplace_back();
-    value.kind = kind;
-    value.begin = static_cast<std::uint32_t>(next_token());
-    value.next = self + 1;
-    value.key_begin = key_.begin;
-    value.key_length = static_cast<std::uint16_t>(key_.length);
-    value.key_is_decoded = key_.decoded;
-    key_ = {};
-    return value;
-  }
-
   bool add_word(JsonKind kind) {
-    add(kind);
+    filling_.add(kind, next_token());
     last_end_ = read_so_far();
     return true;
   }
 
   bool add_number(double number) {
-    add(JsonKind::kNumber).payload = std::bit_cast<std::uint64_t>(number);
+    filling_.add_number(next_token(), number);
     // The library has read one byte more, unless the number ends the text.
     const std::size_t read = read_so_far();
     const char last = text_[read - 1];
@@ -181,40 +156,27 @@ class JsonEvents {
   }
 
   bool open(JsonKind kind) {
-    const auto self = static_cast<JsonIndex>(tree_.values_.size());
-    const std::size_t begin = add(kind).begin;
-    if (open_.size() >= kMaxJsonNesting)
-      return fail(begin, "arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
-    open_.push_back(self);
+    const std::size_t begin = next_token();
+    if (!filling_.open(kind, begin))
+      return filling_.fail(begin, "arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
     last_end_ = read_so_far();
     return true;
   }
 
   bool close() {
-    tree_.values_[open_.back()].next = static_cast<JsonIndex>(tree_.values_.size());
-    open_.pop_back();
+    filling_.close();
     last_end_ = read_so_far();
     return true;
   }
 
-  /// A string without escapes stays in the text; its length tells.
-  bool keep(std::string_view decoded, Text& out) {
-    const std::size_t begin = next_token() + 1, length = read_so_far() - 1 - begin;
-    if (decoded.size() > kMaxJsonString)
-      return fail(begin - 1,
-                  "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
-    out.length = static_cast<std::uint32_t>(decoded.size());
-    out.decoded = decoded.size() != length;
-    out.begin = static_cast<std::uint32_t>(out.decoded ? tree_.decoded_.size() : begin);
-    if (out.decoded) tree_.decoded_.emplace_back(decoded);
-    return true;
+  bool fits(std::string_view decoded) {
+    return decoded.size() <= kMaxJsonString ||
+           filling_.fail(next_token(), "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
   }
-
-  bool fail(std::size_t offset, std::string message) {
-    const std::size_t count = tree_.values_.size();
-    tree_.syntax_error_ = {offset, static_cast<JsonIndex>(count == 0 ? 0 : count - 1),
-                           std::move(message)};
-    return false;
+  /// A string without escapes stays in the text; its length tells.
+  JsonFilling::Text kept(std::string_view decoded) {
+    const std::size_t begin = next_token() + 1, length = read_so_far() - 1 - begin;
+    return filling_.keep(decoded, decoded.size() == length, begin);
   }
 
   /// What stands there, for messages.
@@ -227,11 +189,10 @@ class JsonEvents {
   }
 
   std::string_view text_;
-  JsonTree& tree_;
+  const JsonTree& tree_;
+  JsonFilling filling_;
   const char* reached_ = text_.data();
-  std::size_t last_end_ = 0;     // of the last event's token
-  std::vector<JsonIndex> open_;  // containers around the next value, outermost first
-  Text key_;                     // of the next value; empty in an array
+  std::size_t last_end_ = 0;  // of the last event's token
 };
 
 void JsonTree::read_carefully() { JsonEvents(text_, *this).parse(); }

@@ -95,9 +95,8 @@ class JsonTree {
   std::string describe(JsonIndex i) const;
 
  private:
-  friend class JsonEvents;
+  friend class JsonFilling;
   friend class FastJsonReader;
-  friend class CborEvents;
   friend class FastCborReader;
 
   JsonTree(std::string_view text, const PaddedText* padded);

@@ -82,8 +82,8 @@ MacroGrid::Fan MacroGrid::make_fan(const CameraFrame& frame, const Vec3& axis, d
   fan.planes.reserve(edges.size());
   for (const std::int64_t edge : edges) {
     const double c = (static_cast<double>(edge) - middle) * frame.pixel_size;
-    fan.planes.push_back(perspective ? Plane{normalized(axis - c * frame.forward), 0, 0}
-                                     : Plane{axis, c, kFlatOrthographic});
+    fan.planes.push_back(perspective ? BoundaryPlane{normalized(axis - c * frame.forward), 0, 0}
+                                     : BoundaryPlane{axis, c, kFlatOrthographic});
   }
   fan.edges = std::move(edges);
   link_cells(fan, perspective);
@@ -100,7 +100,7 @@ void MacroGrid::link_cells(Fan& fan, bool wraps) {
     if (k + 1 < cells) fan.cells[k].add({fan.planes[k], false, false, number(k + 1)});
   }
   if (!wraps || cells == 2) return;  // both halves of a single plane lead to the same neighbour
-  const Plane& root = fan.planes[cells / 2 - 1];
+  const BoundaryPlane& root = fan.planes[cells / 2 - 1];
   if (cells == 3) {
     fan.cells[0].sides[0].forks = true;  // the root bounds cell 0 already
   } else {
@@ -147,14 +147,14 @@ bool MacroGrid::contains(RegionIndex region, const Vec3& p) const {
   const Vec3 q = p - eye_;
   const auto holds = [&](const Cell& cell) {
     return std::ranges::all_of(
-        cell.list(), [&](const Side& side) { return (side.plane.at(q) >= 0) == side.far; });
+        cell.list(), [&](const RegionSide& side) { return (side.plane.at(q) >= 0) == side.far; });
   };
   return holds(columns_.cells[region.column]) && holds(rows_.cells[region.row]);
 }
 
 /// The parameter at which the ray leaves through the side: −∞ when it runs parallel on the wrong
 /// side of it, +∞ when never.
-double MacroGrid::passage(const Side& side, const Ray& relative) {
+double MacroGrid::passage(const RegionSide& side, const Ray& relative) {
   const double b = dot(side.plane.normal, relative.direction);
   const bool parallel = std::fabs(b) <= side.plane.flat;
   if (!parallel && (b < 0) != side.far) return kInf;
@@ -163,10 +163,10 @@ double MacroGrid::passage(const Side& side, const Ray& relative) {
   return -a / b;
 }
 
-std::uint16_t MacroGrid::Fan::next_of(const Side& side, const Ray& relative, double t) const {
+std::uint16_t MacroGrid::Fan::next_of(const RegionSide& side, const Ray& relative, double t) const {
   if (!side.forks) [[likely]]
     return side.next;
-  const Plane& second = planes[1];
+  const BoundaryPlane& second = planes[1];
   const double a = second.at(relative.origin);
   const double b = dot(second.normal, relative.direction);
   const bool far = b > 0 ? t >= -a / b : b < 0 ? t < -a / b : a >= 0;
@@ -176,10 +176,10 @@ std::uint16_t MacroGrid::Fan::next_of(const Side& side, const Ray& relative, dou
 std::optional<RegionExit> MacroGrid::exit(RegionIndex region, const Ray& ray, double t) const {
   const Ray relative{ray.origin - eye_, ray.direction};
   double first = kInf;
-  const Side* through = nullptr;
+  const RegionSide* through = nullptr;
   bool in_columns = true;
   const auto consider = [&](const Cell& cell, bool columns) {
-    for (const Side& side : cell.list()) {
+    for (const RegionSide& side : cell.list()) {
       double at = passage(side, relative);
       if (at < t) at = t;
       if (at < first) {
@@ -203,10 +203,10 @@ std::optional<RegionExit> MacroGrid::exit(RegionIndex region, const Ray& ray, do
 RayPacket::Mask MacroGrid::shorten_to_exits(RegionIndex region, RayPacket& packet,
                                             std::span<RegionExit, RayPacket::kSize> exits) const {
   const auto columns = columns_.cells[region.column].list(), rows = rows_.cells[region.row].list();
-  std::array<const Side*, kMostSides> sides;
+  std::array<const RegionSide*, kMostSides> sides;
   std::size_t count = 0;
-  for (const Side& side : columns) sides[count++] = &side;
-  for (const Side& side : rows) sides[count++] = &side;
+  for (const RegionSide& side : columns) sides[count++] = &side;
+  for (const RegionSide& side : rows) sides[count++] = &side;
   FirstPassages first;
   find_first_passages({sides.data(), count}, eye_, packet, first);
   RayPacket::Mask leaving = 0;
@@ -233,11 +233,11 @@ std::vector<RegionIndex> MacroGrid::neighbours_of(RegionIndex region) const {
   const auto add = [&](RegionIndex next) {
     if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
   };
-  for (const Side& side : columns_.cells[region.column].list()) {
+  for (const RegionSide& side : columns_.cells[region.column].list()) {
     add({side.next, region.row});
     if (side.forks) add({2, region.row});
   }
-  for (const Side& side : rows_.cells[region.row].list()) {
+  for (const RegionSide& side : rows_.cells[region.row].list()) {
     add({region.column, side.next});
     if (side.forks) add({region.column, 2});
   }
@@ -246,7 +246,7 @@ std::vector<RegionIndex> MacroGrid::neighbours_of(RegionIndex region) const {
 
 bool MacroGrid::cell_may_touch(const Cell& cell, const Aabb& box, double grow) const {
   if (box.is_empty()) return false;
-  for (const Side& side : cell.list()) {
+  for (const RegionSide& side : cell.list()) {
     // f < 0 is the half-space −f > 0: both are tested as the largest of ±f against −grow.
     const double sign = side.far ? 1 : -1;
     const auto [largest, magnitude] = support(box, eye_, sign * side.plane.normal);
@@ -258,7 +258,7 @@ bool MacroGrid::cell_may_touch(const Cell& cell, const Aabb& box, double grow) c
 
 bool MacroGrid::cell_may_touch(const Cell& cell, const Vec3& center, double radius, double grow) const {
   const double magnitude = max_abs(center) + max_abs(eye_) + radius;
-  for (const Side& side : cell.list()) {
+  for (const RegionSide& side : cell.list()) {
     const double f = side.plane.at(center - eye_);
     const double slack = grow + kRounding * (magnitude + std::fabs(side.plane.offset));
     if ((side.far ? f : -f) + radius < -slack) return false;

@@ -113,31 +113,29 @@ class MacroGrid {
   }
 
  private:
-  using Plane = BoundaryPlane;
-  using Side = RegionSide;
   struct Cell {
-    std::array<Side, 2> sides;
+    std::array<RegionSide, 2> sides;
     std::size_t count = 0;
 
-    std::span<const Side> list() const { return {sides.data(), count}; }
-    void add(const Side& side) { sides[count++] = side; }
+    std::span<const RegionSide> list() const { return {sides.data(), count}; }
+    void add(const RegionSide& side) { sides[count++] = side; }
   };
   /// All columns, or all rows. planes[i] and edges[i] are boundary number i + 1, between cells i
   /// and i + 1.
   struct Fan {
     std::vector<std::int64_t> edges;
-    std::vector<Plane> planes;
+    std::vector<BoundaryPlane> planes;
     std::vector<Cell> cells;
 
     std::uint16_t cell_of_edge_position(std::uint32_t pixel) const;
     std::uint16_t cell_of_point(const Vec3& relative) const;
-    std::uint16_t next_of(const Side& side, const Ray& relative, double t) const;
+    std::uint16_t next_of(const RegionSide& side, const Ray& relative, double t) const;
   };
 
   static Fan make_fan(const CameraFrame& frame, const Vec3& axis, double middle,
                       std::vector<std::int64_t> edges);
   static void link_cells(Fan& fan, bool wraps);
-  static double passage(const Side& side, const Ray& relative);
+  static double passage(const RegionSide& side, const Ray& relative);
   bool cell_may_touch(const Cell& cell, const Aabb& box, double grow) const;
   bool cell_may_touch(const Cell& cell, const Vec3& center, double radius, double grow) const;
 

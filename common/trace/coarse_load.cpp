@@ -125,7 +125,7 @@ std::uint32_t spreading_step(std::uint32_t count) {
 }  // namespace
 
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
-                    std::shared_ptr<const LightHorizons> horizons, double crossing_cost) {
+                       std::shared_ptr<const LightHorizons> horizons, double crossing_cost) {
   CoarseTrace trace(whole, grid, std::move(horizons), crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;

@@ -31,6 +31,6 @@ struct CoarseLoad {
 
 /// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
-                    std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
+                       std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
 
 }  // namespace graycube

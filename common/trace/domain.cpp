@@ -18,25 +18,26 @@ std::size_t mesh_bytes(const Model& model) {
 
 }  // namespace
 
-std::shared_ptr<const Territory> Territory::of(Model model, Subdivision subdivision) {
+std::shared_ptr<const Territory> Territory::of(std::shared_ptr<const Model> model,
+                                               Subdivision subdivision) {
   auto territory = std::make_shared<Territory>();
   territory->model = std::move(model);
   if (subdivision == Subdivision::kSurfaceTree) {
-    territory->tree = SurfaceTree::build(territory->model);
+    territory->tree = SurfaceTree::build(*territory->model);
   } else {
-    territory->bsp = Bsp::build(territory->model);
+    territory->bsp = Bsp::build(*territory->model);
   }
   return territory;
 }
 
 std::size_t Territory::memory_bytes() const {
-  return bytes_of(model.primitives) + bytes_of(model.planes) + bytes_of(model.nodes) +
-         bytes_of(model.objects) + mesh_bytes(model) + bytes_of(model.materials) +
+  return bytes_of(model->primitives) + bytes_of(model->planes) + bytes_of(model->nodes) +
+         bytes_of(model->objects) + mesh_bytes(*model) + bytes_of(model->materials) +
          (tree ? tree->memory_bytes() : bsp->memory_bytes());
 }
 
-Domain::Domain(Model model, Subdivision subdivision)
-    : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
+Domain::Domain(std::shared_ptr<const Model> model, Subdivision subdivision)
+    : frame_(CameraFrame::from(model->settings.camera, model->settings.image)),
       territory_(Territory::of(std::move(model), subdivision)) {}
 
 Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)

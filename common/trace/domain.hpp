@@ -28,13 +28,17 @@ enum class Subdivision : std::uint8_t {
 
 /// A model and its subdivision.
 struct Territory {
-  Model model;
+  std::shared_ptr<const Model> model;
   std::optional<SurfaceTree> tree;
   std::optional<Bsp> bsp;
 
-  /// On the heap: the subdivision points at the model beside it.
-  static std::shared_ptr<const Territory> of(Model model,
+  /// The subdivision points at the model.
+  static std::shared_ptr<const Territory> of(std::shared_ptr<const Model> model,
                                              Subdivision subdivision = Subdivision::kSurfaceTree);
+  static std::shared_ptr<const Territory> of(Model model,
+                                             Subdivision subdivision = Subdivision::kSurfaceTree) {
+    return of(std::make_shared<const Model>(std::move(model)), subdivision);
+  }
   /// Bytes of the model and of its subdivision.
   std::size_t memory_bytes() const;
 };
@@ -58,15 +62,18 @@ struct CrossingScratch {
 class Domain {
  public:
   /// All of space, without boundaries.
-  explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree);
+  explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree)
+      : Domain(std::make_shared<const Model>(std::move(model)), subdivision) {}
+  explicit Domain(std::shared_ptr<const Model> model,
+                  Subdivision subdivision = Subdivision::kSurfaceTree);
   /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
   /// reaches into several is held once.
   Domain(MacroGrid grid, RegionShare share, Model model,
          Subdivision subdivision = Subdivision::kSurfaceTree);
 
-  const RenderSettings& settings() const { return territory_->model.settings; }
+  const RenderSettings& settings() const { return territory_->model->settings; }
   const CameraFrame& frame() const { return frame_; }
-  const Model& model() const { return territory_->model; }
+  const Model& model() const { return *territory_->model; }
   /// Leaf regions, or cells of objects.
   std::size_t cell_count() const;
   /// Bytes of models and subdivisions, borrowed ones included.

@@ -11,6 +11,10 @@ namespace graycube {
 
 using Bytes = std::vector<std::byte>;
 
+inline std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 struct Message {
   Bytes frame;
   Bytes payload;
@@ -24,9 +28,7 @@ struct Message {
   }
   static Message of_batch(Bytes batch) { return {std::move(batch), {}}; }
 
-  std::string_view text() const {
-    return {reinterpret_cast<const char*>(frame.data()), frame.size()};
-  }
+  std::string_view text() const { return text_of(frame); }
 };
 
 /// A message that somebody else holds.
@@ -37,9 +39,7 @@ struct MessageView {
   MessageView() = default;
   MessageView(const Message& m) : frame(m.frame), payload(m.payload) {}
 
-  std::string_view text() const {
-    return {reinterpret_cast<const char*>(frame.data()), frame.size()};
-  }
+  std::string_view text() const { return text_of(frame); }
 };
 
 }  // namespace graycube

@@ -168,18 +168,17 @@ TEST_CASE("OpenSCAD is killed when its time is up, and its files go") {
 TEST_CASE("what only serial can render is refused before a farm is asked") {
   SceneInput input;
   input.name = "deep.json";
-  RenderSettings settings;
-  settings.max_depth = kMaxCreditDepth;
-  settings.lights.resize(kMaxCreditLights);
-  CHECK_NOTHROW(check_farm_limits(input, settings));
-  settings.max_depth += 1;
+  input.scene.settings.max_depth = kMaxCreditDepth;
+  input.scene.settings.lights.resize(kMaxCreditLights);
+  CHECK_NOTHROW(check_farm_limits(input, {}));
+  control::JobOptions deeper;
+  deeper.max_depth = kMaxCreditDepth + 1;
   CHECK(refusal([&] {
-          check_farm_limits(input, settings);
+          check_farm_limits(input, deeper);
         }).starts_with("graycube: scene: deep.json:/max_depth: only --algorithm serial"));
-  settings.max_depth = 1;
-  settings.lights.emplace_back();
+  input.scene.settings.lights.emplace_back();
   CHECK(refusal([&] {
-          check_farm_limits(input, settings);
+          check_farm_limits(input, {});
         }).starts_with("graycube: scene: deep.json:/lights: only --algorithm serial"));
 }
 

@@ -30,12 +30,9 @@ struct LeftNode : NodeAtWork {
 
   static Rank left() { return kPair.column_of(Rank{0}) == 0 ? Rank{0} : Rank{1}; }
   static control::Load load() {
-    control::Load m;
-    m.grid = {2, 1, 1, {kSide / 2}, {}};
-    m.tile_size = 16;
+    control::Load m = load_of({2, 1, 1, {kSide / 2}, {}});
     m.batch_bytes = kBatchRays * kRayBytes;
     m.link_credit_bytes = kCreditRays * kRayBytes;
-    m.window_tiles = 64;
     return m;
   }
   /// From the right: rays that end here, or go on to where they came from.

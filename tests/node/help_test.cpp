@@ -47,11 +47,7 @@ std::vector<std::uint32_t> tiles_of(Rank rank) {
 }
 
 control::Load load() {
-  control::Load m;
-  m.grid = {2, 2, 1, {kSide / 2}, {kSide / 2}};
-  m.tile_size = 16;
-  m.link_credit_bytes = 1 << 20;
-  m.window_tiles = 64;
+  control::Load m = load_of({2, 2, 1, {kSide / 2}, {kSide / 2}});
   m.makes_copies = true;
   return m;
 }

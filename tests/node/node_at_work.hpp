@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "node/node.hpp"
@@ -12,17 +13,28 @@ namespace graycube::testing {
 /// Of every node.
 inline constexpr std::uint32_t kIncarnation = 7;
 
+/// What the frontal says of a job whose macro-regions have these boundaries: square tiles, a window that holds them all,
+/// and no lack of credit.
+inline control::Load load_of(control::GridLayout grid) {
+  control::Load load;
+  load.job = 1;
+  load.grid = std::move(grid);
+  load.tile_size = 16;
+  load.link_credit_bytes = 1 << 20;
+  load.window_tiles = 64;
+  return load;
+}
+
 class NodeAtWork {
  public:
-  /// The node of that rank, with all its neighbours there and ready to begin job 1, of which `load` says the rest.
-  NodeAtWork(const Hypercube& cube, Rank rank, control::Load load, const Bytes& slice)
+  /// The node of that rank, with all its neighbours there and ready to begin the job.
+  NodeAtWork(const Hypercube& cube, Rank rank, const control::Load& load, const Bytes& slice)
       : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), cube_(cube), rank_(rank), sent_(cube.nodes(), 0) {
     tell(control::Welcome{cube.nodes(), "test", std::vector<std::string>(cube.nodes(), "ipc://there"), 1000});
     for (std::uint32_t bit = 0; bit < cube.dimension(); ++bit) {
       const Rank peer = cube.neighbour(rank, bit);
       node.on_neighbour(encode_signal({0, 0, peer.value, kIncarnation, 0}, BatchType::kGreetingAck));
     }
-    load.job = 1;
     tell(load, slice);
     work();
     node.take_outgoing();

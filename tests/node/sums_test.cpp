@@ -21,11 +21,7 @@ Model one_ball() {
 }
 
 control::Load load(SumsMode sums) {
-  control::Load m;
-  m.grid = {2, 1, 1, {8}, {}};
-  m.tile_size = 16;
-  m.link_credit_bytes = 1 << 20;
-  m.window_tiles = 64;
+  control::Load m = load_of({2, 1, 1, {8}, {}});
   m.sums = sums;
   return m;
 }

@@ -33,15 +33,16 @@ TEST_CASE("trees of 100 000 members are read, however they lean") {
   for (const std::string op : {"u", "+"}) {
     const std::string left = repeated("{" + op + " ") + "{l first}" + repeated(" {l s}}");
     const std::string right = repeated("{" + op + " {l s} ") + "{l last}" + repeated("}");
-    for (const std::string& text : {left, right}) {
+    const std::string quoted = repeated("{" + op + " ") + "{l first}" + repeated(" l\\ s}");
+    for (const std::string& text : {left, right, quoted}) {
       BrlcadReport report;
       const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree " + text + "\n", report);
       REQUIRE_FALSE(report.has_errors());
       const auto& tree = std::get<BrlcadComb>(database.find("r")->value).tree;
       REQUIRE(tree);
       REQUIRE(tree->children.size() == kMembers);
-      CHECK(tree->children.front().name == (text == left ? "first" : "s"));
-      CHECK(tree->children.back().name == (text == left ? "s" : "last"));
+      CHECK(tree->children.front().name == (text == right ? "s" : "first"));
+      CHECK(tree->children.back().name == (text == right ? "last" : "s"));
     }
   }
   const std::string minus = repeated("{- ") + "{l first}" + repeated(" {l s}}");
@@ -99,8 +100,22 @@ TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is n
   CHECK(complement.children[0].matrix->m[0][3] == 4);
   CHECK(read("l i\\ j").first->name == "i j");
 
+  for (const char* text : {"- {u {l a} {! {l b}}} {l {c d}}", R"(- "u {l a} {! {l b}}" "l {c d}")",
+                           R"(- {u "l a" !\ {l\ b}} l\ {c\ d})", R"(- "u \"l a\" \"! l\\\\ b\"" {l "c d"})"}) {
+    INFO(text);
+    const auto [quoted, why] = read(text);
+    CHECK(why.empty());
+    REQUIRE(quoted);
+    REQUIRE(quoted->children.size() == 2);
+    CHECK(quoted->children[1].name == "c d");
+    REQUIRE(quoted->children[0].children.size() == 2);
+    CHECK(quoted->children[0].children[0].name == "a");
+    REQUIRE(quoted->children[0].children[1].op == BrlcadTree::Op::kNot);
+    CHECK(quoted->children[0].children[1].children[0].name == "b");
+  }
+
   for (const char* text : {"u {l a}", "u {l a} {l b} {l c}", "! {l a} {l b}", "x {l a} {l b}", "l", "l a {1 0} b", "u l a",
-                           "{l a}", "{}", "u {l a} {}", "u {l a} {l b} c"}) {
+                           "{l a}", "{}", "u {l a} {}", "u {l a} {l b} c", "u \"l a\" \"x\"", "u \"l a\"", "! \"l a\" \"l b\""}) {
     INFO(text);
     const auto [nothing, why] = read(text);
     CHECK_FALSE(nothing);
@@ -110,4 +125,19 @@ TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is n
   std::string deep = "l s";
   for (std::size_t i = 0; i <= kMaxBrlcadTreeDepth; ++i) deep = "- {l s} {" + deep + "}";
   CHECK(read(deep).second.find("deeper than 100 levels") != std::string::npos);
+}
+
+TEST_CASE("a name with braces is the same where g2asc puts it and in a tree") {
+  const Scene scene = scene_of(
+      R"(title {\{t\}}
+put {a\{b} ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}
+put {c\{d\}} ell V {5 0 0} A {1 0 0} B {0 1 0} C {0 0 1}
+put {r\}} comb region yes tree {u {l a\{b} {l {c{d}}}}
+attr set {r\}} {rgb} {255/0/0}
+)",
+      {"r}"});
+  CHECK(holds(scene, 0, 0, 0));
+  CHECK(holds(scene, 5, 0, 0));
+  REQUIRE(scene.materials.size() == 1);
+  CHECK(scene.materials[0].material.color.g == 0);
 }
