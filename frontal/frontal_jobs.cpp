@@ -165,13 +165,13 @@ void Frontal::finish_when_complete() {
 }
 
 void Frontal::complete() {
-  const Picture picture = running_->render->film().develop();
+  Picture picture = running_->render->film().develop();
   running_->info.state = JobState::kDone;
   running_->info.finished_s = unix_s_;
   running_->info.fraction = 1;
   const EndedJob job{running_->info, statistics()};
   running_.reset();
-  keep(job, picture);
+  keep(job, std::move(picture));
 }
 
 /// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that, whatever
@@ -202,9 +202,9 @@ void Frontal::end_job(JobState state, FailureCode code, std::vector<control::Err
   keep(std::move(job), {});
 }
 
-void Frontal::keep(EndedJob job, const Picture& picture) {
+void Frontal::keep(EndedJob job, Picture picture) {
   try {
-    store_.keep(job, picture);
+    store_.keep(job, std::move(picture));
   } catch (const std::runtime_error& e) {
     job.info.message = e.what();
     if (job.info.state == JobState::kDone) job.info.state = JobState::kFailed;
