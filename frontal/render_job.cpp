@@ -211,7 +211,7 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::
   }
   ++batches_received_[s.sender];
   for (const Contribution& c : contributions) {
-    if (!film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
+    if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
     film_.add(c.pixel, c.light);
   }
   for (const TileCredit& c : credits) {

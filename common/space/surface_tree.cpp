@@ -25,6 +25,10 @@ class SurfaceTreeBuilder {
   }
 
   SurfaceTree run() {
+    // Most objects are one item.
+    tree_.items_.reserve(model_.objects.size());
+    boxes_.reserve(model_.objects.size());
+    tree_.literals_.reserve(model_.primitives.size());
     for (std::uint32_t i = 0; i < model_.objects.size(); ++i) add_object(i);
     std::vector<std::uint32_t> bounded;
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
