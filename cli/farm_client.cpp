@@ -35,7 +35,7 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
 FarmClient::FarmClient(std::string endpoint, std::function<void()> check)
     : endpoint_(std::move(endpoint)), check_(std::move(check)), connection_(context_, endpoint_) {}
 
-void FarmClient::send(const ControlMessage& message, Bytes payload) {
+void FarmClient::send(const ControlMessage& message, SharedBytes payload) {
   connection_.send(Message::of_text(encode(message), std::move(payload)));
 }
 

@@ -52,7 +52,7 @@ void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Pictu
     }
     const std::size_t row_values = std::size_t{3} * rows.width;
     all.resize(row_values * rows.height);
-    if (!decode_picture_rows(payload, std::span(all).subspan(row * row_values, rows.rows * row_values))) {
+    if (!decode_picture_rows(payload.bytes(), std::span(all).subspan(row * row_values, rows.rows * row_values))) {
       throw nonsense(job);
     }
     row += rows.rows;

@@ -137,7 +137,7 @@ class Frontal {
   void spawn(Rank rank);
   void welcome_all();
   bool all_nodes_here() const;
-  void send(const PeerId& peer, const ControlMessage& message, Bytes payload = {});
+  void send(const PeerId& peer, const ControlMessage& message, SharedBytes payload = {});
   void send_to_nodes(const ControlMessage& message);
 
   // frontal_jobs.cpp

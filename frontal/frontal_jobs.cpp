@@ -121,15 +121,15 @@ void Frontal::on_contributions(std::span<const std::byte> batch) {
 void Frontal::lend(Rank rank, const control::Borrow& m) {
   const RenderJob& render = *running_->render;
   if (!render.is_meant(m) || running_->is_finishing) return;
-  const Bytes* slice = render.slice_to_lend(m.rank);
+  const SharedBytes* slice = render.slice_to_lend(m.rank);
   const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
-  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
+  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : SharedBytes{});
 }
 
 void Frontal::share(Rank owner, const control::Share& m) {
   RenderJob& render = *running_->render;
   if (!render.is_meant(m) || running_->is_finishing || !options_.cube.has(Rank{m.rank})) return;
-  const Bytes* slice = render.slice_to_copy(owner, Rank{m.rank});
+  const SharedBytes* slice = render.slice_to_copy(owner, Rank{m.rank});
   if (slice != nullptr) send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 

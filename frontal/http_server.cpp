@@ -29,7 +29,7 @@ constexpr int kBadGateway = 502;
 struct Answer {
   ControlMessage message;
   std::string text;
-  Bytes payload;
+  SharedBytes payload;
 };
 
 /// A client for one request.
@@ -115,7 +115,7 @@ struct HttpServer::Impl {
       if (rows == nullptr) return reply_json(answer, response);
       const std::size_t count = std::size_t{3} * rows->width * rows->rows, first = picture.rgb.size();
       picture.rgb.resize(first + count);
-      if (!decode_picture_rows(answer->payload, std::span(picture.rgb).subspan(first, count))) {
+      if (!decode_picture_rows(answer->payload.bytes(), std::span(picture.rgb).subspan(first, count))) {
         return reply_json(std::nullopt, response);
       }
       picture.width = rows->width;

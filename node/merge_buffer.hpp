@@ -64,7 +64,9 @@ class MergeBuffer {
     struct Slot {
       std::uint32_t key = 0, place = 0, generation = 0;
     };
-    std::vector<Slot> slots_ = std::vector<Slot>(2 * kFullPixels);
+    std::size_t keys_ = kFullPixels;
+    /// Empty until there is a key: where tiles come whole, pixels are never looked up.
+    std::vector<Slot> slots_;
     std::uint32_t generation_ = 1;
   };
 
