@@ -1,6 +1,6 @@
 // Google Benchmark micro-benchmarks of the hot kernels: intersection and normal of every kind of
 // primitive, first crossings and shadow rays through whole scenes, the highlight's power, reading,
-// compiling, building.
+// compiling, building, light as it travels.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "csg/build_primitive.hpp"
 #include "csg/close_mesh.hpp"
 #include "geometry/portable_math.hpp"
+#include "proto/batch.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
@@ -230,7 +231,39 @@ void build(benchmark::State& state, const Subject& subject) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(model.primitives.size()));
 }
 
+/// A batch as a node sends it: 8192 pixels, blocks of 8 × 8 beside each other in a picture 1024 wide.
+std::vector<Contribution> lit_blocks() {
+  Dice dice(kSeed);
+  std::vector<Contribution> light;
+  const auto component = [&] { return static_cast<std::int64_t>(dice.between(0, 1) * kFixedOne); };
+  for (std::uint32_t block = 0; block < 128; ++block) {
+    for (std::uint32_t i = 0; i < 64; ++i) {
+      light.push_back({8 * block + i % 8 + 1024 * (i / 8), {component(), component(), component()}});
+    }
+  }
+  return light;
+}
+
+constexpr BatchLimits kBatchLimits{.pixel_count = 1u << 20, .tile_count = 1, .nodes = 1};
+
+void light_out(benchmark::State& state) {
+  const auto light = lit_blocks();
+  for (auto _ : state) benchmark::DoNotOptimize(encode_contributions({}, {}, light));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(light.size()));
+}
+
+void light_in(benchmark::State& state) {
+  const auto light = lit_blocks();
+  const auto batch = encode_contributions({}, {}, light);
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> again;
+  for (auto _ : state) benchmark::DoNotOptimize(decode_contributions(batch, kBatchLimits, credits, again));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(light.size()));
+}
+
 void register_all() {
+  benchmark::RegisterBenchmark("light/encode", light_out);
+  benchmark::RegisterBenchmark("light/decode", light_in);
   for (int i = 0; i < kPrimitiveKinds; ++i) {
     const auto kind = static_cast<PrimitiveKind>(i);
     const std::string name = kKindNames[static_cast<std::size_t>(i)];

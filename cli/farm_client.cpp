@@ -35,7 +35,7 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
 FarmClient::FarmClient(std::string endpoint, std::function<void()> check)
     : endpoint_(std::move(endpoint)), check_(std::move(check)), connection_(context_, endpoint_) {}
 
-void FarmClient::send(const ControlMessage& message, Bytes payload) {
+void FarmClient::send(const ControlMessage& message, SharedBytes payload) {
   connection_.send(Message::of_text(encode(message), std::move(payload)));
 }
 
@@ -63,10 +63,10 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
 }
 
 Received FarmClient::answer() {
-  if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer)) return *received;
+  if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer)) return *std::move(received);
   // A farm under load is slow to answer; where somebody listens it gets more time.
   if (!has_answered_ && find_listener(endpoint_).is_there) {
-    if (auto received = receive(kLaterAnswer)) return *received;
+    if (auto received = receive(kLaterAnswer)) return *std::move(received);
   }
   throw silence();
 }

@@ -20,7 +20,7 @@ inline constexpr std::chrono::seconds kLaterAnswer{30};
 
 struct Received {
   ControlMessage message;
-  Bytes payload;
+  SharedBytes payload;
 };
 
 /// What a `failed` message is for the user: `what: where: why` for each of its errors.
@@ -35,15 +35,15 @@ class FarmClient {
       std::string endpoint, std::function<void()> check = [] {});
 
   const std::string& endpoint() const { return endpoint_; }
-  void send(const ControlMessage& message, Bytes payload = {});
+  void send(const ControlMessage& message, SharedBytes payload = {});
   /// The next message that is one; nothing when the time is up.
   std::optional<Received> receive(Clock::duration timeout);
 
   /// The answer to a message, other messages dropped. Throws the Failure that a `failed` answer is,
   /// or the one of a farm that doesn't answer. `what` begins the line of the former.
   template <typename Reply>
-  std::pair<Reply, Bytes> ask(const ControlMessage& message, const std::string& what,
-                              Bytes payload = {}) {
+  std::pair<Reply, SharedBytes> ask(const ControlMessage& message, const std::string& what,
+                                    SharedBytes payload = {}) {
     send(message, std::move(payload));
     for (;;) {
       Received received = answer();

@@ -33,7 +33,8 @@ bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_
          rows.rows <= rows.height - first;
 }
 
-/// All rows of light (plane 0) or of a plane of AOVs. The picture's size and AOVs come with the light.
+/// All rows of light (plane 0) or of a plane of AOVs, each put where it belongs. The picture's size and AOVs come
+/// with the light.
 template <typename Value>
 void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Picture& picture,
                  std::vector<Value>& all) {
@@ -42,18 +43,18 @@ void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Pictu
     const control::Fetch request{
         job, row, picture.height == 0 ? kMaxImageSide : picture.height - row, plane};
     const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
-    std::vector<Value> values;
     const auto aovs = parse_aovs(rows.aov);
-    if (!is_sound(rows, picture, row, plane) || !aovs ||
-        !decode_picture_rows(payload, rows.width, rows.rows, values)) {
-      throw nonsense(job);
-    }
+    if (!is_sound(rows, picture, row, plane) || !aovs) throw nonsense(job);
     if (plane == 0) {
       picture.width = rows.width;
       picture.height = rows.height;
       picture.aovs = *aovs;
     }
-    all.insert(all.end(), values.begin(), values.end());
+    const std::size_t row_values = std::size_t{3} * rows.width;
+    all.resize(row_values * rows.height);
+    if (!decode_picture_rows(payload.bytes(), std::span(all).subspan(row * row_values, rows.rows * row_values))) {
+      throw nonsense(job);
+    }
     row += rows.rows;
   } while (row < picture.height);
 }

@@ -200,7 +200,7 @@ bool Frontal::all_nodes_left() const {
 
 // ---- sending
 
-void Frontal::send(const PeerId& peer, const ControlMessage& message, Bytes payload) {
+void Frontal::send(const PeerId& peer, const ControlMessage& message, SharedBytes payload) {
   outgoing_.push_back({peer, Message::of_text(encode(message), std::move(payload))});
 }
 

@@ -30,8 +30,8 @@ inline constexpr unsigned kMaxFailedStarts = 8;
 inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
 /// A deadlocked job waits so long for its nodes' reports.
 inline constexpr double kReportPatience_s = 5;
-/// Rows of a picture are sent in messages of about this size.
-inline constexpr std::size_t kPictureChunkBytes = std::size_t{8} << 20;
+/// Rows of a picture are sent in messages of about this size: small enough that the memory of one serves the next.
+inline constexpr std::size_t kPictureChunkBytes = std::size_t{1} << 20;
 
 struct FrontalOptions {
   Hypercube cube;
@@ -137,7 +137,7 @@ class Frontal {
   void spawn(Rank rank);
   void welcome_all();
   bool all_nodes_here() const;
-  void send(const PeerId& peer, const ControlMessage& message, Bytes payload = {});
+  void send(const PeerId& peer, const ControlMessage& message, SharedBytes payload = {});
   void send_to_nodes(const ControlMessage& message);
 
   // frontal_jobs.cpp
@@ -154,7 +154,7 @@ class Frontal {
   void complete();
   void end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors);
   void end_queued(std::size_t index, JobState state, FailureCode code, const std::string& why);
-  void keep(EndedJob job, const Picture& picture);
+  void keep(EndedJob job, Picture picture);
   std::string statistics(const std::string& failed = {}) const;
 
   FrontalOptions options_;

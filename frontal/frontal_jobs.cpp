@@ -121,15 +121,15 @@ void Frontal::on_contributions(std::span<const std::byte> batch) {
 void Frontal::lend(Rank rank, const control::Borrow& m) {
   const RenderJob& render = *running_->render;
   if (!render.is_meant(m) || running_->is_finishing) return;
-  const Bytes* slice = render.slice_to_lend(m.rank);
+  const SharedBytes* slice = render.slice_to_lend(m.rank);
   const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
-  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : Bytes{});
+  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : SharedBytes{});
 }
 
 void Frontal::share(Rank owner, const control::Share& m) {
   RenderJob& render = *running_->render;
   if (!render.is_meant(m) || running_->is_finishing || !options_.cube.has(Rank{m.rank})) return;
-  const Bytes* slice = render.slice_to_copy(owner, Rank{m.rank});
+  const SharedBytes* slice = render.slice_to_copy(owner, Rank{m.rank});
   if (slice != nullptr) send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 
@@ -165,13 +165,13 @@ void Frontal::finish_when_complete() {
 }
 
 void Frontal::complete() {
-  const Picture picture = running_->render->film().develop();
+  Picture picture = running_->render->film().develop();
   running_->info.state = JobState::kDone;
   running_->info.finished_s = unix_s_;
   running_->info.fraction = 1;
   const EndedJob job{running_->info, statistics()};
   running_.reset();
-  keep(job, picture);
+  keep(job, std::move(picture));
 }
 
 /// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that, whatever
@@ -202,9 +202,9 @@ void Frontal::end_job(JobState state, FailureCode code, std::vector<control::Err
   keep(std::move(job), {});
 }
 
-void Frontal::keep(EndedJob job, const Picture& picture) {
+void Frontal::keep(EndedJob job, Picture picture) {
   try {
-    store_.keep(job, picture);
+    store_.keep(job, std::move(picture));
   } catch (const std::runtime_error& e) {
     job.info.message = e.what();
     if (job.info.state == JobState::kDone) job.info.state = JobState::kFailed;

@@ -29,7 +29,7 @@ constexpr int kBadGateway = 502;
 struct Answer {
   ControlMessage message;
   std::string text;
-  Bytes payload;
+  SharedBytes payload;
 };
 
 /// A client for one request.
@@ -113,13 +113,13 @@ struct HttpServer::Impl {
       const auto answer = client.ask(control::Fetch{job, row, kMaxImageSide});
       const auto* rows = answer ? std::get_if<control::Picture>(&answer->message) : nullptr;
       if (rows == nullptr) return reply_json(answer, response);
-      std::vector<float> values;
-      if (!decode_picture_rows(answer->payload, rows->width, rows->rows, values)) {
+      const std::size_t count = std::size_t{3} * rows->width * rows->rows, first = picture.rgb.size();
+      picture.rgb.resize(first + count);
+      if (!decode_picture_rows(answer->payload.bytes(), std::span(picture.rgb).subspan(first, count))) {
         return reply_json(std::nullopt, response);
       }
       picture.width = rows->width;
       picture.height = rows->height;
-      picture.rgb.insert(picture.rgb.end(), values.begin(), values.end());
       row += rows->rows;
       if (row >= rows->height || rows->rows == 0) break;
     }

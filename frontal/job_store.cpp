@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "film/picture_files.hpp"
 #include "proto/control.hpp"
@@ -15,10 +16,10 @@ namespace fs = std::filesystem;
 
 class MemoryStore : public JobStore {
  public:
-  void keep(const EndedJob& job, const Picture& picture) override {
+  void keep(const EndedJob& job, Picture picture) override {
     if (picture.rgb.empty()) return;
     job_ = job.info.job;
-    picture_ = picture;
+    picture_ = std::move(picture);
   }
   const Picture* picture(std::uint32_t job) override { return job == job_ ? &picture_ : nullptr; }
   std::vector<EndedJob> recover() override { return {}; }
@@ -39,11 +40,11 @@ class FolderStore : public JobStore {
     if (error) throw std::runtime_error(folder_.string() + ": " + error.message());
   }
 
-  void keep(const EndedJob& job, const Picture& picture) override {
+  void keep(const EndedJob& job, Picture picture) override {
     if (!picture.rgb.empty()) {
       write_exr(file(job.info.job, ".exr"), picture, {job.info.scene, kVersion});
       cache_job_ = job.info.job;
-      cache_ = picture;
+      cache_ = std::move(picture);
     }
     write_record(job);
   }

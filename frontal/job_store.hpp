@@ -26,7 +26,7 @@ class JobStore {
  public:
   virtual ~JobStore() = default;
   /// `picture` is empty (no pixels) unless the job is done. Throws std::runtime_error when it can't be kept.
-  virtual void keep(const EndedJob& job, const Picture& picture) = 0;
+  virtual void keep(const EndedJob& job, Picture picture) = 0;
   /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next call.
   virtual const Picture* picture(std::uint32_t job) = 0;
   /// What an earlier frontal left, oldest first.

@@ -42,7 +42,7 @@ struct PreparedScene {
   std::optional<TilePlan> plan;
   std::uint64_t primitives = 0, objects = 0;
   /// By rank; one for all where every node holds the whole model.
-  std::vector<Bytes> slices;
+  std::vector<SharedBytes> slices;
   /// Encoded light horizons, for every node; empty without them.
   Bytes horizons;
   /// In `macro`: every node holds the whole model.

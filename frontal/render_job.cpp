@@ -46,7 +46,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
     reports_[rank].gray = cube_.label_of(Rank{rank}).value;
   }
   if (is_roth()) return;
-  for (const Bytes& slice : scene_.slices) slice_bytes_.push_back(slice.size());
+  for (const SharedBytes& slice : scene_.slices) slice_bytes_.push_back(slice.size());
   held_bytes_ = slice_bytes_;
   const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
   room_bytes_ = std::max(kMostShares * all / nodes_, kSmallSlices);
@@ -56,15 +56,19 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
   }
 }
 
-Bytes RenderJob::take_slice(Rank rank) {
+SharedBytes RenderJob::take_slice(Rank rank) {
   if (scene_.slices.size() == 1) return scene_.slices.front();
-  const bool keeps = lends() || may_be_copied(rank);
-  Bytes slice = keeps ? scene_.slices[rank.value] : std::move(scene_.slices[rank.value]);
-  slice.insert(slice.end(), scene_.horizons.begin(), scene_.horizons.end());
-  return slice;
+  SharedBytes& held = scene_.slices[rank.value];
+  const SharedBytes slice = lends() || may_be_copied(rank) ? held : std::exchange(held, {});
+  if (scene_.horizons.empty()) return slice;
+  Bytes both;
+  both.reserve(slice.size() + scene_.horizons.size());
+  both.insert(both.end(), slice.bytes().begin(), slice.bytes().end());
+  both.insert(both.end(), scene_.horizons.begin(), scene_.horizons.end());
+  return both;
 }
 
-const Bytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
+const SharedBytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
   return lends() && rank < nodes_ ? &scene_.slices[rank] : nullptr;
 }
 
@@ -79,7 +83,7 @@ bool RenderJob::may_be_copied(Rank owner) const {
   return false;
 }
 
-const Bytes* RenderJob::slice_to_copy(Rank owner, Rank helper) {
+const SharedBytes* RenderJob::slice_to_copy(Rank owner, Rank helper) {
   const auto bit = cube_.link_between(helper, owner);
   if (!scene_.makes_copies || !bit || (copies_[helper.value] >> *bit & 1) != 0) return nullptr;
   if (!has_room(helper, owner)) return nullptr;
@@ -216,7 +220,7 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::
   }
   ++batches_received_[s.sender];
   for (const Contribution& c : contributions) {
-    if (!film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
+    if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
     film_.add(c.pixel, c.light);
   }
   for (const TileCredit& c : credits) {

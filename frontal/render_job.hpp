@@ -57,11 +57,11 @@ class RenderJob {
   const PreparedScene& scene() const { return scene_; }
   SumsMode sums() const { return sums_; }
   /// The slice for a node; given away once the node has it.
-  Bytes take_slice(Rank rank);
+  SharedBytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
-  const Bytes* slice_to_lend(std::uint32_t rank) const;
+  const SharedBytes* slice_to_lend(std::uint32_t rank) const;
   /// A node's slice for a neighbour that is to help it; null where that has no room for it, or has one.
-  const Bytes* slice_to_copy(Rank owner, Rank helper);
+  const SharedBytes* slice_to_copy(Rank owner, Rank helper);
   control::Load load() const;
 
   void set_ready(Rank rank);

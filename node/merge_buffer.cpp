@@ -16,6 +16,7 @@ bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
 std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
   // Fibonacci hashing: neighbours in a row of pixels fall far apart.
   constexpr std::uint32_t kGolden = 2654435769u;
+  if (slots_.empty()) slots_.resize(2 * keys_);
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t i = (key * kGolden) & mask;; i = (i + 1) & mask) {
     Slot& slot = slots_[i];
@@ -34,7 +35,8 @@ void MergeBuffer::Index::clear() {
 }
 
 void MergeBuffer::Index::resize(std::size_t keys) {
-  slots_ = std::vector<Slot>(2 * keys);
+  keys_ = keys;
+  slots_ = {};
   generation_ = 1;
 }
 

@@ -21,7 +21,7 @@ class MergeBuffer {
   static constexpr std::size_t kFullOfOthers = 32768;
   /// What a buffer for other nodes' light may hold, and so all that a batch between nodes may.
   static constexpr std::size_t kMostPixels = 2 * kFullOfOthers;
-  static_assert(contribution_batch_bytes(kMostPixels, kMostPixels) < kMaxContributionBatchBytes);
+  static_assert(most_contribution_bytes(kMostPixels, kMostPixels) < kMaxContributionBatchBytes);
 
   MergeBuffer();
   /// Empties it, and makes room for other nodes' light or gives that up.
@@ -64,7 +64,9 @@ class MergeBuffer {
     struct Slot {
       std::uint32_t key = 0, place = 0, generation = 0;
     };
-    std::vector<Slot> slots_ = std::vector<Slot>(2 * kFullPixels);
+    std::size_t keys_ = kFullPixels;
+    /// Empty until there is a key: where tiles come whole, pixels are never looked up.
+    std::vector<Slot> slots_;
     std::uint32_t generation_ = 1;
   };
 

@@ -83,7 +83,7 @@ void Node::on_welcome(const control::Welcome& m) {
   for (const Bytes& greeting : std::exchange(early_greetings_, {})) on_neighbour(greeting);
 }
 
-void Node::on_load(const control::Load& m, const Bytes& slice) {
+void Node::on_load(const control::Load& m, const SharedBytes& slice) {
   if (!cube_) return drop("load", "before welcome");
   if (m.grid.columns != std::uint64_t{cube_->columns()} * m.grid.scatter ||
       m.grid.rows != std::uint64_t{cube_->rows()} * m.grid.scatter) {

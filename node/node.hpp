@@ -98,11 +98,11 @@ class Node {
 
   void on_control(const Message& message);
   void on_welcome(const control::Welcome& m);
-  void on_load(const control::Load& m, const Bytes& slice);
+  void on_load(const control::Load& m, const SharedBytes& slice);
   void on_prepare(const control::Prepare& m);
   void on_start(const control::Start& m);
   void on_finish(const control::Finish& m);
-  void on_lend(const control::Lend& m, const Bytes& slice);
+  void on_lend(const control::Lend& m, const SharedBytes& slice);
   void on_relieved(const control::Relieved& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(std::span<const std::byte> batch);
@@ -161,7 +161,7 @@ class Node {
   void pass_on_what_waits();
 
   // node_sharing.cpp
-  void on_copy(const control::Copy& m, const Bytes& slice);
+  void on_copy(const control::Copy& m, const SharedBytes& slice);
   void adopt_copy(WorkResult& result);
   void leave_copy(std::span<const RayTask> rays, Rank owner);
   void offer_help();
@@ -184,7 +184,7 @@ class Node {
   State state_ = State::kNoJob;
   control::Load load_;
   std::uint32_t job_ = 0, epoch_ = 0;
-  std::optional<Bytes> unbuilt_slice_;
+  std::optional<SharedBytes> unbuilt_slice_;
   /// Of the model alone.
   std::size_t slice_bytes_ = 0;
   std::shared_ptr<const Domain> domain_;

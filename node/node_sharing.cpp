@@ -24,7 +24,7 @@ constexpr std::size_t kMostRaysAtATime = 512;
 
 }  // namespace
 
-void Node::on_copy(const control::Copy& m, const Bytes& slice) {
+void Node::on_copy(const control::Copy& m, const SharedBytes& slice) {
   if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
   const std::uint32_t bit = bit_of(Rank{m.rank});
   if (bit >= copies_.size() || domain_->grid() == nullptr) return drop("copy", "not a neighbour's");

@@ -248,7 +248,7 @@ bool Node::waits_for_model(Rank owner, const RayTask& ray) {
   return true;
 }
 
-void Node::on_lend(const control::Lend& m, const Bytes& slice) {
+void Node::on_lend(const control::Lend& m, const SharedBytes& slice) {
   if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
   if (m.rank >= borrowed_.size() || borrowed_[m.rank].state != Borrowed::State::kAsked) {
     return drop("lend", "not asked for");

@@ -21,7 +21,7 @@ std::optional<Model> decoded_model(std::span<const std::byte> bytes, WorkResult&
 
 void build(BuildWork work, WorkResult& result) {
   const auto started = std::chrono::steady_clock::now();
-  const std::span<const std::byte> bytes = work.slice;
+  const std::span<const std::byte> bytes = work.slice.bytes();
   if (work.horizon_bytes > bytes.size()) {
     result.error = "less came than was announced";
     return;
@@ -79,12 +79,12 @@ WorkResult Workbench::run(Work work) {
   }
   if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
     result.borrowed_from = b->from;
-    if (auto model = decoded_model(b->slice, result)) result.borrowed = Territory::of(*std::move(model));
+    if (auto model = decoded_model(b->slice.bytes(), result)) result.borrowed = Territory::of(*std::move(model));
     return result;
   }
   if (auto* c = std::get_if<CopyWork>(&work.what)) {
     result.copied_from = c->from;
-    auto model = decoded_model(c->slice, result);
+    auto model = decoded_model(c->slice.bytes(), result);
     if (model) result.domain = work.domain->of_neighbour(c->share, *std::move(model));
     return result;
   }

@@ -24,7 +24,7 @@ struct GridEdges {
 
 /// Subdivide the macro-regions that came with `load`.
 struct BuildWork {
-  Bytes slice;
+  SharedBytes slice;
   /// Behind the model come so many bytes of light horizons.
   std::size_t horizon_bytes = 0;
   /// The model is the whole scene.
@@ -36,13 +36,13 @@ struct BuildWork {
 /// Subdivide another node's macro-regions, to finish shadow rays in them.
 struct BorrowWork {
   Rank from;
-  Bytes slice;
+  SharedBytes slice;
 };
 /// Subdivide a copy of a neighbour's macro-regions, to help it.
 struct CopyWork {
   Rank from;
   RegionShare share;
-  Bytes slice;
+  SharedBytes slice;
 };
 /// Trace the primary rays of a tile, or of a part of it.
 struct TileWork {

@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kFrontalRank = 0xFFFFFFFF;
 
 inline constexpr std::size_t kRayBytes = 102;
 inline constexpr std::size_t kTileCreditBytes = 44;
-inline constexpr std::size_t kContributionBytes = 28;
+/// What a pixel's light takes, alone in its run and very bright.
+inline constexpr std::size_t kMostPixelBytes = 30;
 inline constexpr std::size_t kTokenBytes = 25;
 
 /// Largest message, header included: contributions, and every other type.
@@ -134,7 +135,7 @@ std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayT
                                    BatchType type = BatchType::kRays);
 /// At most kMaxClassesPerGrant classes.
 std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes);
-/// Both together at most kMaxContributionBatchBytes, see contribution_batch_bytes.
+/// Both together at most kMaxContributionBatchBytes, see most_contribution_bytes.
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
                                             std::span<const Contribution> contributions);
@@ -146,12 +147,12 @@ std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
 /// The types without payload: greeting, goodbye and their acknowledgements.
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
 
-/// Size of a message with so many records, header included.
+/// Size of a message with so many records, header included; of contributions at most.
 constexpr std::size_t ray_batch_bytes(std::size_t rays) {
   return kBatchHeaderBytes + rays * kRayBytes;
 }
-constexpr std::size_t contribution_batch_bytes(std::size_t tiles, std::size_t pixels) {
-  return kBatchHeaderBytes + tiles * kTileCreditBytes + pixels * kContributionBytes;
+constexpr std::size_t most_contribution_bytes(std::size_t tiles, std::size_t pixels) {
+  return kBatchHeaderBytes + tiles * kTileCreditBytes + pixels * kMostPixelBytes;
 }
 
 /// Checks everything about a message but its records' values: whoever gets a header may trust its

@@ -73,12 +73,46 @@ bool load_credit(const std::byte* at, const BatchLimits& limits, TileCredit& cre
 
 bool is_light(std::int64_t v) { return v >= 0 && v <= kMaxMergedLight; }
 
-bool load_contribution(const std::byte* at, const BatchLimits& limits, Contribution& c) {
-  c.pixel = load_little<std::uint32_t>(at);
-  c.light = {load_little<std::int64_t>(at + 4), load_little<std::int64_t>(at + 12),
-             load_little<std::int64_t>(at + 20)};
-  return c.pixel < limits.pixel_count && is_light(c.light.r) && is_light(c.light.g) &&
-         is_light(c.light.b);
+/// A run's light into `pixels`, the first of which is pixel number `first`. False unless the components take no
+/// more bytes than they need, and none is too large.
+template <std::size_t kBytes>
+bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> pixels) {
+  std::uint64_t bits = 0;
+  bool is_bounded = true;
+  for (Contribution& c : pixels) {
+    c.pixel = first++;
+    for (std::int64_t* component : {&c.light.r, &c.light.g, &c.light.b}) {
+      const std::uint64_t value = load_low_bytes<kBytes>(at);
+      *component = static_cast<std::int64_t>(value);
+      bits |= value;
+      // Below 8 bytes they all are.
+      if constexpr (kBytes == 8) is_bounded = is_bounded && is_light(*component);
+      at += kBytes;
+    }
+  }
+  return is_bounded && component_bytes(bits) == kBytes;
+}
+
+/// All runs of `bytes`, into as many contributions as there are. Runs are as long as they can be.
+bool load_light(std::span<const std::byte> bytes, const BatchLimits& limits, std::span<Contribution> all) {
+  ByteReader r(bytes);
+  std::uint64_t end = 0;
+  bool may_continue = false;
+  while (!all.empty()) {
+    const auto first = r.get<std::uint32_t>();
+    const std::size_t count = r.get<std::uint8_t>(), width = r.get<std::uint8_t>();
+    if (count == 0 || count > all.size() || width == 0 || width > sizeof(std::uint64_t)) return false;
+    if (first + std::uint64_t{count} > limits.pixel_count || (may_continue && first == end)) return false;
+    const std::byte* at = r.take(3 * width * count);
+    if (at == nullptr) return false;
+    bool is_sound = false;
+    with_component_bytes(width, [&](auto kBytes) { is_sound = load_run<kBytes>(at, first, all.first(count)); });
+    if (!is_sound) return false;
+    end = first + std::uint64_t{count};
+    may_continue = count < kMaxRunPixels;
+    all = all.subspan(count);
+  }
+  return r.remaining() == 0;
 }
 
 /// Fills `records` with `count` records of `size` bytes; empties it when one of them is wrong.
@@ -133,7 +167,8 @@ BatchResult peek_header(std::span<const std::byte> message) {
   h.stamp.incarnation = r.get<std::uint32_t>();
   if (message.size() > max_message_bytes(h.type)) return BatchError::kTooLarge;
   const PayloadRule rule = payload_rule(h);
-  if (!rule.counts_fit || rule.bytes != h.payload_bytes || rule.bytes != r.remaining()) {
+  if (!rule.counts_fit || h.payload_bytes < rule.bytes || h.payload_bytes - rule.bytes > rule.more ||
+      h.payload_bytes != r.remaining()) {
     return BatchError::kBadLength;
   }
   return h;
@@ -161,11 +196,12 @@ BatchResult decode_contributions(std::span<const std::byte> message, const Batch
   const BatchResult result = open(message, limits, BatchType::kContributions, at);
   const auto* h = std::get_if<BatchHeader>(&result);
   if (h == nullptr) return result;
-  const std::byte* pixels = at + h->count * kTileCreditBytes;
+  const std::size_t credit_bytes = h->count * kTileCreditBytes;
+  contributions.resize(h->second_count);
   if (!load_all(at, h->count, kTileCreditBytes, limits, load_credit, credits) ||
-      !load_all(pixels, h->second_count, kContributionBytes, limits, load_contribution,
-                contributions)) {
+      !load_light({at + credit_bytes, h->payload_bytes - credit_bytes}, limits, contributions)) {
     credits.clear();
+    contributions.clear();
     return BatchError::kBadValue;
   }
   return result;

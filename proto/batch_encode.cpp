@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "geometry/check.hpp"
@@ -10,13 +11,14 @@ namespace {
 
 using namespace batch_layout;
 
-/// A writer that already holds the header; `count` and `second` decide the payload's size.
-ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std::size_t second) {
+/// A writer that already holds the header; `count` and `second` decide the payload's size, but for `more` bytes.
+ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std::size_t second,
+                 std::size_t more = 0) {
   BatchHeader h{stamp, type, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(second),
                 0};
   const PayloadRule rule = payload_rule(h);
-  const std::uint64_t size = kBatchHeaderBytes + rule.bytes;
-  GRAYCUBE_CHECK(rule.counts_fit && count == h.count && second == h.second_count &&
+  const std::uint64_t size = kBatchHeaderBytes + rule.bytes + more;
+  GRAYCUBE_CHECK(rule.counts_fit && more <= rule.more && count == h.count && second == h.second_count &&
                      size <= max_message_bytes(type),
                  "%zu + %zu records in one %s batch", count, second, to_string(type).data());
   ByteWriter w(static_cast<std::size_t>(size));
@@ -30,7 +32,7 @@ ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std
   w.put(stamp.sequence);
   w.put(h.count);
   w.put(h.second_count);
-  w.put(static_cast<std::uint32_t>(rule.bytes));
+  w.put(static_cast<std::uint32_t>(rule.bytes + more));
   w.put(stamp.incarnation);
   return w;
 }
@@ -59,6 +61,45 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_little(at + 100, task.hops);
 }
 
+/// Light of pixels side by side.
+struct LightRun {
+  std::span<const Contribution> pixels;
+  std::size_t component_bytes = 1;
+
+  std::size_t bytes() const { return kRunHeaderBytes + 3 * component_bytes * pixels.size(); }
+};
+
+std::uint64_t bits_of(const FixedRgb& light) { return static_cast<std::uint64_t>(light.r | light.g | light.b); }
+
+/// The longest runs, one behind the other.
+std::vector<LightRun> runs_of(std::span<const Contribution> all) {
+  std::vector<LightRun> runs;
+  while (!all.empty()) {
+    const std::size_t most = std::min(all.size(), kMaxRunPixels);
+    std::uint64_t bits = bits_of(all[0].light);
+    std::size_t count = 1;
+    for (; count < most && all[count].pixel == all[count - 1].pixel + 1; ++count) bits |= bits_of(all[count].light);
+    runs.push_back({all.first(count), component_bytes(bits)});
+    all = all.subspan(count);
+  }
+  return runs;
+}
+
+void store_run(std::byte* at, const LightRun& run) {
+  store_little(at, run.pixels.front().pixel);
+  store_little(at + 4, static_cast<std::uint8_t>(run.pixels.size()));
+  store_little(at + 5, static_cast<std::uint8_t>(run.component_bytes));
+  at += kRunHeaderBytes;
+  with_component_bytes(run.component_bytes, [&](auto bytes) {
+    for (const Contribution& c : run.pixels) {
+      for (const std::int64_t component : {c.light.r, c.light.g, c.light.b}) {
+        store_low_bytes<bytes>(at, static_cast<std::uint64_t>(component));
+        at += bytes;
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays, BatchType type) {
@@ -76,17 +117,16 @@ std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayT
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
                                             std::span<const Contribution> contributions) {
-  ByteWriter w = begin(stamp, BatchType::kContributions, credits.size(), contributions.size());
+  const std::vector<LightRun> runs = runs_of(contributions);
+  std::size_t light_bytes = 0;
+  for (const LightRun& run : runs) light_bytes += run.bytes();
+  ByteWriter w = begin(stamp, BatchType::kContributions, credits.size(), contributions.size(),
+                       light_bytes - contributions.size() * kLeastPixelBytes);
   for (const TileCredit& c : credits) {
     w.put(c.tile);
     for (const std::uint64_t word : c.credit.words()) w.put(word);
   }
-  for (const Contribution& c : contributions) {
-    w.put(c.pixel);
-    w.put(c.light.r);
-    w.put(c.light.g);
-    w.put(c.light.b);
-  }
+  for (const LightRun& run : runs) store_run(w.room(run.bytes()), run);
   return std::move(w).take();
 }
 

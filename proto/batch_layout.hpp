@@ -1,8 +1,11 @@
 // What the writer and the reader of batches share: how counts decide a message's size.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "proto/batch.hpp"
 
@@ -13,7 +16,34 @@ struct PayloadRule {
   bool counts_fit;
   /// What the payload must measure; multiplied in 64 bits, so nothing wraps.
   std::uint64_t bytes;
+  /// How much more it may measure, depending on the records.
+  std::uint64_t more = 0;
 };
+
+/// Light comes in runs: of pixels side by side, each component in as many bytes as the largest needs.
+inline constexpr std::size_t kRunHeaderBytes = 6, kMaxRunPixels = 255;
+inline constexpr std::size_t kLeastPixelBytes = 3;
+static_assert(kMostPixelBytes == kRunHeaderBytes + 3 * sizeof(std::uint64_t));
+
+/// How many bytes a component takes in a run, where `bits` is all of its components' or-ed.
+constexpr std::size_t component_bytes(std::uint64_t bits) {
+  return std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(bits)) + 7) / 8);
+}
+
+/// Calls visit with 1 to 8 as a constant.
+template <class Visit>
+void with_component_bytes(std::size_t bytes, Visit&& visit) {
+  switch (bytes) {
+    case 1: return visit(std::integral_constant<std::size_t, 1>());
+    case 2: return visit(std::integral_constant<std::size_t, 2>());
+    case 3: return visit(std::integral_constant<std::size_t, 3>());
+    case 4: return visit(std::integral_constant<std::size_t, 4>());
+    case 5: return visit(std::integral_constant<std::size_t, 5>());
+    case 6: return visit(std::integral_constant<std::size_t, 6>());
+    case 7: return visit(std::integral_constant<std::size_t, 7>());
+    default: return visit(std::integral_constant<std::size_t, 8>());
+  }
+}
 
 inline PayloadRule payload_rule(const BatchHeader& h) {
   const std::uint64_t count = h.count, second = h.second_count;
@@ -22,7 +52,8 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
     case BatchType::kRays:
     case BatchType::kClassRays: return {single, count * kRayBytes};
     case BatchType::kContributions:
-      return {true, count * kTileCreditBytes + second * kContributionBytes};
+      return {true, count * kTileCreditBytes + second * kLeastPixelBytes,
+              second * (kMostPixelBytes - kLeastPixelBytes)};
     case BatchType::kLinkCredit: return {single && count == 1, 8};
     case BatchType::kToken: return {single && count == 1, kTokenBytes};
     case BatchType::kAssignment: return {single, count * 4};

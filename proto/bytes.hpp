@@ -56,6 +56,22 @@ void store_little(std::byte* to, T value) {
   std::memcpy(to, &bits, sizeof bits);
 }
 
+/// The `kBytes` low bytes of an integer, 1 to 8, at `from`.
+template <std::size_t kBytes>
+std::uint64_t load_low_bytes(const std::byte* from) {
+  static_assert(kBytes >= 1 && kBytes <= sizeof(std::uint64_t));
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, from, kBytes);
+  return to_little_endian(bits);
+}
+
+template <std::size_t kBytes>
+void store_low_bytes(std::byte* to, std::uint64_t value) {
+  static_assert(kBytes >= 1 && kBytes <= sizeof(std::uint64_t));
+  const std::uint64_t bits = to_little_endian(value);
+  std::memcpy(to, &bits, kBytes);
+}
+
 /// Fills a message whose size is known beforehand. Writing past it is a bug of ours and aborts.
 class ByteWriter {
  public:

@@ -7,28 +7,22 @@
 namespace graycube {
 namespace {
 
+constexpr std::size_t kValueBytes = 4;
+
 template <typename Value>
 std::vector<std::byte> encode_rows(std::span<const Value> values) {
-  GRAYCUBE_CHECK(values.size() % 3 == 0 && values.size() <= kMaxPictureBytes / 4, "%zu values",
+  GRAYCUBE_CHECK(values.size() % 3 == 0 && values.size() <= kMaxPictureBytes / kValueBytes, "%zu values",
                  values.size());
-  ByteWriter w(values.size() * 4);
-  for (const Value v : values) w.put(v);
+  ByteWriter w(values.size() * kValueBytes);
+  std::byte* at = w.room(values.size() * kValueBytes);
+  for (std::size_t i = 0; i < values.size(); ++i) store_little(at + kValueBytes * i, values[i]);
   return std::move(w).take();
 }
 
 template <typename Value>
-bool decode_rows(std::span<const std::byte> frame, std::uint32_t width, std::uint32_t rows,
-                 std::vector<Value>& values) {
-  values.clear();
-  const std::uint64_t pixels = std::uint64_t{width} * rows;
-  if (frame.size() > kMaxPictureBytes || frame.size() % 12 != 0 || frame.size() / 12 != pixels)
-    return false;
-  values.resize(frame.size() / 4);
-  const std::byte* at = frame.data();
-  for (Value& v : values) {
-    v = load_little<Value>(at);
-    at += 4;
-  }
+bool decode_rows(std::span<const std::byte> frame, std::span<Value> values) {
+  if (frame.size() % kValueBytes != 0 || frame.size() / kValueBytes != values.size()) return false;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = load_little<Value>(frame.data() + kValueBytes * i);
   return true;
 }
 
@@ -41,13 +35,11 @@ std::vector<std::byte> encode_picture_rows(std::span<const std::uint32_t> words)
   return encode_rows(words);
 }
 
-bool decode_picture_rows(std::span<const std::byte> frame, std::uint32_t width, std::uint32_t rows,
-                         std::vector<float>& values) {
-  return decode_rows(frame, width, rows, values);
+bool decode_picture_rows(std::span<const std::byte> frame, std::span<float> values) {
+  return decode_rows(frame, values);
 }
-bool decode_picture_rows(std::span<const std::byte> frame, std::uint32_t width, std::uint32_t rows,
-                         std::vector<std::uint32_t>& words) {
-  return decode_rows(frame, width, rows, words);
+bool decode_picture_rows(std::span<const std::byte> frame, std::span<std::uint32_t> words) {
+  return decode_rows(frame, words);
 }
 
 }  // namespace graycube

@@ -14,11 +14,9 @@ std::vector<std::byte> encode_picture_rows(std::span<const float> values);
 /// The same for a plane of AOVs.
 std::vector<std::byte> encode_picture_rows(std::span<const std::uint32_t> words);
 
-/// False, and `values` empty, when the frame doesn't hold exactly `rows` rows of `width` pixels or
-/// is larger than kMaxPictureBytes. Any bits are a value: pictures may hold infinities.
-[[nodiscard]] bool decode_picture_rows(std::span<const std::byte> frame, std::uint32_t width,
-                                       std::uint32_t rows, std::vector<float>& values);
-[[nodiscard]] bool decode_picture_rows(std::span<const std::byte> frame, std::uint32_t width,
-                                       std::uint32_t rows, std::vector<std::uint32_t>& words);
+/// Fills `values`, three for each pixel of the rows announced. False, and nothing written, when the frame doesn't
+/// hold exactly these. Any bits are a value: pictures may hold infinities.
+[[nodiscard]] bool decode_picture_rows(std::span<const std::byte> frame, std::span<float> values);
+[[nodiscard]] bool decode_picture_rows(std::span<const std::byte> frame, std::span<std::uint32_t> words);
 
 }  // namespace graycube

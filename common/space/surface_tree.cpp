@@ -25,6 +25,10 @@ class SurfaceTreeBuilder {
   }
 
   SurfaceTree run() {
+    // Most objects are one item.
+    tree_.items_.reserve(model_.objects.size());
+    boxes_.reserve(model_.objects.size());
+    tree_.literals_.reserve(model_.primitives.size());
     for (std::uint32_t i = 0; i < model_.objects.size(); ++i) add_object(i);
     std::vector<std::uint32_t> bounded;
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
@@ -160,6 +164,7 @@ class SurfaceTreeBuilder {
 
   /// Sorts the items into two halves by the best of up to kBins planes a side through their centres.
   std::size_t partition(std::span<std::uint32_t> items) const {
+    if (items.size() == 2) return 1;
     Aabb centers = Aabb::nothing();
     for (const std::uint32_t i : items) centers.include(boxes_[i].center());
     const std::size_t bin_count = bins_for(items.size());

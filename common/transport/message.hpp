@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graycube {
@@ -15,11 +17,34 @@ inline std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Bytes that nobody changes any more, held together by all who need them: a model that goes to every node, or what
+/// the socket received.
+class SharedBytes {
+ public:
+  SharedBytes() = default;
+  SharedBytes(Bytes bytes) {  // NOLINT: implicit
+    auto owned = std::make_shared<const Bytes>(std::move(bytes));
+    bytes_ = *owned;
+    owner_ = std::move(owned);
+  }
+  /// `bytes` are there as long as their owner is.
+  SharedBytes(std::shared_ptr<const void> owner, std::span<const std::byte> bytes)
+      : owner_(std::move(owner)), bytes_(bytes) {}
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+  std::size_t size() const { return bytes_.size(); }
+  bool empty() const { return bytes_.empty(); }
+
+ private:
+  std::shared_ptr<const void> owner_;
+  std::span<const std::byte> bytes_;
+};
+
 struct Message {
   Bytes frame;
-  Bytes payload;
+  SharedBytes payload;
 
-  static Message of_text(std::string_view text, Bytes payload = {}) {
+  static Message of_text(std::string_view text, SharedBytes payload = {}) {
     Message m;
     const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
     m.frame.assign(bytes.begin(), bytes.end());
@@ -37,7 +62,7 @@ struct MessageView {
   std::span<const std::byte> payload;
 
   MessageView() = default;
-  MessageView(const Message& m) : frame(m.frame), payload(m.payload) {}
+  MessageView(const Message& m) : frame(m.frame), payload(m.payload.bytes()) {}
 
   std::string_view text() const { return text_of(frame); }
 };

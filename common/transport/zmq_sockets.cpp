@@ -31,15 +31,23 @@ std::span<const std::byte> bytes_of(const zmq::message_t& m) {
 
 Bytes copy_of(std::span<const std::byte> bytes) { return Bytes(bytes.begin(), bytes.end()); }
 
+SharedBytes shared(zmq::message_t frame) {
+  auto owner = std::make_shared<const zmq::message_t>(std::move(frame));
+  return {owner, bytes_of(*owner)};
+}
+
 /// Short frames are copied: cheaper than to hand them over.
 constexpr std::size_t kShortFrame = 512;
 
-/// A frame that ZeroMQ frees once it is sent, from a thread of its own.
-zmq::message_t frame_of(Bytes bytes) {
+/// A frame that ZeroMQ lets go of once it is sent, from a thread of its own.
+zmq::message_t frame_of(SharedBytes shared) {
+  const auto bytes = shared.bytes();
   if (bytes.size() < kShortFrame) return {bytes.data(), bytes.size()};
-  auto owned = std::make_unique<Bytes>(std::move(bytes));
+  auto owned = std::make_unique<SharedBytes>(std::move(shared));
+  // What is sent is only read.
   zmq::message_t frame(
-      owned->data(), owned->size(), [](void*, void* hint) { delete static_cast<Bytes*>(hint); }, owned.get());
+      const_cast<std::byte*>(bytes.data()), bytes.size(),
+      [](void*, void* hint) { delete static_cast<SharedBytes*>(hint); }, owned.get());
   // From here on the message owns it.
   static_cast<void>(owned.release());
   return frame;
@@ -126,7 +134,9 @@ std::optional<Message> Connection::receive() {
   receive_frames(impl_->socket, frames);
   const auto view = message_of(frames, 0);
   if (!view) return std::nullopt;
-  return Message{copy_of(view->frame), copy_of(view->payload)};
+  Message message{copy_of(view->frame), {}};
+  if (!view->payload.empty()) message.payload = shared(std::move(frames.back()));
+  return message;
 }
 
 std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {

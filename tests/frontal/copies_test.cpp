@@ -15,7 +15,7 @@ const Hypercube kCube = *Hypercube::of_size(4);
 /// A job whose slices are that long; only their sizes matter here.
 RenderJob job_with_slices(const std::vector<std::size_t>& bytes) {
   PreparedScene cut = prepared(corner_scene(), {});
-  for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i].resize(bytes[i]);
+  for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i] = Bytes(bytes[i]);
   return RenderJob(1, std::move(cut), kCube, 1);
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("a neighbour gets a copy of a slice once, another node never") {
   for (std::uint32_t rank = 0; rank < 4; ++rank) {
     const Rank helper{rank};
     INFO("rank " << rank);
-    const Bytes* slice = job.slice_to_copy(kOwner, helper);
+    const SharedBytes* slice = job.slice_to_copy(kOwner, helper);
     REQUIRE((slice != nullptr) == kCube.link_between(kOwner, helper).has_value());
     if (slice != nullptr) CHECK(slice->size() == 1000);
     CHECK(job.slice_to_copy(kOwner, helper) == nullptr);
@@ -38,7 +38,7 @@ TEST_CASE("a neighbour gets a copy of a slice once, another node never") {
 TEST_CASE("a slice is there to be copied when its node has got it") {
   RenderJob job = job_with_slices({1000, 2000, 3000, 4000});
   const std::size_t sent = job.take_slice(kOwner).size();
-  const Bytes* slice = job.slice_to_copy(kOwner, kCube.neighbour(kOwner, 0));
+  const SharedBytes* slice = job.slice_to_copy(kOwner, kCube.neighbour(kOwner, 0));
   REQUIRE(slice != nullptr);
   CHECK(slice->size() + job.load().horizon_bytes == sent);
 }

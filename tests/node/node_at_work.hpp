@@ -49,7 +49,7 @@ class NodeAtWork {
   /// For that neighbour's next batch.
   BatchStamp stamp_of(Rank sender) { return {1, 0, sender.value, kIncarnation, sent_[sender.value]++}; }
 
-  void tell(const ControlMessage& message, Bytes payload = {}) {
+  void tell(const ControlMessage& message, SharedBytes payload = {}) {
     node.on_frontal(Message::of_text(encode(message), std::move(payload)));
   }
   void assign(const std::vector<std::uint32_t>& tiles) {

@@ -1,5 +1,6 @@
 #include "proto/batch.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
@@ -58,12 +59,25 @@ Contribution some_light(Random& random) {
   return {static_cast<std::uint32_t>(random.below(4096)), {value(), value(), value()}};
 }
 
+/// Dim or bright, for pixels apart and side by side.
+std::vector<Contribution> some_lights(Random& random, std::size_t count) {
+  std::vector<Contribution> all;
+  while (all.size() < count) {
+    Contribution c = some_light(random);
+    const auto bits = random.below(63);
+    for (std::int64_t* v : {&c.light.r, &c.light.g, &c.light.b}) *v &= (std::int64_t{1} << bits) - 1;
+    if (!all.empty() && !random.chance(3)) c.pixel = (all.back().pixel + 1) % 4096;
+    all.push_back(c);
+  }
+  return all;
+}
+
 /// One message of every type.
 std::vector<Bytes> one_of_each(Random& random) {
   std::vector<TileCredit> credits;
   std::vector<Contribution> light;
   for (int i = 0; i < 3; ++i) credits.push_back(some_credit(random));
-  for (int i = 0; i < 4; ++i) light.push_back(some_light(random));
+  light = some_lights(random, 4);
   return {encode_rays(kStamp, some_rays(random, 3)),
           encode_contributions(kStamp, credits, light),
           encode_link_credit(kStamp, 65536),
@@ -172,14 +186,72 @@ TEST_CASE("contributions and their credit come back as sent") {
     std::vector<TileCredit> credits, credits_again;
     std::vector<Contribution> light, light_again;
     for (std::uint64_t n = random.below(9); n > 0; --n) credits.push_back(some_credit(random));
-    for (std::uint64_t n = random.below(9); n > 0; --n) light.push_back(some_light(random));
+    light = some_lights(random, seed % 10 == 0 ? 1000 : random.below(9));
     const Bytes bytes = encode_contributions(kStamp, credits, light);
-    CHECK(bytes.size() == contribution_batch_bytes(credits.size(), light.size()));
+    CHECK(bytes.size() <= most_contribution_bytes(credits.size(), light.size()));
     const BatchResult result = decode_contributions(bytes, kLimits, credits_again, light_again);
     REQUIRE(std::holds_alternative<BatchHeader>(result));
     CHECK(credits_again == credits);
     CHECK(light_again == light);
   }
+}
+
+TEST_CASE("light lies in runs as FORMAT.md gives them") {
+  const std::vector<Contribution> light{{0x0102, {1, 0x0304, 0}}, {0x0103, {5, 6, 7}}, {0x0200, {0, 0, 0}}};
+  const Bytes bytes = encode_contributions(kStamp, {}, light);
+  const auto expected = std::to_array<std::uint8_t>({0x02, 0x01, 0, 0, 2, 2, 1, 0, 4, 3, 0, 0, 5, 0, 6, 0, 7, 0,
+                                                     0x00, 0x02, 0, 0, 1, 1, 0, 0, 0});
+  REQUIRE(bytes.size() == 44 + expected.size());
+  CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 3);
+  CHECK(load_little<std::uint32_t>(bytes.data() + 36) == expected.size());
+  CHECK(std::memcmp(bytes.data() + 44, expected.data(), expected.size()) == 0);
+}
+
+TEST_CASE("runs of light that nobody would write are refused") {
+  // Pixels 7 and 8, in two bytes a component.
+  const std::vector<Contribution> light{{7, {1, 0x0304, 0}}, {8, {5, 6, 7}}};
+  const Bytes good = encode_contributions(kStamp, {}, light);
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> again;
+  const auto error = [&](const Bytes& bytes) {
+    again.resize(3);
+    const BatchError e = error_of(decode_contributions(bytes, kLimits, credits, again));
+    CHECK(again.empty());
+    return e;
+  };
+  REQUIRE(decode_contributions(good, kLimits, credits, again).index() == 0);
+  CHECK(error(with(good, 44, std::uint32_t{4095})) == BatchError::kBadValue);
+  CHECK(error(with(good, 44, std::uint32_t{0xFFFFFFFF})) == BatchError::kBadValue);
+  for (const int count : {0, 1, 3, 255}) {
+    INFO(count << " pixels");
+    CHECK(error(with(good, 48, static_cast<std::uint8_t>(count))) == BatchError::kBadValue);
+  }
+  for (const int width : {0, 1, 3, 8, 9, 255}) {
+    INFO(width << " bytes a component");
+    CHECK(error(with(good, 49, static_cast<std::uint8_t>(width))) == BatchError::kBadValue);
+  }
+  CHECK(error(with(good, 32, std::uint32_t{1})) == BatchError::kBadValue);
+  CHECK(error(with(good, 32, std::uint32_t{3})) == BatchError::kBadValue);
+  CHECK(error(with(good, 32, std::uint32_t{7})) == BatchError::kBadLength);
+  CHECK(error(with(good, 32, std::uint32_t{0})) == BatchError::kBadLength);
+  // No component needs its second byte any more.
+  CHECK(error(with(good, 44 + 6 + 2, std::uint16_t{4})) == BatchError::kBadValue);
+}
+
+TEST_CASE("a run that could have been longer is refused, but for the longest") {
+  std::vector<Contribution> light;
+  for (std::uint32_t pixel = 0; pixel < 300; ++pixel) light.push_back({pixel, {1, 2, 3}});
+  std::vector<TileCredit> credits;
+  std::vector<Contribution> again;
+  const Bytes whole = encode_contributions(kStamp, {}, light);
+  CHECK(whole.size() == 44 + 2 * 6 + 300 * 3);
+  REQUIRE(decode_contributions(whole, kLimits, credits, again).index() == 0);
+  CHECK(again == light);
+  light[1].pixel = 900;
+  light.resize(2);
+  const Bytes apart = encode_contributions(kStamp, {}, light);
+  CHECK(error_of(decode_contributions(with(apart, 44 + 6 + 3, std::uint32_t{1}), kLimits, credits, again)) ==
+        BatchError::kBadValue);
 }
 
 TEST_CASE("grants, tokens, assignments and signals come back as sent") {
