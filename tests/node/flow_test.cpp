@@ -1,4 +1,5 @@
-// When rays and credit go out: full batches, parts of them on quiet links, what is left when nothing else is to do.
+// When rays and credit go out: full batches, parts of them on quiet links, what is left when nothing else is to do; and
+// how a full node goes on.
 #include <catch2/catch.hpp>
 
 #include "node/node_at_work.hpp"
@@ -26,7 +27,7 @@ Bytes nothing() {
 
 /// The left one of two nodes, the picture begun.
 struct LeftNode : NodeAtWork {
-  LeftNode() : NodeAtWork(kPair, left(), load(), nothing()) { begin(); }
+  explicit LeftNode(const control::Load& m = load()) : NodeAtWork(kPair, left(), m, nothing()) { begin(); }
 
   static Rank left() { return kPair.column_of(Rank{0}) == 0 ? Rank{0} : Rank{1}; }
   static control::Load load() {
@@ -37,27 +38,49 @@ struct LeftNode : NodeAtWork {
   }
   /// From the right: rays that end here, or go on to where they came from.
   void receive(std::size_t rays, bool go_back) {
+    node.on_neighbour(encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(1, go_back))));
+  }
+  /// The same on the credit of a class.
+  void receive_on_class(std::size_t rays, std::uint16_t of_class, bool go_back) {
+    node.on_neighbour(
+        encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(of_class, go_back)), BatchType::kClassRays));
+  }
+  static RayTask ray(std::uint16_t hops, bool go_back) {
     RayTask ray;
+    ray.hops = hops;
     ray.kind = RayKind::kShadow;
     ray.weight = {1, 1, 1};
     // To the left of the picture is +x.
     ray.ray = {{1, 0, 0}, {go_back ? -1.0 : 1.0, 0, 0}};
     ray.t_max = 5;
-    node.on_neighbour(encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray)));
+    return ray;
   }
 };
 
 struct Sent {
   std::vector<std::size_t> batches;  // rays in each
   std::vector<std::uint64_t> grants;  // rays' worth in each
+  std::vector<std::uint16_t> class_rays, class_grants;  // their classes
+  bool has_error = false;
 
   explicit Sent(Node& node) {
     const BatchLimits limits{.pixel_count = kSide * kSide, .tile_count = 16, .max_depth = 5, .lights = 1,
                              .columns = 2, .rows = 1, .nodes = 2};
     for (const Node::Outgoing& o : node.take_outgoing()) {
-      if (!looks_like_batch(o.message.frame)) continue;
+      if (!looks_like_batch(o.message.frame)) {
+        has_error = has_error || o.message.text().find("node_error") != std::string_view::npos;
+        continue;
+      }
       const auto header = std::get<BatchHeader>(peek_header(o.message.frame));
       if (header.type == BatchType::kRays) batches.push_back(header.count);
+      std::vector<RayTask> rays;
+      if (std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, rays, BatchType::kClassRays))) {
+        for (const RayTask& ray : rays) class_rays.push_back(ray.hops);
+      }
+      std::vector<std::uint16_t> classes;
+      if (std::holds_alternative<BatchHeader>(decode_class_credit(o.message.frame, limits, classes))) {
+        class_grants.insert(class_grants.end(), classes.begin(), classes.end());
+      }
       std::uint64_t bytes = 0;
       const auto grant = decode_link_credit(o.message.frame, limits, bytes);
       if (std::holds_alternative<BatchHeader>(grant)) grants.push_back(bytes / kRayBytes);
@@ -116,4 +139,98 @@ TEST_CASE("on a busy link only whole batches go out, and no more than there is c
   CHECK(sent == kCreditRays);
   left.node.on_neighbour(encode_link_credit(left.stamp_of(left.neighbour(0)), 300 * kRayBytes));
   CHECK(Sent(left.node).batches == std::vector<std::size_t>{300});
+}
+
+namespace {
+
+using Classes = std::vector<std::uint16_t>;
+constexpr std::uint32_t kFull = 10, kCreditOfFull = 4;
+
+/// With credit for four rays, full with ten in its outbox, and two places for each class.
+struct FullNode : LeftNode {
+  FullNode() : LeftNode(small()) {
+    receive(kCreditOfFull + kFull, true);
+    CHECK(work() == 1);
+    const Sent sent(node);
+    CHECK(sent.batches == std::vector<std::size_t>{kCreditOfFull});
+    // One goes to a place of its class, then the node isn't full any more; of two others one.
+    CHECK(sent.class_rays == Classes{2});
+    receive(2, true);
+    CHECK(work() == 1);
+    CHECK(Sent(node).class_rays == Classes{2});
+  }
+  static control::Load small() {
+    control::Load m = load();
+    m.link_credit_bytes = kCreditOfFull * kRayBytes;
+    m.outbox_rays = kFull;
+    m.class_places = 2;
+    return m;
+  }
+  void grant_classes(const Classes& classes) {
+    node.on_neighbour(encode_class_credit(stamp_of(neighbour(0)), classes));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a full node takes nothing that came on its link's credit until its outbox has emptied") {
+  FullNode full;
+  full.receive(3, true);
+  full.assign({0});
+  CHECK_FALSE(full.work_once());
+  CHECK(full.node.wait_reason() == WaitReason::kBlocked);
+  CHECK(full.node.has_unfinished());
+  full.grant_classes({2});
+  CHECK(Sent(full.node).class_rays == Classes{2});
+  CHECK(full.node.wait_reason() == WaitReason::kReady);
+  CHECK(full.work_once());
+}
+
+TEST_CASE("a full node traces what comes on class credit, highest class first, where there is room for the next") {
+  FullNode full;
+  full.receive_on_class(1, 3, true);
+  full.receive_on_class(1, 5, true);
+  CHECK(full.work_once());
+  CHECK(Sent(full.node).class_grants == Classes{5});
+  CHECK(full.work_once());
+  Sent sent(full.node);
+  CHECK(sent.class_grants == Classes{3});
+  // What comes of them goes on in two places each of their own; a third of class 6 has none.
+  full.receive_on_class(1, 5, true);
+  CHECK(full.work_once());
+  full.receive_on_class(2, 5, true);
+  CHECK(full.work_once());
+  CHECK(Sent(full.node).class_grants == Classes{5, 5});
+  // There is one now in the outbox of class 6, and no room for what more of class 5 send on.
+  full.receive_on_class(1, 5, true);
+  CHECK_FALSE(full.work_once());
+  CHECK(full.node.wait_reason() == WaitReason::kBlocked);
+  full.receive_on_class(1, 6, false);
+  CHECK(full.work_once());
+  full.grant_classes({6});
+  CHECK(Sent(full.node).class_rays == Classes{6});
+  CHECK(full.work_once());
+}
+
+TEST_CASE("what descends from rays on class credit is sent before all else when the link has credit") {
+  FullNode full;
+  full.receive_on_class(2, 5, true);
+  full.receive_on_class(1, 6, true);
+  CHECK(full.work() == 3);
+  full.receive_on_class(2, 5, true);
+  CHECK(full.work() == 1);
+  Sent before(full.node);
+  full.node.on_neighbour(encode_link_credit(full.stamp_of(full.neighbour(0)), 40 * kRayBytes));
+  const Sent after(full.node);
+  REQUIRE(after.batches.size() == 2);
+  CHECK(after.batches[0] == 1);
+  CHECK(after.class_rays.empty());
+}
+
+TEST_CASE("more rays of a class than there are places for end the job") {
+  FullNode full;
+  full.receive_on_class(2, 7, false);
+  CHECK_FALSE(Sent(full.node).has_error);
+  full.receive_on_class(1, 7, false);
+  CHECK(Sent(full.node).has_error);
 }

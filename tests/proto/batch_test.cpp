@@ -291,13 +291,13 @@ TEST_CASE("a damaged header is refused, and the error says what is wrong") {
   CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
   CHECK(error_of(peek_header(with(good, 4, std::uint16_t{3}))) == BatchError::kBadVersion);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
-  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{12}))) == BatchError::kBadType);
+  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{14}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
   CHECK(error_of(peek_header(with(good, 28, std::uint32_t{3}))) == BatchError::kBadLength);
   CHECK(error_of(peek_header(with(good, 32, std::uint32_t{1}))) == BatchError::kBadLength);
   CHECK(error_of(peek_header(with(good, 36, std::uint32_t{199}))) == BatchError::kBadLength);
-  // 2^30 · 100 ≡ 0 (mod 2^32): a product in 32 bits would look small; so would (2^30 + 2) · 100.
-  CHECK(error_of(peek_header(with(good, 28, std::uint32_t{(1u << 30) + 2}))) ==
+  // 2^31 · 102 ≡ 0 (mod 2^32): in 32 bits (2^31 + 2) · 102 would look like 2 · 102.
+  CHECK(error_of(peek_header(with(good, 28, std::uint32_t{(1u << 31) + 2}))) ==
         BatchError::kBadLength);
   CHECK(to_string(BatchError::kBadLength) == "bad length");
 }
