@@ -54,7 +54,8 @@ control::Load load() {
 
 /// One of four nodes, when a picture has begun or is about to.
 struct Worker : NodeAtWork {
-  explicit Worker(Rank rank, bool begins = true) : NodeAtWork(kCube, rank, load(), slice_of(rank)) {
+  explicit Worker(Rank rank, bool begins = true, const control::Load& m = load())
+      : NodeAtWork(kCube, rank, m, slice_of(rank)) {
     if (begins) begin();
   }
 };
@@ -67,6 +68,7 @@ struct Sent {
   std::vector<std::pair<Rank, std::vector<std::uint32_t>>> tiles;
   std::vector<std::pair<Rank, std::vector<RayTask>>> rays;
   std::set<std::uint32_t> tiles_with_credit;
+  std::size_t class_rays = 0;
 
   explicit Sent(Node& node) {
     const BatchLimits limits{.pixel_count = 4 * kSide * kSide, .tile_count = 16, .max_depth = 5, .lights = 1,
@@ -81,6 +83,7 @@ struct Sent {
       }
       const BatchType type = std::get<BatchHeader>(peek_header(o.message.frame)).type;
       if (type == BatchType::kIdle || type == BatchType::kIdleWithCopy) offers.emplace_back(*o.to, type);
+      if (type == BatchType::kClassRays) ++class_rays;
       std::vector<std::uint32_t> numbers;
       std::vector<RayTask> forwarded;
       std::vector<TileCredit> credits;
@@ -214,6 +217,37 @@ TEST_CASE("rays for another neighbour are sent on, others refused") {
     between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(far))}));
     CHECK(Sent(between.node).errors.size() == 1);
   }
+}
+
+TEST_CASE("a full node keeps rays between its neighbours until its outboxes have room") {
+  control::Load small = load();
+  small.link_credit_bytes = kRayBytes;
+  small.outbox_rays = 1;
+  Worker between(Rank{0}, true, small);
+  const Rank from = between.neighbour(0), to = between.neighbour(1);
+  const auto receive = [&](BatchType type) {
+    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}, type));
+    CHECK(between.work() == 0);
+    return Sent(between.node);
+  };
+  CHECK(receive(BatchType::kRays).rays.size() == 1);
+  // The second takes its class's place, the third fills the outbox.
+  const Sent second = receive(BatchType::kRays);
+  CHECK(second.rays.empty());
+  CHECK(second.class_rays == 1);
+  for (int i = 0; i < 3; ++i) {
+    const Sent sent = receive(i == 1 ? BatchType::kClassRays : BatchType::kRays);
+    CHECK(sent.rays.size() + sent.class_rays == 0);
+  }
+  CHECK(between.node.wait_reason() == WaitReason::kBlocked);
+  std::size_t passed = 0;
+  for (int i = 0; i < 3; ++i) {
+    CHECK(between.node.has_unfinished());
+    between.node.on_neighbour(encode_link_credit(between.stamp_of(to), kRayBytes));
+    CHECK(between.work() == 0);
+    for (const auto& [peer, rays] : Sent(between.node).rays) passed += peer == to ? rays.size() : 0;
+  }
+  CHECK(passed == 3);
 }
 
 TEST_CASE("tiles that a node can't trace are refused") {
