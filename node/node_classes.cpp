@@ -54,7 +54,7 @@ bool Node::take_class_rays(Work& work) {
   while (batch.rays.size() < (full ? rays_per_class_work() : kMaxRaysPerWork)) {
     const bool begun = full && !batch.rays.empty();
     const auto of_class = class_rays_.highest([&](std::uint16_t c) {
-      return begun ? c == batch.rays.front().hops : !full || has_room_after(c);
+      return !full || (has_room_after(c) && (!begun || c == batch.rays.front().hops));
     });
     if (!of_class) break;
     const ClassStore::Held held = class_rays_.take(*of_class);

@@ -232,8 +232,8 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("link_credit_bytes", m.link_credit_bytes);
   visit("window_tiles", m.window_tiles, at_least_one());
   visit("batch_bytes", m.batch_bytes, at_least_one());
-  visit("outbox_rays", m.outbox_rays, at_least_one());
-  visit("class_places", m.class_places, at_least_one());
+  visit("outbox_rays", m.outbox_rays, {.min = 1, .has_default = true});
+  visit("class_places", m.class_places, {.min = 1, .has_default = true});
   visit("horizon_bytes", m.horizon_bytes);
   visit("borrow_bytes", m.borrow_bytes);
   visit("is_replica", m.is_replica);

@@ -302,7 +302,8 @@ struct Load {
   /// Own tiles that may be open at a time.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
-  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
+  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit. Where a frontal says
+  /// nothing there is no bound.
   std::uint64_t outbox_rays = 0xFFFF'FFFF;
   /// Rays of each class that a link has places for beside its credit.
   std::uint32_t class_places = 1;
