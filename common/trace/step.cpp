@@ -1,15 +1,10 @@
 #include "trace/step.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <limits>
 #include <new>
-#include <optional>
 
-#include "shading/phong.hpp"
 #include "trace/entry_hit.hpp"
-#include "trace/first_hit.hpp"
 
 namespace graycube {
 namespace {
@@ -20,57 +15,9 @@ static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Crossings nearer than this to a ray's origin are ignored: the surface that it leaves.
-double origin_epsilon(const Vec3& origin) { return 1e-9 * larger(1.0, max_abs(origin)); }
-
-/// How a ray's credit 2^-e is split at a surface: a quarter to each secondary ray, the other half in equal
-/// powers of two among the shadow rays and the ray's own contribution, which also takes all remainders.
-class CreditSplit {
- public:
-  CreditSplit(int exponent, std::size_t shadow_rays, std::size_t secondary_rays)
-      : exponent_(exponent), shadow_rays_(shadow_rays), secondary_rays_(secondary_rays) {
-    while ((std::size_t{1} << bits_) < shadow_rays + 1) ++bits_;
-  }
-
-  std::uint8_t shadow_exponent() const { return clamped_exponent(exponent_ + 1 + bits_); }
-  std::uint8_t secondary_exponent() const { return clamped_exponent(exponent_ + 2); }
-  void add_own_to(Credit& sum) const {
-    if (shadow_rays_ + secondary_rays_ == 0) return sum.add_power(exponent_);
-    for (std::size_t i = shadow_rays_; i < (std::size_t{1} << bits_); ++i) {
-      sum.add_power(shadow_exponent());
-    }
-    for (std::size_t i = secondary_rays_; i < 2; ++i) sum.add_power(secondary_exponent());
-  }
-
- private:
-  static std::uint8_t clamped_exponent(int exponent) {
-    return static_cast<std::uint8_t>(std::min(exponent, Credit::kMaxExponent));
-  }
-
-  int exponent_;
-  int bits_ = 0;
-  std::size_t shadow_rays_, secondary_rays_;
-};
-
 /// Whether two rays may be traced in one wave.
 bool are_alike(const RayTask& a, const RayTask& b) {
   return a.kind == b.kind && a.depth == b.depth && a.region == b.region;
-}
-
-/// A ray from `origin` that inherits pixel and generation.
-/// Written in place, number by number: a copy made on the way would wait for its parts to reach the cache.
-void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& direction,
-           const Rgb& weight, RayTask& r) {
-  r.ray.origin = origin;
-  r.ray.direction = direction;
-  r.t = origin_epsilon(origin);
-  r.t_max = kInf;
-  r.weight = weight;
-  r.pixel = parent.pixel;
-  r.kind = kind;
-  r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
-  r.region = parent.region;
-  r.hops = parent.hops;
 }
 
 }  // namespace
@@ -320,131 +267,6 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
       open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);
     }
   }
-}
-
-void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
-  const RayTask& task = ray.task;
-  const Model& model = domain_.model();
-  const Primitive& solid = model.primitives[hit.primitive];
-  const Material& m = model.materials[solid.material];
-  if (task.kind == RayKind::kPrimary && model.settings.aovs.any()) {
-    note_first_hit(domain_, task, hit, step);
-  }
-  const Vec3& d = task.ray.direction;
-  const Vec3 p = task.ray.at(hit.t);
-  Vec3 n = outward_normal(solid, model.data(), task.ray, hit.t);
-  if (dot(n, d) > 0) n = -n;
-  const std::size_t index = surfaces_.size();
-  for (std::size_t a = 0; a < 3; ++a) {
-    point_[a][index] = p[static_cast<int>(a)];
-    normal_[a][index] = n[static_cast<int>(a)];
-  }
-  SurfacePoint& at = surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n)});
-  if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
-  const Rgb ambient = (m.ambient * (1 - m.transmit)) * (m.color * model.settings.ambient);
-  contribute(ray, task.weight * ambient, step);
-}
-
-void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
-                                    Step& step) {
-  const Material& m = *at.material;
-  const RayTask& task = at.ray->task;
-  const auto send = [&](RayKind kind, const Vec3& direction, double coefficient) {
-    const Rgb weight = coefficient * task.weight;
-    if (!(max_component(weight) > 0)) return;
-    if (max_component(weight) < domain_.settings().min_weight) return;
-    ++step.rays.created[static_cast<std::size_t>(kind)];
-    ++at.secondary_rays;
-    OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
-    spawn(task, kind, p, normalized(direction), weight, sent.task);
-    sent.slot = at.ray->slot;
-    sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
-  };
-  if (m.transmit > 0) {
-    const auto through = refracted(task.ray.direction, n, entering ? 1 / m.ior : m.ior);
-    if (!through) return send(RayKind::kReflection, at.mirror, 1);
-    send(RayKind::kRefraction, *through, m.transmit);
-  }
-  if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
-}
-
-/// From all surfaces of the wave that face it. The first loop is written to be vectorized: it does what
-/// length, a scaled vector and dot do.
-void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
-  const Vec3 at = domain_.settings().lights[light].position;
-  const std::size_t count = surfaces_.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = at.x - point_[0][i];
-    const double y = at.y - point_[1][i];
-    const double z = at.z - point_[2][i];
-    const double distance = std::sqrt(x * x + y * y + z * z);
-    const double inverse = 1 / distance;
-    to_light_[0][i] = inverse * x;
-    to_light_[1][i] = inverse * y;
-    to_light_[2][i] = inverse * z;
-    distance_[i] = distance;
-    cosine_[i] = normal_[0][i] * to_light_[0][i] + normal_[1][i] * to_light_[1][i] +
-                 normal_[2][i] * to_light_[2][i];
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (cosine_[i] > 0) send_light_ray(light, i, step);
-  }
-}
-
-void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& step) {
-  const PointLight& source = domain_.settings().lights[light];
-  SurfacePoint& at = surfaces_[surface];
-  const RayTask& task = at.ray->task;
-  const double distance = distance_[surface];
-  const Vec3 l{to_light_[0][surface], to_light_[1][surface], to_light_[2][surface]};
-  ++step.rays.created[static_cast<std::size_t>(RayKind::kShadow)];
-  Rgb intensity = source.color;
-  if (source.falloff == Falloff::kInverseSquare) intensity = (1 / (distance * distance)) * intensity;
-  const Rgb weight = task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
-  if (!(max_component(weight) > 0)) return;
-  const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
-  OpenRay& sent = shadow_[light].emplace_back();
-  spawn(task, RayKind::kShadow, p, l, weight, sent.task);
-  sent.slot = at.ray->slot;
-  sent.surface = static_cast<std::uint32_t>(surface);
-  sent.task.t_max = distance - sent.task.t;
-  sent.task.light = static_cast<std::uint16_t>(light & 0x7FFF);
-  if (domain_.has_horizons() && !goes_on_to_horizon(sent.task)) {
-    ++step.rays.skipped_by_horizon;
-    contribute(sent, weight, step);
-    shadow_[light].pop_back();
-    return;
-  }
-  ++at.lights;
-}
-
-/// Shortens a shadow ray to where it reaches its light's horizon; false when it begins beyond that, where nothing can
-/// stand in its way.
-bool Evaluator::goes_on_to_horizon(RayTask& task) const {
-  const double end = domain_.horizon_end(task.light, task.ray, task.t_max);
-  if (!(end < task.t_max)) return true;
-  task.t_max = end;
-  task.ends_at_horizon = true;
-  return end > task.t;
-}
-
-/// Among what each surface sends out and its own contribution.
-void Evaluator::share_credit() {
-  const auto split = [this](const SurfacePoint& at) {
-    return CreditSplit(at.ray->task.credit_exponent, at.lights, at.secondary_rays);
-  };
-  for (const SurfacePoint& at : surfaces_) split(at).add_own_to(open_[at.ray->slot].credit);
-  for (std::vector<OpenRay>& sent : shadow_) {
-    for (OpenRay& ray : sent) {
-      ray.task.credit_exponent = split(surfaces_[ray.surface]).shadow_exponent();
-    }
-  }
-  for (std::vector<OpenRay>& sent : secondary_) {
-    for (OpenRay& ray : sent) {
-      ray.task.credit_exponent = split(surfaces_[ray.surface]).secondary_exponent();
-    }
-  }
-  surfaces_.clear();
 }
 
 void Evaluator::open_pixel(std::uint32_t pixel) { open_.emplace_back().pixel = pixel; }
