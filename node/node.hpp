@@ -113,6 +113,7 @@ class Node {
 
   std::uint32_t bit_of(Rank peer) const;
   void send_control(const ControlMessage& message);
+  bool choose_work(Work& work);
   void adopt_domain(WorkResult& result);
   void send_ready_when_complete();
   BatchStamp stamp(std::uint64_t sequence) const;
@@ -132,8 +133,6 @@ class Node {
   void take_from(std::uint32_t bit, std::size_t rays);
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send_stalled();
-  [[nodiscard]] bool waits_for_model(Rank owner, const RayTask& ray);
-  void adopt_borrowed(WorkResult& result);
   void send_batch(Link& link, std::span<const RayTask> rays, BatchType type = BatchType::kRays);
   void send_rays(Link& link, bool partial);
   void flush_contributions();
@@ -143,6 +142,10 @@ class Node {
   void flush_on_idle();
   void pass_token(bool is_pinged = false);
   bool is_passive() const;
+
+  // node_borrowing.cpp
+  [[nodiscard]] bool waits_for_model(Rank owner, const RayTask& ray);
+  void adopt_borrowed(WorkResult& result);
 
   // node_classes.cpp
   bool is_full() const;

@@ -38,20 +38,30 @@ std::optional<Work> Node::take_work() {
     return std::nullopt;
   }
   pass_on_what_waits();
+  if (!choose_work(work)) {
+    flush_on_idle();
+    return std::nullopt;
+  }
+  ++working_;
+  return work;
+}
+
+/// False when there is nothing that may be done now.
+bool Node::choose_work(Work& work) {
+  const std::size_t most_rays = is_blocking() ? 1 : kMaxRaysPerWork;
   if (!is_blocking()) work.most_leaving = std::max<std::uint64_t>(1, load_.outbox_rays / kWorksPerOutboxes);
   if (!lent_.empty()) {
     std::visit([&](auto& model) { work.what = std::move(model); }, lent_.front());
     lent_.pop_front();
-  } else if (take_class_rays(work)) {
-  } else if (is_full()) {
-    flush_on_idle();
-    return std::nullopt;
-  } else if (!own_rays_.is_empty()) {
-    work.what = RayWork{own_rays_.take(kMaxRaysPerWork, [](std::uint32_t, std::size_t) {})};
+    return true;
+  }
+  if (take_class_rays(work)) return true;
+  if (is_full()) return false;
+  if (!own_rays_.is_empty()) {
+    work.what = RayWork{own_rays_.take(most_rays, [](std::uint32_t, std::size_t) {})};
   } else if (!rays_.is_empty()) {
     RayWork batch;
-    batch.rays = rays_.take(is_blocking() ? 1 : kMaxRaysPerWork,
-                            [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
+    batch.rays = rays_.take(most_rays, [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
     for (Link& link : links_) grant_credit(link, is_blocking() ? 1 : half_credit());
     work.what = std::move(batch);
   } else if (!helped_.empty()) {
@@ -66,11 +76,9 @@ std::optional<Work> Node::take_work() {
     if (work.domain != domain_) work.helped = owner_of(plan_->region_of_tile(tile));
     work.what = TileWork{*pixels, tile};
   } else {
-    flush_on_idle();
-    return std::nullopt;
+    return false;
   }
-  ++working_;
-  return work;
+  return true;
 }
 
 /// Rays that came across a link are taken from the store: their credit is the peer's again.
@@ -223,60 +231,6 @@ void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
   links_[bit].outbox.add(rays);
   outbox_rays_ += rays.size();
   stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
-}
-
-/// Shadows local: a shadow ray goes on when the model that it lacks is here. False where there is no memory for that:
-/// then it goes on with the neighbour whose region it has entered.
-bool Node::waits_for_model(Rank owner, const RayTask& ray) {
-  Borrowed& b = borrowed_[owner.value];
-  if (b.state == Borrowed::State::kUnasked) {
-    const std::uint64_t room = load_.borrow_bytes - std::min(load_.borrow_bytes, borrowed_bytes_);
-    b.state = room > 0 ? Borrowed::State::kAsked : Borrowed::State::kRefused;
-    // A model takes about this many times its slice once it is subdivided.
-    constexpr std::uint64_t kMemoryPerSliceByte = 4;
-    if (room > 0) {
-      send_control(control::Borrow{job_, epoch_, owner.value, room / kMemoryPerSliceByte});
-    }
-  }
-  switch (b.state) {
-    case Borrowed::State::kHeld: own_rays_.add({&ray, 1}, kNoLink); return true;
-    case Borrowed::State::kRefused: return false;
-    default: break;
-  }
-  b.waiting.push_back(ray);
-  ++rays_in_wait_;
-  return true;
-}
-
-void Node::on_lend(const control::Lend& m, const SharedBytes& slice) {
-  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
-  if (m.rank >= borrowed_.size() || borrowed_[m.rank].state != Borrowed::State::kAsked) {
-    return drop("lend", "not asked for");
-  }
-  if (!slice.empty()) return lent_.push_back(BorrowWork{Rank{m.rank}, slice});
-  Borrowed& b = borrowed_[m.rank];
-  b.state = Borrowed::State::kRefused;
-  rays_in_wait_ -= b.waiting.size();
-  for (const RayTask& ray : std::exchange(b.waiting, {})) forward_across(bit_of(owner_of(ray.region)), {&ray, 1});
-  // No evaluator may come by to send what is left.
-  for (Link& link : links_) send_rays(link, true);
-  pass_token();
-}
-
-void Node::adopt_borrowed(WorkResult& result) {
-  if (!result.borrowed) {
-    send_control(control::NodeError{job_, result.error});
-    return;
-  }
-  const Rank from = *result.borrowed_from;
-  Borrowed& b = borrowed_[from.value];
-  b.state = Borrowed::State::kHeld;
-  borrowed_bytes_ += result.borrowed->memory_bytes();
-  ++stats_.models_borrowed;
-  domain_ = domain_->with_borrowed(cube_->column_of(from), cube_->row_of(from),
-                                   std::move(result.borrowed));
-  rays_in_wait_ -= b.waiting.size();
-  own_rays_.add(std::exchange(b.waiting, {}), kNoLink);
 }
 
 /// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty themselves.
