@@ -23,15 +23,11 @@ class RayStore {
       for (const RayTask& ray : rays) line_.push_back({ray, link});
       return;
     }
-    while (!rays.empty()) {
-      const std::size_t c = class_of(rays.front());
-      std::size_t count = 1;
-      while (count < rays.size() && class_of(rays[count]) == c) ++count;
-      if (c >= classes_.size()) classes_.resize(c + 1);
-      classes_[c].add(rays.first(count), link);
-      deepest_ = std::max(deepest_, c);
-      rays = rays.subspan(count);
-    }
+    for_each_run(rays, level_of, [&](std::size_t level, std::span<const RayTask> run) {
+      if (level >= levels_.size()) levels_.resize(level + 1);
+      levels_[level].add(run, link);
+      deepest_ = std::max(deepest_, level);
+    });
   }
 
   /// Takes up to `most` of the deepest rays; `taken_from(link, count)` tells whose they are.
@@ -47,8 +43,8 @@ class RayStore {
       line_.pop_front();
     }
     while (taken.size() < most) {
-      while (classes_[deepest_].rays.empty()) --deepest_;
-      classes_[deepest_].take(std::min(classes_[deepest_].rays.size(), most - taken.size()), taken, taken_from);
+      while (levels_[deepest_].rays.empty()) --deepest_;
+      levels_[deepest_].take(std::min(levels_[deepest_].rays.size(), most - taken.size()), taken, taken_from);
     }
     return taken;
   }
@@ -56,7 +52,7 @@ class RayStore {
   bool is_empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
   void clear() {
-    classes_.clear();
+    levels_.clear();
     line_.clear();
     size_ = 0;
     deepest_ = 0;
@@ -64,7 +60,7 @@ class RayStore {
 
  private:
   /// Rays of one kind and generation, and where each run of them came from.
-  struct Class {
+  struct Level {
     struct Run {
       std::uint32_t link;
       std::size_t count;
@@ -99,12 +95,12 @@ class RayStore {
   };
   /// A shadow ray is a leaf of its tree: deeper than the rays of its generation. Rays of one kind are traced
   /// together.
-  static std::size_t class_of(const RayTask& ray) {
+  static std::size_t level_of(const RayTask& ray) {
     constexpr std::size_t kOrder[kRayKinds] = {0, 3, 1, 2};
     return std::size_t{kRayKinds} * ray.depth + kOrder[static_cast<std::size_t>(ray.kind)];
   }
 
-  std::vector<Class> classes_;
+  std::vector<Level> levels_;
   /// All of them, where rays are taken as they came.
   std::deque<Held> line_;
   std::size_t size_ = 0;

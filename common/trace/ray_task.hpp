@@ -58,16 +58,22 @@ inline void cross_link(RayTask& ray) {
   if (ray.hops < kMaxHops) ++ray.hops;
 }
 
+/// Calls f(key, rays) for each run of rays with one key(ray).
+template <typename Key, typename F>
+void for_each_run(std::span<const RayTask> rays, Key&& key, F&& f) {
+  while (!rays.empty()) {
+    const auto first = key(rays.front());
+    std::size_t count = 1;
+    while (count < rays.size() && key(rays[count]) == first) ++count;
+    f(first, rays.first(count));
+    rays = rays.subspan(count);
+  }
+}
+
 /// Calls f(region, rays) for each run of rays that are in one region.
 template <typename F>
 void for_each_region(std::span<const RayTask> rays, F&& f) {
-  while (!rays.empty()) {
-    const RegionIndex region = rays.front().region;
-    std::size_t count = 1;
-    while (count < rays.size() && rays[count].region == region) ++count;
-    f(region, rays.first(count));
-    rays = rays.subspan(count);
-  }
+  for_each_run(rays, [](const RayTask& ray) { return ray.region; }, f);
 }
 
 }  // namespace graycube
