@@ -92,6 +92,9 @@ void add_threads(CLI::App& app, const char* help, std::uint32_t& threads) {
   });
 }
 
+/// 100 GB of them.
+constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
+
 void add_nodes(CLI::App& app, const char* help, std::uint32_t& nodes) {
   add(app, "-n,--nodes", "NODES", help,
       [&nodes](const std::string& text) { nodes = parse_nodes("-n", text); });
@@ -206,6 +209,8 @@ class Parser {
         [&up](const std::string& text) { up.state = text; });
     add(*sub, "--http", "HOST:PORT", "A web page of the farm at this loopback address",
         [&up](const std::string& text) { up.http = text; });
+    add(*sub, "--outbox-rays", "N", "Rays to be sent that a node may hold (default 262144)",
+        [&up](const std::string& text) { up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays); });
   }
 
   void declare_client() {

@@ -35,6 +35,8 @@ struct SubmitCommand {
 struct UpCommand {
   std::string listen, state, http;
   std::uint32_t nodes = 1, threads = 1;
+  /// 0: the frontal's default.
+  std::uint32_t outbox_rays = 0;
 };
 
 struct JobsCommand {

@@ -84,6 +84,9 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const std::
     arguments.insert(arguments.end(), {"--state", command.state});
   }
   if (!command.http.empty()) arguments.insert(arguments.end(), {"--http", command.http});
+  if (command.outbox_rays != 0) {
+    arguments.insert(arguments.end(), {"--outbox-rays", std::to_string(command.outbox_rays)});
+  }
   return arguments;
 }
 

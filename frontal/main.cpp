@@ -31,6 +31,7 @@ struct FrontalArguments {
   std::string listen, state, http;
   bool is_private = false;
   double silence_s = 10;
+  FlowLimits limits{};
 };
 
 /// Nodes that don't leave within this time after `shutdown` are ended.
@@ -59,7 +60,12 @@ class FrontalProcess {
         inbox_(context_, a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
         store_(a.state.empty() ? default_store(a) : make_folder_store(a.state)),
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
-        frontal_({*Hypercube::of_size(a.nodes), a.threads, 1.0, a.silence_s, kVersion}, *store_),
+        frontal_({.cube = *Hypercube::of_size(a.nodes),
+                  .threads = a.threads,
+                  .silence_s = a.silence_s,
+                  .version = kVersion,
+                  .limits = a.limits},
+                 *store_),
         preparation_(wakeup_) {
     frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
@@ -151,6 +157,8 @@ int run_main(int argc, char** argv) {
   app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
   app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")
       ->check(CLI::Range(0.1, 3600.0));
+  app.add_option("--outbox-rays", a.limits.outbox_rays, "Rays to be sent that a node may hold")
+      ->check(CLI::PositiveNumber);
   app.add_option("--http", a.http, "HOST:PORT for the farm's web page, HOST a loopback address");
   app.add_flag("--private", a.is_private, "Serve the process that started this one, and end with it");
   try {

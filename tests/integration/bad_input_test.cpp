@@ -195,6 +195,7 @@ TEST_CASE("bad usage is refused in one line") {
                               {"jobs", "--connect", "somewhere"},
                               {"up", "--listen", "tcp://0.0.0.0:5555"},
                               {"up", "--http", "0.0.0.0:8080"},
+                              {"up", "--outbox-rays", "0"},
                               {"compare", "s.json", "--plot", "none/out.svg"},
                               {"compare", "s.json", "-n", "3"},
                               {"simulate", "s.json", "-n", "4,5"},

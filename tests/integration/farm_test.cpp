@@ -121,6 +121,27 @@ TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, dow
   CHECK(sandbox.run({"jobs"}).status == 1);
 }
 
+TEST_CASE("nodes that may hold few rays render the same picture") {
+  Sandbox sandbox;
+  Farm farm(sandbox, {"--outbox-rays", "40", "--threads", "2"});
+  const std::string glass = scene_file("glass.json").string();
+  const Arguments size{"--size", "128x96", "--quiet"};
+  Arguments here{"render", glass, "--algorithm", "serial", "-o", "here.exr"};
+  Arguments there{"submit", glass, "--wait", "--algorithm", "macro", "--shadows", "forward", "-o", "there.exr", "--stats", "s.json"};
+  for (Arguments* arguments : {&here, &there}) {
+    arguments->insert(arguments->end(), size.begin(), size.end());
+    ok(sandbox, *arguments);
+  }
+  CHECK((file_bytes(sandbox / "here.exr") == file_bytes(sandbox / "there.exr")));
+  // So few that they are full much of the time; what a node adds to forty is its evaluators' packets and classes.
+  constexpr int kChildren = 4, kThreads = 2, kPacket = 64, kClasses = 2 * 9 * 4;
+  constexpr int kBound = 40 + kThreads * (2 + (kPacket + kClasses) * kChildren);
+  for (const auto& node : sandbox.json("s.json")["per_node"]) {
+    CHECK(node["outbox_peak"] > 20);
+    CHECK(node["outbox_peak"] <= kBound);
+  }
+}
+
 TEST_CASE("submit --wait is a render on the farm") {
   Sandbox sandbox;
   Farm farm(sandbox);
