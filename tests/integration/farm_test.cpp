@@ -142,6 +142,8 @@ TEST_CASE("nodes that may hold few rays render the same picture") {
     CHECK(node["outbox_peak"] > 20);
     CHECK(node["outbox_peak"] <= kBound);
   }
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
 }
 
 TEST_CASE("submit --wait is a render on the farm") {
