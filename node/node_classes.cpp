@@ -47,8 +47,8 @@ bool Node::has_class_ray_to_take() const {
 /// Rays that came on class credit: while the node is full those of one class, otherwise any. Those that only pass
 /// through go on at once. False when none is left to be traced.
 bool Node::take_class_rays(Work& work) {
+  if (!has_class_ray_to_take()) return false;
   const bool full = is_full();
-  if (class_rays_.is_empty() || (full && rays_in_wait_ > 0)) return false;
   std::vector<std::vector<std::uint16_t>> taken(links_.size());
   RayWork batch;
   while (batch.rays.size() < (full ? rays_per_class_work() : kMaxRaysPerWork)) {
