@@ -22,26 +22,21 @@ constexpr double kCrossingCost = 3;
 /// each primitive.
 constexpr std::uint64_t kPrimaryRaysPerPrimitive = 2;
 
-std::uint64_t primary_rays(const ImageSize& image) {
-  return std::uint64_t{image.width} * image.height * image.samples * image.samples;
-}
-
 }  // namespace
 
-Partition partition_of(const std::shared_ptr<const Model>& model, const Hypercube& cube, std::uint32_t scatter,
+Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
                        PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons) {
-  const ImageSize& image = model->settings.image;
-  const auto frame = CameraFrame::from(model->settings.camera, image);
+  const ImageSize& image = whole.model().settings.image;
+  const auto frame = CameraFrame::from(whole.model().settings.camera, image);
   const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
   const std::uint32_t fine = std::clamp(kMostCells / std::max(columns, rows), kLeastFineCells, kFineCells);
   const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
-  const bool too_costly = wanted == PartitionMode::kAuto &&
-                          primary_rays(image) < kPrimaryRaysPerPrimitive * model->primitives.size();
+  const bool too_costly = wanted == PartitionMode::kAuto && !whole.has_primary_rays(kPrimaryRaysPerPrimitive);
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
     return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  const CoarseLoad load = coarse_load(Domain(model), cells, horizons, kCrossingCost / fine);
+  const CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, kCrossingCost / fine);
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);

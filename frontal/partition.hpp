@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "csg/model.hpp"
+#include "frontal/whole_scene.hpp"
 #include "proto/messages.hpp"
 #include "space/light_horizons.hpp"
 #include "space/macro_grid.hpp"
@@ -23,7 +23,7 @@ struct Partition {
 /// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse
 /// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
 /// the picture. `horizons` may be null.
-Partition partition_of(const std::shared_ptr<const Model>& model, const Hypercube& cube, std::uint32_t scatter,
+Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
                        PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons);
 
 }  // namespace graycube

@@ -11,6 +11,7 @@
 #include "proto/tile_shape.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
+#include "space/light_depths.hpp"
 #include "space/macro_grid.hpp"
 #include "space/restrict.hpp"
 
@@ -22,6 +23,11 @@ using Clock = std::chrono::steady_clock;
 /// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded, which costs
 /// more than the better balance brings: measured, see ARCHITECTURE.md.
 constexpr std::uint32_t kAutoScatter = 1;
+
+/// Depths beside light horizons: there must be this many primary rays to each primitive, since two more scenes are
+/// subdivided for them, and to each texel.
+constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
+constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -68,10 +74,15 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
 
 /// Light horizons where they are wanted and there are any: on one node no ray leaves, and lights that are walled
 /// in have none.
-std::shared_ptr<const LightHorizons> horizons_for(ShadowMode shadows, const Hypercube& cube, const Model& model) {
+std::shared_ptr<const LightHorizons> horizons_for(ShadowMode shadows, const Hypercube& cube, const WholeScene& whole) {
   if (shadows != ShadowMode::kHorizon || cube.nodes() == 1) return nullptr;
-  auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
-  return horizons->is_empty() ? nullptr : horizons;
+  LightHorizons horizons = LightHorizons::of(whole.model());
+  if (horizons.is_empty()) return nullptr;
+  if (whole.has_primary_rays(kRaysPerPrimitiveForDepths)) {
+    const std::uint64_t most_texels = whole.model().settings.image.primary_rays() / kRaysPerDepthTexel;
+    horizons = with_depths(std::move(horizons), *whole.territory()->tree, most_texels);
+  }
+  return std::make_shared<const LightHorizons>(std::move(horizons));
 }
 
 /// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
@@ -81,15 +92,15 @@ PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
                                                                                : work.options.partition;
 }
 
-void cut_for_macro(const PreparationWork& work, const std::shared_ptr<const Model>& whole, PreparedScene& out) {
-  const Model& model = *whole;
+void cut_for_macro(const PreparationWork& work, const WholeScene& whole, PreparedScene& out) {
+  const Model& model = whole.model();
   const std::uint32_t k = work.options.scatter != 0 ? work.options.scatter : kAutoScatter;
   out.shadows = work.options.shadows;
   out.flow = work.options.flow;
   out.queue = work.options.queue;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas = is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
-  const auto horizons = horizons_for(out.shadows, work.cube, model);
+  const auto horizons = horizons_for(out.shadows, work.cube, whole);
   if (horizons) {
     out.horizons = encode_horizons(*horizons);
   } else if (out.shadows == ShadowMode::kHorizon) {
@@ -178,7 +189,7 @@ PreparationResult run(const PreparationWork& work) {
   if (scene.algorithm == Algorithm::kRoth) {
     cut_for_roth(model, work.cube, scene);
   } else {
-    cut_for_macro(work, std::make_shared<const Model>(std::move(model)), scene);
+    cut_for_macro(work, WholeScene(std::make_shared<const Model>(std::move(model))), scene);
   }
   scene.partition_s = seconds_since(cutting);
   return result;

@@ -1,21 +1,93 @@
 #include "proto/horizon_bytes.hpp"
 
+#include <cmath>
+
 #include "proto/bytes.hpp"
 
 namespace graycube {
+namespace {
+
+std::size_t depth_bytes(const LightDepths& depths) {
+  if (depths.split == 0) return 1;
+  return 1 + kDepthHeaderBytes + depths.blocks.size() * sizeof(std::uint32_t) +
+         (depths.lit.size() + depths.dark.size()) * sizeof(std::uint16_t);
+}
+
+void put_depths(const LightDepths& depths, ByteWriter& w) {
+  w.put(static_cast<std::uint8_t>(depths.split));
+  if (depths.split == 0) return;
+  w.put(depths.unit);
+  w.put(depths.clearance);
+  w.put(static_cast<std::uint32_t>(depths.blocks.size()));
+  for (const std::uint32_t block : depths.blocks) w.put(block);
+  for (const std::uint16_t distance : depths.lit) w.put(distance);
+  for (const std::uint16_t distance : depths.dark) w.put(distance);
+}
+
+bool is_positive(double x) { return x > 0 && std::isfinite(x); }
+
+/// False when the bytes are none.
+bool take_map(ByteReader& r, LightHorizons::Map& map) {
+  const std::byte* at = r.take(LightHorizons::kTexels * sizeof(float));
+  if (at == nullptr) return false;
+  map.reserve(LightHorizons::kTexels);
+  for (std::size_t i = 0; i < LightHorizons::kTexels; ++i) {
+    map.push_back(load_little<float>(at + i * sizeof(float)));
+    // Written so that NaN fails too.
+    if (!(map.back() >= 0)) return false;
+  }
+  return true;
+}
+
+/// False when there are not so many distances.
+bool take_distances(ByteReader& r, std::uint64_t count, std::vector<std::uint16_t>& distances) {
+  const std::byte* at = r.take(count * sizeof(std::uint16_t));
+  if (at == nullptr) return false;
+  distances.resize(count);
+  for (std::uint64_t i = 0; i < count; ++i) distances[i] = load_little<std::uint16_t>(at + i * sizeof(std::uint16_t));
+  return true;
+}
+
+/// At most `most_texels` of the darkness; false when the bytes are none such.
+bool take_depths(ByteReader& r, std::uint64_t most_texels, LightDepths& depths) {
+  depths.split = r.get<std::uint8_t>();
+  if (depths.split == 0) return true;
+  depths.unit = r.get<double>();
+  depths.clearance = r.get<double>();
+  const std::uint64_t blocks = r.get<std::uint32_t>();
+  if (depths.split > LightDepths::kMostSplit || !is_positive(depths.unit) || !is_positive(depths.clearance)) return false;
+  const std::uint64_t texels = blocks * depths.dark_split() * depths.dark_split();
+  if (blocks == 0 || blocks > LightHorizons::kTexels || texels > most_texels) return false;
+  for (std::uint64_t i = 0; i < blocks; ++i) {
+    const auto block = r.get<std::uint32_t>();
+    if (block >= LightHorizons::kTexels || (i > 0 && block <= depths.blocks.back())) return false;
+    depths.blocks.push_back(block);
+  }
+  return take_distances(r, blocks * depths.split * depths.split, depths.lit) && take_distances(r, texels, depths.dark);
+}
+
+}  // namespace
 
 std::vector<std::byte> encode_horizons(const LightHorizons& horizons) {
   const auto& maps = horizons.maps();
   GRAYCUBE_CHECK(maps.size() <= kMaxCreditLights, "%zu lights", maps.size());
-  std::size_t size = kHorizonHeaderBytes + maps.size();
-  for (const auto& map : maps) size += map.size() * sizeof(float);
+  const LightDepths none;
+  const auto depths = [&](std::size_t light) -> const LightDepths& {
+    return light < horizons.depths().size() ? horizons.depths()[light] : none;
+  };
+  std::size_t size = kHorizonHeaderBytes;
+  for (std::size_t light = 0; light < maps.size(); ++light) {
+    size += 1 + (maps[light].empty() ? 0 : maps[light].size() * sizeof(float) + depth_bytes(depths(light)));
+  }
   ByteWriter w(size);
   w.put(kHorizonMagic);
   w.put(LightHorizons::kSide);
   w.put(static_cast<std::uint32_t>(maps.size()));
-  for (const auto& map : maps) {
-    w.put(static_cast<std::uint8_t>(map.empty() ? 0 : 1));
-    for (const float distance : map) w.put(distance);
+  for (std::size_t light = 0; light < maps.size(); ++light) {
+    w.put(static_cast<std::uint8_t>(maps[light].empty() ? 0 : 1));
+    if (maps[light].empty()) continue;
+    for (const float distance : maps[light]) w.put(distance);
+    put_depths(depths(light), w);
   }
   return std::move(w).take();
 }
@@ -27,22 +99,19 @@ std::optional<LightHorizons> decode_horizons(std::span<const std::byte> bytes, s
   if (r.get<std::uint32_t>() != LightHorizons::kSide) return std::nullopt;
   if (r.get<std::uint32_t>() != lights) return std::nullopt;
   std::vector<LightHorizons::Map> maps;
+  std::vector<LightDepths> depths;
+  std::uint64_t most_texels = kMostDepthTexels;
   for (std::size_t light = 0; light < lights && r.ok(); ++light) {
     auto& map = maps.emplace_back();
+    auto& of_light = depths.emplace_back();
     const auto has_map = r.get<std::uint8_t>();
     if (has_map > 1) return std::nullopt;
     if (has_map == 0) continue;
-    const std::byte* at = r.take(LightHorizons::kTexels * sizeof(float));
-    if (at == nullptr) return std::nullopt;
-    map.reserve(LightHorizons::kTexels);
-    for (std::size_t i = 0; i < LightHorizons::kTexels; ++i) {
-      map.push_back(load_little<float>(at + i * sizeof(float)));
-      // Written so that NaN fails too.
-      if (!(map.back() >= 0)) return std::nullopt;
-    }
+    if (!take_map(r, map) || !take_depths(r, most_texels, of_light)) return std::nullopt;
+    most_texels -= of_light.dark.size();
   }
   if (!r.ok() || r.remaining() != 0) return std::nullopt;
-  return LightHorizons(std::move(maps));
+  return LightHorizons(std::move(maps), std::move(depths));
 }
 
 }  // namespace graycube

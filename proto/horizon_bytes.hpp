@@ -7,15 +7,20 @@
 #include <span>
 #include <vector>
 
+#include "space/light_depths.hpp"
 #include "space/light_horizons.hpp"
 
 namespace graycube {
 
-/// "GCH1", read as a little-endian integer.
-inline constexpr std::uint32_t kHorizonMagic = 0x31484347;
+/// "GCH2", read as a little-endian integer.
+inline constexpr std::uint32_t kHorizonMagic = 0x32484347;
 inline constexpr std::size_t kHorizonHeaderBytes = 12;
+/// Of a light's depths, before its blocks.
+inline constexpr std::size_t kDepthHeaderBytes = 20;
 inline constexpr std::size_t kMaxHorizonBytes =
-    kHorizonHeaderBytes + kMaxCreditLights * (1 + LightHorizons::kTexels * sizeof(float));
+    kHorizonHeaderBytes +
+    kMaxCreditLights * (2 + LightHorizons::kTexels * (sizeof(float) + sizeof(std::uint32_t)) + kDepthHeaderBytes) +
+    2 * kMostDepthTexels * sizeof(std::uint16_t);
 
 /// At most kMaxCreditLights lights.
 std::vector<std::byte> encode_horizons(const LightHorizons& horizons);

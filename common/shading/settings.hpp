@@ -15,6 +15,7 @@ struct ImageSize {
   /// S: every pixel takes S × S primary rays.
   std::uint32_t samples = 1;
 
+  std::uint64_t primary_rays() const { return std::uint64_t{width} * height * samples * samples; }
   friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 

@@ -205,19 +205,4 @@ bool LightHorizons::is_empty() const {
   return std::all_of(maps_.begin(), maps_.end(), [](const Map& m) { return m.empty(); });
 }
 
-std::size_t LightHorizons::texel_of(const Vec3& direction) {
-  int axis = 0;
-  for (int a = 1; a < 3; ++a) {
-    if (std::fabs(direction[a]) > std::fabs(direction[axis])) axis = a;
-  }
-  const double scale = 0.5 * kSide / std::fabs(direction[axis]);
-  const auto index = [&](int a) {
-    const double at = direction[a] * scale + 0.5 * kSide;
-    // Written so that NaN, which no unit vector gives, stays within the map.
-    return at > 0 ? std::min(static_cast<std::size_t>(at), std::size_t{kSide - 1}) : std::size_t{0};
-  };
-  const auto face = static_cast<std::size_t>(2 * axis + (direction[axis] < 0 ? 1 : 0));
-  return (face * kSide + index((axis + 2) % 3)) * kSide + index((axis + 1) % 3);
-}
-
 }  // namespace graycube

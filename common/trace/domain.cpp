@@ -36,9 +36,9 @@ std::size_t Territory::memory_bytes() const {
          (tree ? tree->memory_bytes() : bsp->memory_bytes());
 }
 
-Domain::Domain(std::shared_ptr<const Model> model, Subdivision subdivision)
-    : frame_(CameraFrame::from(model->settings.camera, model->settings.image)),
-      territory_(Territory::of(std::move(model), subdivision)) {}
+Domain::Domain(std::shared_ptr<const Territory> territory)
+    : frame_(CameraFrame::from(territory->model->settings.camera, territory->model->settings.image)),
+      territory_(std::move(territory)) {}
 
 Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),

@@ -65,7 +65,9 @@ class Domain {
   explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree)
       : Domain(std::make_shared<const Model>(std::move(model)), subdivision) {}
   explicit Domain(std::shared_ptr<const Model> model,
-                  Subdivision subdivision = Subdivision::kSurfaceTree);
+                  Subdivision subdivision = Subdivision::kSurfaceTree)
+      : Domain(Territory::of(std::move(model), subdivision)) {}
+  explicit Domain(std::shared_ptr<const Territory> territory);
   /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
   /// reaches into several is held once.
   Domain(MacroGrid grid, RegionShare share, Model model,
@@ -103,12 +105,9 @@ class Domain {
   void confine_to(const RegionShare& share) { share_ = share; }
   bool borrows() const { return !borrowed_.empty(); }
   bool has_horizons() const { return horizons_ != nullptr; }
-  /// The parameter from which on a shadow ray surely meets nothing more on its way to its light, which it reaches
-  /// at t_max; has_horizons() only. Infinitely negative where there is nothing at all that way.
-  double horizon_end(std::size_t light, const Ray& ray, double t_max) const {
-    // Crossings that count end a little before the light: the ray is at most this far from it.
-    const double distance = t_max + 4e-9 * std::fmax(1.0, max_abs(ray.origin));
-    return distance - horizons_->distance(light, -ray.direction);
+  /// What a light's horizons tell of the way that a shadow ray takes to it; has_horizons() only.
+  LightHorizons::Reach reach(std::size_t light, const Ray& ray) const {
+    return horizons_->toward(light, -ray.direction);
   }
 
   /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.

@@ -147,23 +147,31 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
   sent.task.light = static_cast<std::uint16_t>(light & 0x7FFF);
-  if (domain_.has_horizons() && !goes_on_to_horizon(sent.task)) {
-    ++step.rays.skipped_by_horizon;
-    contribute(sent, weight, step);
-    shadow_[light].pop_back();
-    return;
+  if (domain_.has_horizons()) {
+    const Horizon at_horizon = meet_horizon(sent.task);
+    if (at_horizon != Horizon::kGoesOn) {
+      ++step.rays.skipped_by_horizon;
+      if (at_horizon == Horizon::kArrives) contribute(sent, weight, step);
+      shadow_[light].pop_back();
+      return;
+    }
   }
   ++at.lights;
 }
 
-/// Shortens a shadow ray to where it reaches its light's horizon; false when it begins beyond that, where nothing can
-/// stand in its way.
-bool Evaluator::goes_on_to_horizon(RayTask& task) const {
-  const double end = domain_.horizon_end(task.light, task.ray, task.t_max);
-  if (!(end < task.t_max)) return true;
+/// Shortens a shadow ray to where it reaches its light's horizon, unless it begins beyond that, where nothing can stand
+/// in its way, or where no light comes.
+Evaluator::Horizon Evaluator::meet_horizon(RayTask& task) const {
+  const LightHorizons::Reach reach = domain_.reach(task.light, task.ray);
+  // Crossings that count end a little before the light: the ray is between these distances from it.
+  const double epsilon = task.t;
+  const double farthest = task.t_max + 4 * epsilon;
+  if (task.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance) return Horizon::kEndsInShadow;
+  const double end = farthest - reach.lit;
+  if (!(end < task.t_max)) return Horizon::kGoesOn;
   task.t_max = end;
   task.ends_at_horizon = true;
-  return end > task.t;
+  return end > task.t ? Horizon::kGoesOn : Horizon::kArrives;
 }
 
 /// Among what each surface sends out and its own contribution.

@@ -117,7 +117,9 @@ class Evaluator {
   void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
-  bool goes_on_to_horizon(RayTask& task) const;
+  /// What becomes of a new shadow ray.
+  enum class Horizon : std::uint8_t { kGoesOn, kArrives, kEndsInShadow };
+  Horizon meet_horizon(RayTask& task) const;
   void share_credit();
   void open_pixel(std::uint32_t pixel);
   void contribute(const OpenRay& ray, const Rgb& light, Step& step);

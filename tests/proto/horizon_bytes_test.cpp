@@ -16,8 +16,18 @@ LightHorizons some_horizons() {
   LightHorizons::Map map(LightHorizons::kTexels);
   for (float& d : map) d = static_cast<float>(random.below(1000));
   map.front() = std::numeric_limits<float>::infinity();
-  return LightHorizons({map, {}, map});
+  LightDepths depths;
+  depths.split = 3;
+  depths.unit = 0.25;
+  depths.clearance = 1e-3;
+  depths.blocks = {0, 77, LightHorizons::kTexels - 1};
+  for (std::size_t i = 0; i < depths.blocks.size() * 3 * 3; ++i) depths.lit.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
+  for (std::size_t i = 0; i < depths.blocks.size() * 6 * 6; ++i) depths.dark.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
+  return LightHorizons({map, {}, map}, {{}, {}, depths});
 }
+
+/// Where the third light's depths begin.
+constexpr std::size_t kDepthsAt = kHorizonHeaderBytes + 3 + 2 * LightHorizons::kTexels * sizeof(float) + 1;
 
 }  // namespace
 
@@ -26,6 +36,7 @@ TEST_CASE("horizons arrive as they were sent") {
   const auto received = decode_horizons(encode_horizons(sent), 3);
   REQUIRE(received);
   CHECK(received->maps() == sent.maps());
+  CHECK(received->depths() == sent.depths());
   CHECK(decode_horizons(encode_horizons(LightHorizons{}), 0));
 }
 
@@ -42,6 +53,15 @@ TEST_CASE("bytes that are no horizons are refused") {
   for (const std::size_t at : {0, 4, 8, 12}) {  // magic, side, lights, whether there is a map
     auto broken = bytes;
     broken[at] ^= std::byte{0x42};
+    CHECK_FALSE(decode_horizons(broken, 3));
+  }
+  // Split, unit, clearance, the number of blocks, their order.
+  for (const auto& [at, value] : {std::pair{0, 0}, {0, 33}, {0, 4}, {8, 0x80}, {16, 0x80}, {17, 0},
+                                  {17, 2}, {17, 4}, {20, 0x60}, {25, 0}, {32, 1}}) {
+    INFO("byte " << at << " becomes " << value);
+    auto broken = bytes;
+    REQUIRE(broken[kDepthsAt] == std::byte{3});
+    broken[kDepthsAt + static_cast<std::size_t>(at)] = std::byte(value);
     CHECK_FALSE(decode_horizons(broken, 3));
   }
   for (const std::uint32_t bits : {0x7FC00000u, 0xBF800000u}) {  // no number, a negative one

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "csg/random_model.hpp"
+#include "space/light_depths.hpp"
 #include "space/restrict.hpp"
 #include "trace/render_serial.hpp"
 #include "trace/tile_plan.hpp"
@@ -184,13 +185,16 @@ TEST_CASE("macro-regions give bit for bit the picture of the whole") {
   CHECK(secondary > 20000);
 }
 
-TEST_CASE("scattered macro-regions give the picture of the whole, with light horizons and without") {
-  std::uint64_t skipped = 0, without = 0, with = 0;
+TEST_CASE("scattered macro-regions give the picture of the whole, with light horizons, depths and without") {
+  constexpr std::uint64_t kDepthTexels = 40'000;
+  std::uint64_t skipped = 0, skipped_with_depth = 0, without = 0, with = 0, with_depth = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     const Model model = compile_scene(RandomModel(seed).scene());
     const Harvest whole = trace_whole(model);
     const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     const auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
+    const auto depths = std::make_shared<const LightHorizons>(
+        with_depths(*horizons, SurfaceTree::build(model), kDepthTexels));
     Dice dice(seed);
     const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
     const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
@@ -202,12 +206,18 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
     const Harvest horizon =
         Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, horizons).trace(dice);
     check_equal(whole, horizon, model.settings.image);
+    const Harvest deep = Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, depths).trace(dice);
+    check_equal(whole, deep, model.settings.image);
     without += forward.handed_over;
     with += horizon.handed_over;
+    with_depth += deep.handed_over;
     skipped += horizon.rays.skipped_by_horizon;
+    skipped_with_depth += deep.rays.skipped_by_horizon;
   }
   CHECK(skipped > 1000);
+  CHECK(skipped_with_depth > skipped + 1000);
   CHECK(with < without);
+  CHECK(with_depth < with);
 }
 
 TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {

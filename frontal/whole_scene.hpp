@@ -1,0 +1,30 @@
+// The scene that is to be cut, and its subdivision, which is made when something first asks for it.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "trace/domain.hpp"
+
+namespace graycube {
+
+class WholeScene {
+ public:
+  explicit WholeScene(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+  const Model& model() const { return *model_; }
+  const std::shared_ptr<const Territory>& territory() const {
+    if (!territory_) territory_ = Territory::of(model_);
+    return territory_;
+  }
+  /// Whether there are so many primary rays to each primitive: subdividing the scene then is a small part of the work.
+  bool has_primary_rays(std::uint64_t per_primitive) const {
+    return model_->settings.image.primary_rays() >= per_primitive * model_->primitives.size();
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  mutable std::shared_ptr<const Territory> territory_;
+};
+
+}  // namespace graycube
