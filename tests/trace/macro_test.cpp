@@ -215,7 +215,7 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
     skipped_with_depth += deep.rays.skipped_by_horizon;
   }
   CHECK(skipped > 1000);
-  CHECK(skipped_with_depth > skipped + 1000);
+  CHECK(skipped_with_depth > skipped + 500);
   CHECK(with < without);
   CHECK(with_depth < with);
 }
