@@ -189,7 +189,14 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
   constexpr std::uint64_t kDepthTexels = 40'000;
   std::uint64_t skipped = 0, skipped_with_depth = 0, without = 0, with = 0, with_depth = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    const Model model = compile_scene(RandomModel(seed).scene());
+    // Half of the scenes have lights outside of everything, which see most.
+    RandomOptions options;
+    options.unbounded = seed % 2 == 0;
+    Scene scene = RandomModel(seed, options).scene();
+    if (!options.unbounded) {
+      for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
+    }
+    const Model model = compile_scene(scene);
     const Harvest whole = trace_whole(model);
     const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     const auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
