@@ -54,7 +54,7 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
     if (left.count() <= 0) return std::nullopt;
-    void* const sockets[] = {connection_.raw()};
+    Readable* const sockets[] = {&connection_};
     const int descriptors[] = {wakeup_descriptor()};
     const std::size_t known = descriptors[0] >= 0 ? 1 : 0;
     wait_readable(sockets, std::span(descriptors, known), std::min(left, kCheckInterval));

@@ -84,7 +84,7 @@ class FrontalProcess {
         if (down_since_s == 0) down_since_s = now_s;
         if (processes_.empty() || now_s - down_since_s > kGrace_s) return frontal_.fatal_error();
       }
-      void* const sockets[] = {inbox_.raw()};
+      Readable* const sockets[] = {&inbox_};
       const int descriptors[] = {wakeup_.descriptor(), signals_};
       wait_readable(sockets, descriptors, kTick);
       wakeup_.clear();

@@ -47,30 +47,30 @@ void EvaluatorPool::after_change() {
 void EvaluatorPool::work(unsigned index) {
   Workbench bench;
   std::unique_lock lock(mutex_);
+  double counted_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
   while (!stopping_) {
     std::optional<Work> piece;
     if (index < node_.threads()) piece = node_.take_work();
+    if (!piece) ++waiting_;
+    // Also for the result of the piece before.
+    after_change();
     if (!piece) {
       if (!node_.has_job()) bench.clear();
-      ++waiting_;
-      after_change();
       changed_.wait(lock);
       --waiting_;
-      after_change();
       continue;
     }
-    after_change();
     const bool is_build = std::holds_alternative<BuildWork>(piece->what);
     const bool is_primary = std::holds_alternative<TileWork>(piece->what);
     lock.unlock();
-    const double started = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     WorkResult result = bench.run(std::move(*piece));
-    const double busy = seconds_of(CLOCK_THREAD_CPUTIME_ID) - started;
+    // What lies between pieces counts with the later one: looking at the clock takes a system call.
+    const double now_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    const double busy_s = now_s - std::exchange(counted_s, now_s);
     lock.lock();
-    if (!is_build) busy_s_ += busy;
+    if (!is_build) busy_s_ += busy_s;
     if (is_primary) last_primary_ = WaitClock::Time::clock::now();
     node_.give_result(std::move(result));
-    after_change();
   }
 }
 

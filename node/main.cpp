@@ -35,7 +35,7 @@ class Mailroom {
 
   void run() {
     for (;;) {
-      void* const sockets[] = {inbox_.raw(), frontal_.raw()};
+      Readable* const sockets[] = {&inbox_, &frontal_};
       const int descriptors[] = {wakeup_.descriptor()};
       wait_readable(sockets, descriptors, std::chrono::seconds(1));
       wakeup_.clear();

@@ -52,7 +52,7 @@ void echo(const std::string& endpoint) {
   Inbox inbox(context, endpoint);
   Sweep sweep;
   for (;;) {
-    void* const sockets[] = {inbox.raw()};
+    Readable* const sockets[] = {&inbox};
     wait_readable(sockets, {}, std::chrono::seconds(1));
     while (auto m = inbox.receive()) {
       if (m->message.frame.size() == 1) return;

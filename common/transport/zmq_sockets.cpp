@@ -101,11 +101,13 @@ Wakeup::Wakeup() : descriptor_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
 Wakeup::~Wakeup() { ::close(descriptor_); }
 
 void Wakeup::signal() {
+  if (is_signalled_.exchange(true)) return;
   const std::uint64_t one = 1;
   // It can only fail when the counter is full, and then the descriptor is readable already.
   [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
 }
 void Wakeup::clear() {
+  is_signalled_ = false;
   std::uint64_t count = 0;
   [[maybe_unused]] const auto taken = ::read(descriptor_, &count, sizeof count);
 }
@@ -119,6 +121,7 @@ Connection::Connection(ZmqContext& context, const std::string& endpoint)
     : impl_(std::make_unique<Impl>(context.impl().context)) {
   try {
     configure(impl_->socket);
+    descriptor_ = impl_->socket.get(zmq::sockopt::fd);
     impl_->socket.connect(endpoint);
   } catch (const zmq::error_t& e) {
     throw TransportError(endpoint + ": " + e.what());
@@ -127,11 +130,16 @@ Connection::Connection(ZmqContext& context, const std::string& endpoint)
 Connection::~Connection() = default;
 Connection::Connection(Connection&&) noexcept = default;
 
-void Connection::send(Message message) { send_frames(impl_->socket, std::move(message)); }
+void Connection::send(Message message) {
+  is_drained_ = false;
+  send_frames(impl_->socket, std::move(message));
+}
 
 std::optional<Message> Connection::receive() {
+  if (is_drained_) return std::nullopt;
   std::vector<zmq::message_t> frames;
   receive_frames(impl_->socket, frames);
+  is_drained_ = frames.empty();
   const auto view = message_of(frames, 0);
   if (!view) return std::nullopt;
   Message message{copy_of(view->frame), {}};
@@ -146,12 +154,12 @@ std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         until - std::chrono::steady_clock::now());
     if (left.count() <= 0) return std::nullopt;
-    void* const socket = raw();
-    wait_readable({&socket, 1}, {}, left);
+    Readable* const self = this;
+    wait_readable({&self, 1}, {}, left);
   }
 }
 
-void* Connection::raw() { return impl_->socket.handle(); }
+void* Connection::socket() { return impl_->socket.handle(); }
 
 struct Inbox::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::router) {}
@@ -165,6 +173,7 @@ Inbox::Inbox(ZmqContext& context, const std::string& endpoint)
     : impl_(std::make_unique<Impl>(context.impl().context)) {
   try {
     configure(impl_->socket);
+    descriptor_ = impl_->socket.get(zmq::sockopt::fd);
     impl_->socket.bind(endpoint);
     impl_->endpoint = impl_->socket.get(zmq::sockopt::last_endpoint);
   } catch (const zmq::error_t& e) {
@@ -177,32 +186,44 @@ Inbox::~Inbox() {
 }
 
 std::optional<Inbox::Received> Inbox::receive() {
-  for (;;) {
+  while (!is_drained_) {
     std::vector<zmq::message_t>& frames = impl_->frames;
     receive_frames(impl_->socket, frames);
-    if (frames.empty()) return std::nullopt;
+    is_drained_ = frames.empty();
     // Anything but one or two frames is not of this protocol.
     if (const auto message = message_of(frames, 1)) return Received{frames.front().to_string(), *message};
   }
+  return std::nullopt;
 }
 
 void Inbox::send(const std::string& peer, Message message) {
+  is_drained_ = false;
   impl_->socket.send(zmq::buffer(peer), zmq::send_flags::sndmore);
   send_frames(impl_->socket, std::move(message));
 }
 
 const std::string& Inbox::endpoint() const { return impl_->endpoint; }
-void* Inbox::raw() { return impl_->socket.handle(); }
+void* Inbox::socket() { return impl_->socket.handle(); }
 
-void wait_readable(std::span<void* const> sockets, std::span<const int> descriptors,
+// zmq::poll asks each socket before it waits and after. What this waits for is described under ZMQ_FD: the descriptor
+// tells once that something happened to a socket, and is silent about what came while the socket was used.
+void wait_readable(std::span<Readable* const> sockets, std::span<const int> descriptors,
                    std::chrono::milliseconds timeout) {
-  std::vector<zmq::pollitem_t> items;
-  for (void* s : sockets) items.push_back({s, 0, ZMQ_POLLIN, 0});
-  for (const int d : descriptors) items.push_back({nullptr, d, ZMQ_POLLIN, 0});
-  try {
-    zmq::poll(items, timeout);
-  } catch (const zmq::error_t& e) {
-    GRAYCUBE_CHECK(e.num() == EINTR, "zmq::poll: %s", e.what());
+  std::vector<pollfd> items;
+  for (Readable* readable : sockets) {
+    if (!readable->is_drained_) {
+      const zmq::socket_ref socket(zmq::from_handle, readable->socket());
+      if ((socket.get(zmq::sockopt::events) & ZMQ_POLLIN) != 0) return;
+      readable->is_drained_ = true;
+    }
+    items.push_back({readable->descriptor_, POLLIN, 0});
+  }
+  for (const int d : descriptors) items.push_back({d, POLLIN, 0});
+  const int ready = ::poll(items.data(), items.size(), static_cast<int>(timeout.count()));
+  GRAYCUBE_CHECK(ready >= 0 || errno == EINTR, "poll: %s", std::strerror(errno));
+  if (ready <= 0) return;
+  for (std::size_t i = 0; i < sockets.size(); ++i) {
+    if (items[i].revents != 0) sockets[i]->is_drained_ = false;
   }
 }
 

@@ -2,6 +2,7 @@
 // (a ROUTER silently drops past its mark).
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -36,7 +37,8 @@ class ZmqContext {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A file descriptor that another thread makes readable.
+/// A file descriptor that another thread makes readable. Who waits for it calls clear() before looking at what the others
+/// may have left.
 class Wakeup {
  public:
   Wakeup();
@@ -50,14 +52,38 @@ class Wakeup {
 
  private:
   int descriptor_;
+  /// Signalled, and not cleared since: saves the system call.
+  std::atomic<bool> is_signalled_{false};
+};
+
+/// A socket that wait_readable can wait for. What ZeroMQ tells of a socket takes system calls to ask, also that there is
+/// nothing; so it is asked only when there may be something.
+class Readable {
+ public:
+  virtual ~Readable() = default;
+
+ protected:
+  Readable() = default;
+  Readable(Readable&&) = default;
+
+ private:
+  friend class Connection;
+  friend class Inbox;
+  friend void wait_readable(std::span<Readable* const>, std::span<const int>, std::chrono::milliseconds);
+  virtual void* socket() = 0;
+
+  /// Becomes readable, and stays so until the socket is used, when something may have come.
+  int descriptor_ = -1;
+  /// Nothing was there, and the socket hasn't been used since.
+  bool is_drained_ = false;
 };
 
 /// The connecting end (DEALER).
-class Connection {
+class Connection : public Readable {
  public:
   /// Connecting itself never fails: messages wait until the peer is there.
   Connection(ZmqContext& context, const std::string& endpoint);
-  ~Connection();
+  ~Connection() override;
   Connection(Connection&&) noexcept;
   /// Never blocks; messages queue while the peer isn't there.
   void send(Message message);
@@ -65,19 +91,19 @@ class Connection {
   std::optional<Message> receive();
   /// As receive, waiting for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
-  void* raw();
 
  private:
+  void* socket() override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 /// The listening end (ROUTER).
-class Inbox {
+class Inbox : public Readable {
  public:
   /// Throws TransportError when the endpoint can't be bound, also when somebody answers there already.
   Inbox(ZmqContext& context, const std::string& endpoint);
-  ~Inbox();
+  ~Inbox() override;
   struct Received {
     std::string peer;
     /// Until the next call.
@@ -88,16 +114,16 @@ class Inbox {
   void send(const std::string& peer, Message message);
   /// The endpoint bound, with the port that was picked.
   const std::string& endpoint() const;
-  void* raw();
 
  private:
+  void* socket() override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Waits until one of the sockets (raw()) or descriptors is readable, or the time is up. An interrupting
-/// signal ends the wait early.
-void wait_readable(std::span<void* const> sockets, std::span<const int> descriptors,
+/// Waits until one of the sockets or descriptors may be readable, or the time is up. An interrupting signal ends the
+/// wait early.
+void wait_readable(std::span<Readable* const> sockets, std::span<const int> descriptors,
                    std::chrono::milliseconds timeout);
 
 }  // namespace graycube
