@@ -18,14 +18,19 @@ struct CubePlace {
 
 constexpr std::size_t cube_texels(std::uint32_t side) { return std::size_t{6} * side * side; }
 
-inline CubePlace cube_place(const Vec3& direction) {
-  int axis = 0;
-  for (int a = 1; a < 3; ++a) {
-    if (std::fabs(direction[a]) > std::fabs(direction[axis])) axis = a;
-  }
-  const double scale = 0.5 / std::fabs(direction[axis]);
-  return {static_cast<std::size_t>(2 * axis + (direction[axis] < 0 ? 1 : 0)),
-          direction[(axis + 1) % 3] * scale + 0.5, direction[(axis + 2) % 3] * scale + 0.5};
+/// The first of the largest components names the face. Written without branches: shadow rays of one wave go to several
+/// faces, and no processor guesses which.
+inline CubePlace cube_place(const Vec3& d) {
+  const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
+  const bool is_x = x >= y && x >= z, is_y = !is_x && y >= z;
+  const auto select = [&](double of_x, double of_y, double of_z) {
+    const double others = is_y ? of_y : of_z;
+    return is_x ? of_x : others;
+  };
+  const double main = select(d.x, d.y, d.z);
+  const double scale = 0.5 / std::fabs(main);
+  const std::size_t axis = is_x ? 0 : 2 - std::size_t{is_y};
+  return {2 * axis + (main < 0 ? 1 : 0), select(d.y, d.z, d.x) * scale + 0.5, select(d.z, d.x, d.y) * scale + 0.5};
 }
 
 /// The direction, not of unit length, of a place.

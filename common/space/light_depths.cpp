@@ -164,8 +164,10 @@ bool is_inside(const Model& model, const Vec3& point) {
 /// What a light sees of the dilated and the eroded scene.
 class DepthMaker {
  public:
-  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light, double far, LightDepths& depths)
-      : larger_(larger, light), smaller_(smaller, light), far_(far), depths_(depths) {}
+  /// `map` is the light's horizon.
+  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light, const LightHorizons::Map& map,
+             double far, LightDepths& depths)
+      : larger_(larger, light), smaller_(smaller, light), map_(map), far_(far), depths_(depths) {}
 
   void run() {
     const std::uint32_t split = depths_.split, dark_split = depths_.dark_split();
@@ -207,10 +209,11 @@ class DepthMaker {
   void look_about(std::size_t block, std::uint32_t x0, std::uint32_t y0) {
     aim(block, depths_.split, x0, y0);
     const auto begins = larger_.look(directions_, far_);
+    const double at_least = map_[depths_.blocks[block]];
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      // Where nothing begins the last unit stays open.
-      const double units = begins[i] < far_ ? begins[i] * (1 - kRelativeError) / depths_.unit : LightDepths::kNever;
-      depths_.lit[places_[i]] = static_cast<std::uint16_t>(units);
+      const double lit = std::max(begins[i] * (1 - kRelativeError), at_least);
+      depths_.lit[places_[i]] =
+          begins[i] < far_ && lit < far_ ? static_cast<std::uint16_t>(lit / depths_.unit) : LightDepths::kNever;
     }
   }
 
@@ -237,6 +240,7 @@ class DepthMaker {
   }
 
   View larger_, smaller_;
+  const LightHorizons::Map& map_;
   double far_;
   LightDepths& depths_;
   std::vector<Vec3> directions_;
@@ -272,7 +276,7 @@ LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole, std:
       continue;
     }
     depths[l].clearance = clearance;
-    DepthMaker(larger_tree, smaller_tree, lights[l].position, demand[l].far, depths[l]).run();
+    DepthMaker(larger_tree, smaller_tree, lights[l].position, horizons.maps()[l], demand[l].far, depths[l]).run();
   }
   return {horizons.maps(), std::move(depths)};
 }

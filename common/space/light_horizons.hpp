@@ -33,8 +33,8 @@ struct LightDepths {
   double clearance = 0;
   /// Texels of the horizon map that have a block, increasing.
   std::vector<std::uint32_t> blocks;
-  /// In units, block after block, row after row: surely nothing is nearer than `lit`, and what is farther than `dark`
-  /// lies in shadow.
+  /// In units, block after block, row after row: surely nothing is nearer than `lit`, whatever the horizon map says of
+  /// the block, and what is farther than `dark` lies in shadow.
   std::vector<std::uint16_t> lit, dark;
 
   std::uint32_t dark_split() const { return split * kGroup; }
@@ -103,16 +103,15 @@ inline LightHorizons::Reach LightHorizons::toward(std::size_t light, const Vec3&
   const double i = place.u * kSide, j = place.v * kSide;
   const std::uint32_t column = cell_at(i, kSide), row = cell_at(j, kSide);
   const std::size_t texel = (place.face * kSide + row) * kSide + column;
-  Reach reach{static_cast<double>(maps_[light][texel])};
-  if (light >= block_of_.size() || block_of_[light].empty()) return reach;
-  const std::uint16_t block = block_of_[light][texel];
-  if (block == kNoBlock) return reach;
+  const bool has_blocks = light < block_of_.size() && !block_of_[light].empty();
+  const std::uint16_t block = has_blocks ? block_of_[light][texel] : kNoBlock;
+  if (block == kNoBlock) return {static_cast<double>(maps_[light][texel])};
   const LightDepths& depths = depths_[light];
   const auto at = [&](std::uint32_t split) {
     return (std::size_t{block} * split + cell_at((j - row) * split, split)) * split + cell_at((i - column) * split, split);
   };
-  reach.lit = std::fmax(reach.lit, depths.lit[at(depths.split)] * depths.unit);
   const std::uint16_t dark = depths.dark[at(depths.dark_split())];
+  Reach reach{depths.lit[at(depths.split)] * depths.unit};
   if (dark != LightDepths::kNever) reach.dark = dark * depths.unit;
   reach.clearance = depths.clearance;
   return reach;
