@@ -114,7 +114,11 @@ void Frontal::on_contributions(std::span<const std::byte> batch) {
     send(nodes_[rank].peer,
          control::Relieved{running_->render->id(), running_->render->epoch(), relief[rank]});
   }
+  const bool were_whole = running_->info.tiles_whole == running_->info.tiles;
   running_->info.tiles_whole = static_cast<std::uint32_t>(running_->render->tiles_whole());
+  if (!were_whole && running_->info.tiles_whole == running_->info.tiles && !running_->render->is_roth()) {
+    send(nodes_.front().peer, control::AllWhole{running_->render->id(), running_->render->epoch()});
+  }
   finish_when_complete();
 }
 

@@ -82,6 +82,7 @@ class RenderJob {
     rounds_ = round;
     hops_ = hops;
   }
+  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
   std::uint32_t rounds() const { return rounds_; }
   std::uint32_t hops() const { return hops_; }
   std::size_t tiles() const { return ledger_.tile_count(); }
@@ -98,7 +99,6 @@ class RenderJob {
   std::uint32_t threads() const { return threads_; }
 
  private:
-  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
   /// Whether nodes may ask for each other's slices.
   bool lends() const {
     return !is_roth() && scene_.shadows == ShadowMode::kLocal && !scene_.has_replicas;

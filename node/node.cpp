@@ -55,6 +55,7 @@ void Node::on_control(const Message& message) {
   if (const auto* finish = std::get_if<control::Finish>(&m)) return on_finish(*finish);
   if (const auto* copy = std::get_if<control::Copy>(&m)) return on_copy(*copy, message.payload);
   if (const auto* relieved = std::get_if<control::Relieved>(&m)) return on_relieved(*relieved);
+  if (const auto* whole = std::get_if<control::AllWhole>(&m)) return on_all_whole(*whole);
   if (const auto* lend = std::get_if<control::Lend>(&m)) return on_lend(*lend, message.payload);
   if (const auto* ping = std::get_if<control::Ping>(&m)) return on_ping(*ping);
   if (std::holds_alternative<control::Shutdown>(m)) {
@@ -175,11 +176,12 @@ void Node::forget_rays() {
   assignment_sequence_ = 0;
   for (Link& link : links_) link.reset(load_.link_credit_bytes);
   unassigned_tiles_ = own_tiles_;
+  all_are_whole_ = false;
 }
 
 void Node::on_ping(const control::Ping& m) {
   send_control(control::Pong{m.sequence});
-  pass_token(true);
+  pass_token(m.sequence);
   if (state_ != State::kRendering || !is_blocking()) return;
   control::WaitReport report;
   report.job = job_;
@@ -239,6 +241,12 @@ void Node::on_relieved(const control::Relieved& m) {
   if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
   unassigned_tiles_ -= std::min<std::uint64_t>(unassigned_tiles_, m.tiles);
   ring_.work_was_taken();
+  pass_token();
+}
+
+void Node::on_all_whole(const control::AllWhole& m) {
+  if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
+  all_are_whole_ = true;
   pass_token();
 }
 

@@ -104,6 +104,7 @@ class Node {
   void on_finish(const control::Finish& m);
   void on_lend(const control::Lend& m, const SharedBytes& slice);
   void on_relieved(const control::Relieved& m);
+  void on_all_whole(const control::AllWhole& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(std::span<const std::byte> batch);
   void on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch, const BatchHeader& header);
@@ -140,7 +141,7 @@ class Node {
   /// How much a node at work gives back at once.
   std::uint64_t half_credit() const { return load_.link_credit_bytes / 2; }
   void flush_on_idle();
-  void pass_token(bool is_pinged = false);
+  void pass_token(std::optional<std::uint64_t> ping = std::nullopt);
   bool is_passive() const;
 
   // node_borrowing.cpp
@@ -199,6 +200,8 @@ class Node {
   std::uint64_t own_tiles_ = 0;
   /// Own tiles that the frontal has not handed out yet; `macro` only.
   std::uint64_t unassigned_tiles_ = 0;
+  /// Rank 0's: no ray is left anywhere.
+  bool all_are_whole_ = false;
   RayStore rays_;
   /// Rays in this node's own regions that came across no link, or came long ago: work was set aside.
   RayStore own_rays_;

@@ -14,7 +14,11 @@ namespace {
 constexpr std::size_t kEagerPart = 4, kQuietPart = 8;
 /// A batch may be slow while the token goes round quickly, so after so many white rounds with the same
 /// non-zero sum each further one waits for the frontal's next ping.
-constexpr std::uint32_t kFreeRounds = 1;
+constexpr std::uint32_t kFreeStalledRounds = 1;
+/// Of all rounds so many are free. Once all tiles are whole two more are enough, and until then they mostly find rays
+/// under way: the others wait for that, or (a batch may be lost) for one of so many pings.
+constexpr std::uint32_t kFreeRounds = 2;
+constexpr std::uint64_t kPingsToARound = 8;
 
 }  // namespace
 
@@ -119,11 +123,16 @@ bool Node::is_passive() const {
   return state_ == State::kRendering && working_ == 0 && lent_.empty() && !has_unfinished();
 }
 
-void Node::pass_token(bool is_pinged) {
+/// `ping`: that of the frontal which is being answered.
+void Node::pass_token(std::optional<std::uint64_t> ping) {
   if (load_.algorithm != Algorithm::kMacro || state_ != State::kRendering) return;
-  if (ring_.stalled_rounds() > kFreeRounds && !is_pinged) return;
   const bool had_verdict = ring_.verdict().has_value();
-  while (const auto token = ring_.try_pass(is_passive())) {
+  const auto may_launch = [&] {
+    if (ring_.stalled_rounds() > kFreeStalledRounds) return ping.has_value();
+    // In 1987 the token went round all the time.
+    return is_blocking() || all_are_whole_ || ring_.rounds_launched() < kFreeRounds || (ping && *ping % kPingsToARound == 0);
+  };
+  while (const auto token = ring_.try_pass(is_passive(), may_launch())) {
     const Rank next = cube_->ring_next(id_.rank);
     if (next == id_.rank) {
       GRAYCUBE_CHECK(ring_.token_arrived(*token), "a ring of one lost its token");

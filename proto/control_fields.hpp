@@ -35,6 +35,10 @@ namespace control {
 template <class M>
 concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
 
+/// Messages that name nothing but an epoch.
+template <class M>
+concept IsAboutEpoch = Is<M, Prepare> || Is<M, AllWhole>;
+
 inline constexpr FieldLimits kText{.length = kMaxTextBytes};
 inline constexpr FieldLimits kSeconds{.min = 0};
 inline constexpr FieldLimits kRankRange{.max = kMaxNodes - 1};
@@ -253,7 +257,7 @@ void each_field(auto& visit, Is<Relieved> auto& m) {
   visit("tiles", m.tiles, at_least_one());
 }
 
-void each_field(auto& visit, Is<Prepare> auto& m) {
+void each_field(auto& visit, IsAboutEpoch auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);
 }

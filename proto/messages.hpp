@@ -339,6 +339,13 @@ struct Relieved {
   friend bool operator==(const Relieved&, const Relieved&) = default;
 };
 
+/// To rank 0: all tiles are whole, so that no ray is left anywhere.
+struct AllWhole {
+  static constexpr std::string_view kType = "all_whole";
+  std::uint32_t job = 0, epoch = 0;
+  friend bool operator==(const AllWhole&, const AllWhole&) = default;
+};
+
 /// Drop everything of epochs before this one, and acknowledge.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
@@ -522,7 +529,7 @@ using ControlMessage =
                  control::Terminated, control::NodeReport, control::Pong, control::NodeError,
                  control::WaitReport, control::Borrow, control::Share, control::Goodbye,
                  control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
-                 control::Prepare, control::Start, control::Finish, control::Ping,
+                 control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List,
                  control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Down,
                  control::Accepted, control::JobInfo, control::Jobs, control::Progress,

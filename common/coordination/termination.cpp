@@ -1,5 +1,7 @@
 #include "coordination/termination.hpp"
 
+#include <utility>
+
 #include "geometry/check.hpp"
 
 namespace graycube {
@@ -38,7 +40,7 @@ bool TerminationRing::token_arrived(const Token& token) {
   return due;
 }
 
-std::optional<Token> TerminationRing::try_pass(bool passive) {
+std::optional<Token> TerminationRing::try_pass(bool passive, bool may_launch) {
   if (!passive || verdict_) return std::nullopt;
   if (role_ == Role::kMember) {
     if (!held_) return std::nullopt;
@@ -46,12 +48,14 @@ std::optional<Token> TerminationRing::try_pass(bool passive) {
     held_.reset();
     return pass_on(token);
   }
+  if (held_) {
+    judge(*held_);
+    judged_ = std::exchange(held_, std::nullopt);
+  }
+  if (verdict_ || !may_launch) return std::nullopt;
   if (last_round_ == 0) return launch(1, 0);
-  if (!held_) return std::nullopt;
-  const Token returned = *held_;
-  held_.reset();
-  judge(returned);
-  if (verdict_) return std::nullopt;
+  if (!judged_) return std::nullopt;
+  const Token returned = *std::exchange(judged_, std::nullopt);
   return launch(returned.round + 1, returned.hops);
 }
 

@@ -74,12 +74,14 @@ class TerminationRing {
   /// and may go. `passive`: no primary ray left, no received ray, no evaluator at work, no ray in
   /// an outbox, no contribution unsent. The initiator launches the first token as soon as it is
   /// passive, so rounds count from its last primary ray; it judges each token that has come back,
-  /// and then either has a verdict or launches the next round.
-  std::optional<Token> try_pass(bool passive);
+  /// and then either has a verdict or launches the next round, at once or when it may.
+  std::optional<Token> try_pass(bool passive, bool may_launch = true);
 
   /// The initiator's; none on other nodes. Once there is one, no token goes out until reset.
   const std::optional<Verdict>& verdict() const { return verdict_; }
   bool holds_token() const { return held_.has_value(); }
+  /// The initiator's, so far.
+  std::uint32_t rounds_launched() const { return role_ == Role::kInitiator ? last_round_ : 0; }
   /// The initiator's white rounds in a row, up to the last one judged, with the same non-zero sum.
   std::uint32_t stalled_rounds() const { return stalled_rounds_; }
 
@@ -98,6 +100,8 @@ class TerminationRing {
   std::uint64_t contribution_batches_ = 0;
   std::uint32_t last_round_ = 0;  // launched by the initiator, passed on by the others
   std::optional<Token> held_;
+  /// The initiator's: came back and gave no verdict, so that another round is due.
+  std::optional<Token> judged_;
   std::optional<Verdict> verdict_;
   std::uint32_t stalled_rounds_ = 0;
   std::int64_t stalled_sum_ = 0;

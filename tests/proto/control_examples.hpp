@@ -99,6 +99,7 @@ inline std::vector<ControlMessage> example_messages() {
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       Relieved{9, 1, 12},
+      AllWhole{9, 1},
       Prepare{9, 2},
       Start{9, 2, {77, 4294967295u}},
       Finish{9},
