@@ -194,6 +194,36 @@ TEST_CASE("a ring of one goes through a round by itself") {
   CHECK(*ring.verdict() == Verdict{.rounds = 1, .hops = 1, .contribution_batches = 3});
 }
 
+TEST_CASE("an initiator that may not launch judges what comes back, and launches when it may") {
+  TerminationRing initiator(Role::kInitiator), member(Role::kMember);
+  const auto round = [&](Token token) {
+    REQUIRE(member.token_arrived(token));
+    REQUIRE(initiator.token_arrived(*member.try_pass(true)));
+  };
+  CHECK(initiator.rounds_launched() == 0);
+  CHECK_FALSE(initiator.try_pass(true, false));
+  const auto first = initiator.try_pass(true);
+  REQUIRE(first);
+  member.message_received();
+  initiator.message_sent();
+  round(*first);
+  CHECK_FALSE(initiator.try_pass(true, false));
+  CHECK_FALSE(initiator.try_pass(false));
+  CHECK_FALSE(initiator.verdict());
+  const auto second = initiator.try_pass(true);
+  REQUIRE(second);
+  CHECK(second->round == 2);
+  CHECK(second->hops == 3);
+  CHECK_FALSE(initiator.try_pass(true));
+  round(*second);
+  // A verdict needs no further round.
+  CHECK_FALSE(initiator.try_pass(true, false));
+  REQUIRE(initiator.verdict());
+  CHECK(initiator.verdict()->outcome == Outcome::kQuiet);
+  CHECK(initiator.rounds_launched() == 2);
+  CHECK(member.rounds_launched() == 0);
+}
+
 TEST_CASE("a node turns black on receipt, blackens the token once and is white again") {
   TerminationRing member(Role::kMember);
   CHECK_FALSE(member.try_pass(true));

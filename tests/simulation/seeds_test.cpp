@@ -136,7 +136,7 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
   const std::uint64_t only = number_in_environment("GRAYCUBE_SEED", 0);
   const std::uint64_t last = only != 0 ? only : number_in_environment("GRAYCUBE_SEEDS", kSeeds);
   std::map<std::string, unsigned> ways;
-  std::uint64_t deadlocks = 0, beyond_credit = 0, on_class = 0;
+  std::uint64_t deadlocks = 0, beyond_credit = 0, on_class = 0, rounds = 0;
   for (std::uint64_t seed = only != 0 ? only : 1; seed <= last; ++seed) {
     const Trial t = trial_of(seed);
     INFO("seed " << seed << ": " << t.name() << ", " << t.farm.nodes << " nodes, scatter " << t.job.scatter);
@@ -157,6 +157,9 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
       check_same_picture(farm, outcome, 1, pictures.expected);
     }
     check_bounds(t, outcome, pictures.pixels);
+    // Two, two more once all tiles are whole, and now and then one for a ping.
+    if (t.job.flow == FlowMode::kCredit) CHECK(outcome.rounds <= 5 + outcome.render_s / t.farm.heartbeat_s);
+    rounds += outcome.rounds;
   }
   if (only != 0 || last < kSeeds) return;
   // Grains, and shadows × partition × flow, each with either sums: the seeds reach them all, and where credit runs
@@ -164,5 +167,6 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
   CHECK(ways.size() == 2 * (3 + 3 * 2 * 2));
   CHECK(deadlocks > 5);
   CHECK(on_class > 10 * last);
+  CHECK(rounds < 5 * last);
   CHECK(beyond_credit > last / 4);
 }
