@@ -209,7 +209,7 @@ class Parser {
         [&up](const std::string& text) { up.state = text; });
     add(*sub, "--http", "HOST:PORT", "A web page of the farm at this loopback address",
         [&up](const std::string& text) { up.http = text; });
-    add(*sub, "--outbox-rays", "N", "Rays to be sent that a node may hold (default 262144)",
+    add(*sub, "--outbox-rays", "N", "Rays to be sent that a node may hold (default " + std::to_string(kDefaultOutboxRays) + ")",
         [&up](const std::string& text) { up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays); });
   }
 

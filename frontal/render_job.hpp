@@ -27,7 +27,7 @@ struct FlowLimits {
   std::uint32_t batch_bytes = std::uint32_t{256} << 10;
   /// What a node's outboxes may hold: then it traces only what comes on class credit. All places for such rays behind a
   /// node's links are a quarter of it, or one for each class and link.
-  std::uint64_t outbox_rays = std::uint64_t{1} << 18;
+  std::uint64_t outbox_rays = kDefaultOutboxRays;
 };
 /// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,
 /// so that light comes in fewer messages; pixels and lines are handed out as in 1987.

@@ -158,6 +158,8 @@ class Node {
   void release_room_after(std::uint16_t of_class);
   void give_back_classes(Link& link, std::span<const std::uint16_t> classes);
   void leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::span<const RayTask> rays);
+  void forget_class_ray(const RayTask& ray);
+  void send_class_outbox(Link& link);
   void send_on_class(Link& link);
   void on_class_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch);
   void on_class_credit(Link& link, std::span<const std::byte> batch);

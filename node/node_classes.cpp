@@ -103,29 +103,32 @@ void Node::leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::
   stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
 }
 
-/// What descends from rays on class credit goes first; a full node that has no other credit sends the rest while there
+void Node::forget_class_ray(const RayTask& ray) {
+  const auto count = class_outbox_rays_.find(ray.hops);
+  if (--count->second == 0) class_outbox_rays_.erase(count);
+  --outbox_rays_;
+}
+
+/// What descends from rays on class credit, as far as the link's own credit allows.
+void Node::send_class_outbox(Link& link) {
+  std::vector<RayTask>& waiting = link.class_outbox;
+  const auto paid = std::min<std::size_t>({waiting.size(), link.send_credit / kRayBytes, kMaxRaysPerBatch});
+  if (paid == 0) return;
+  send_batch(link, std::span(waiting).first(paid));
+  for (const RayTask& ray : std::span(waiting).first(paid)) forget_class_ray(ray);
+  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(paid));
+}
+
+/// Where there is no such credit: what descends from rays on class credit, and of a full node all else, while there
 /// are places for their classes.
 void Node::send_on_class(Link& link) {
-  std::vector<RayTask>& waiting = link.class_outbox;
-  const auto forget = [this](const RayTask& ray) {
-    const auto count = class_outbox_rays_.find(ray.hops);
-    if (--count->second == 0) class_outbox_rays_.erase(count);
-    --outbox_rays_;
-  };
-  const auto paid = std::min<std::size_t>({waiting.size(), link.send_credit / kRayBytes, kMaxRaysPerBatch});
-  if (paid > 0) {
-    send_batch(link, std::span(waiting).first(paid));
-    for (const RayTask& ray : std::span(waiting).first(paid)) forget(ray);
-    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(paid));
-  }
-  if (link.send_credit >= kRayBytes) return;
   std::vector<RayTask> rays;
-  std::erase_if(waiting, [&](const RayTask& ray) {
+  std::erase_if(link.class_outbox, [&](const RayTask& ray) {
     if (rays.size() == kMaxRaysPerBatch || !link.places_out.take(ray.hops, load_.class_places)) {
       return false;
     }
     rays.push_back(ray);
-    forget(ray);
+    forget_class_ray(ray);
     return true;
   });
   while (is_full() && !link.outbox.is_empty() && rays.size() < kMaxRaysPerBatch &&

@@ -33,7 +33,7 @@ void Node::send_control(const ControlMessage& message) {
 /// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under way on
 /// the link, smaller ones.
 void Node::send_rays(Link& link, bool partial) {
-  if (!link.class_outbox.empty() && link.send_credit >= kRayBytes) send_on_class(link);
+  send_class_outbox(link);
   const std::size_t full = std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
   for (;;) {
     const std::size_t waiting = link.outbox.size();

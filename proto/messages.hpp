@@ -32,6 +32,8 @@ inline constexpr std::uint32_t kMaxScatter = 8;
 /// Rays that a node's input queues hold together where flow is blocking.
 inline constexpr std::uint32_t kDefaultQueue = 64;
 inline constexpr std::uint32_t kMaxQueue = 1u << 16;
+/// Rays that a node's outboxes hold before it is full, where nothing else is asked for.
+inline constexpr std::uint32_t kDefaultOutboxRays = 1u << 18;
 
 enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
 enum class Grain : std::uint8_t { kPixel, kLine, kTile };

@@ -44,7 +44,9 @@ struct RayTask {
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
 
-static_assert(kMaxLights <= 1u << 15);
+/// What RayTask::light holds.
+inline constexpr std::uint32_t kLightMask = (1u << 15) - 1;
+static_assert(kMaxLights <= kLightMask + 1);
 
 inline constexpr std::uint32_t kMaxHops = 0xFFFF;
 

@@ -146,7 +146,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.slot = at.ray->slot;
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
-  sent.task.light = static_cast<std::uint16_t>(light & 0x7FFF);
+  sent.task.light = static_cast<std::uint16_t>(light & kLightMask);
   if (domain_.has_horizons()) {
     const Horizon at_horizon = meet_horizon(sent.task);
     if (at_horizon != Horizon::kGoesOn) {
