@@ -14,6 +14,8 @@ constexpr double kWiden = 1e-6;
 /// Solids are taken this many δ larger; distances are given this much shorter, relatively.
 constexpr double kGrowDeltas = 16;
 constexpr double kShorten = 1e-9;
+/// Boxes that show in at most so many texels are entered texel by texel, others by quarters of a face.
+constexpr std::uint32_t kFewTexels = 16;
 /// Larger trees are looked at by the object's bounds alone.
 constexpr std::uint32_t kMaxTreeNodes = 64;
 
@@ -109,8 +111,9 @@ class LightView {
     map_.assign(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
     for (const Object& object : model_.objects) {
       object_ = &object;
+      const Aabb box = relative(object.bounds.grown(grow_));
       for (int axis = 0; axis < 3; ++axis) {
-        for (const double sign : {1.0, -1.0}) cover(axis, sign, 0, 0, LightHorizons::kSide);
+        for (const double sign : {1.0, -1.0}) cover_face(box, axis, sign);
       }
     }
     const float most = *std::max_element(map_.begin(), map_.end());
@@ -119,6 +122,35 @@ class LightView {
   }
 
  private:
+  /// Enters the object, which is in a box about the light, into a face: where it shows in few texels, into these; else
+  /// part by part.
+  void cover_face(const Aabb& box, int axis, double sign) {
+    const double nearest = sign > 0 ? box.lo[axis] : -box.hi[axis], farthest = sign > 0 ? box.hi[axis] : -box.lo[axis];
+    if (!(farthest > 0)) return;
+    if (!(nearest > 0)) return cover(axis, sign, 0, 0, LightHorizons::kSide);
+    const TexelRange u = texels_of(box, (axis + 1) % 3, nearest, farthest);
+    const TexelRange v = texels_of(box, (axis + 2) % 3, nearest, farthest);
+    if (u.count() * v.count() > kFewTexels) return cover(axis, sign, 0, 0, LightHorizons::kSide);
+    for (std::uint32_t j = v.first; j < v.end; ++j) {
+      for (std::uint32_t i = u.first; i < u.end; ++i) cover(axis, sign, i, j, 1);
+    }
+  }
+
+  struct TexelRange {
+    std::uint32_t first, end;
+    std::uint32_t count() const { return end - first; }
+  };
+  /// Along an axis of a face on which the box lies between `nearest` > 0 and `farthest`.
+  static TexelRange texels_of(const Aabb& box, int axis, double nearest, double farthest) {
+    const double lo = box.lo[axis] / (box.lo[axis] > 0 ? farthest : nearest);
+    const double hi = box.hi[axis] / (box.hi[axis] > 0 ? nearest : farthest);
+    const auto texel = [](double at) {
+      return static_cast<std::uint32_t>(std::clamp(0.5 * LightHorizons::kSide * (at + 1), 0.0, double{LightHorizons::kSide}));
+    };
+    const std::uint32_t first = texel(lo - 2 * kWiden);
+    return {first, std::max(first, std::min(texel(hi + 2 * kWiden) + 1, LightHorizons::kSide))};
+  }
+
   /// Enters the object into the texels [u, u + size) × [v, v + size) of a face.
   void cover(int axis, double sign, std::uint32_t u, std::uint32_t v, std::uint32_t size) {
     const auto range = [&](std::uint32_t first) {
