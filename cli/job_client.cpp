@@ -61,10 +61,15 @@ void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Pictu
 
 }  // namespace
 
+std::uint32_t submit_scene(FarmClient& farm, const std::string& name, SharedBytes scene,
+                           const control::JobOptions& options) {
+  const control::Submit request{name, options};
+  return farm.ask<control::Accepted>(request, "submit", std::move(scene)).first.job;
+}
+
 std::uint32_t submit_scene(FarmClient& farm, const SceneInput& scene,
                            const control::JobOptions& options) {
-  const control::Submit request{scene.name, options};
-  return farm.ask<control::Accepted>(request, "submit", bytes_of(scene.text)).first.job;
+  return submit_scene(farm, scene.name, bytes_of(scene.text), options);
 }
 
 std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& display) {

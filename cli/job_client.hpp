@@ -11,7 +11,9 @@
 
 namespace graycube {
 
-/// Submits a scene; its job.
+/// Submits a scene, its text or compiled; its job.
+std::uint32_t submit_scene(FarmClient& farm, const std::string& name, SharedBytes scene,
+                           const control::JobOptions& options);
 std::uint32_t submit_scene(FarmClient& farm, const SceneInput& scene,
                            const control::JobOptions& options);
 

@@ -1,7 +1,9 @@
 // graycube render: a picture, and nothing else left behind.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <span>
 
 #include "cli/commands.hpp"
 #include "cli/cpu_time.hpp"
@@ -9,20 +11,40 @@
 #include "cli/interrupts.hpp"
 #include "cli/job_client.hpp"
 #include "cli/render_here.hpp"
+#include "proto/model_slice.hpp"
 #include "proto/statistics.hpp"
+#include "scene/compile_scene.hpp"
 
 namespace graycube {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 std::vector<std::string> frontal_arguments(const RenderCommand& command) {
   return {"--private", "--nodes", std::to_string(command.nodes), "--threads",
           std::to_string(command.threads)};
 }
 
+/// A compiled scene may be so many times as long as its text, which holds a shape once however often it is used.
+constexpr std::size_t kMostExpansion = 4;
+
+/// What goes to the farm: the scene compiled, which saves the frontal from reading it again, or its text.
+SharedBytes bytes_to_send(SceneInput scene) {
+  const Model model = compile_scene(scene.scene);
+  scene.scene = {};
+  const std::size_t most = std::min(kMaxSubmitBytes, kMostExpansion * scene.text.size());
+  if (fits_model_limits(model) && encoded_model_bytes(model) <= most) return encode_model(model);
+  const auto bytes = std::as_bytes(std::span(scene.text));
+  return Bytes(bytes.begin(), bytes.end());
+}
+
 /// Renders on a farm of its own. Interrupts must be held: the farm has to be put away.
-Rendered render_on_farm(const RenderCommand& command, SceneInput scene, FrontalProcess& frontal) {
+Rendered render_on_farm(const RenderCommand& command, const std::string& name, SharedBytes scene,
+                        FrontalProcess& frontal) {
   ProgressDisplay display(stdout, command.is_quiet);
   const std::string& endpoint = frontal.wait_until_listening();
   FarmClient farm(endpoint, [&] {
@@ -31,8 +53,7 @@ Rendered render_on_farm(const RenderCommand& command, SceneInput scene, FrontalP
   });
   control::JobOptions options = command.options;
   options.timeout_s = 0;  // the command's own clock runs since before the farm's start
-  const std::uint32_t job = submit_scene(farm, scene, options);
-  scene = {};
+  const std::uint32_t job = submit_scene(farm, name, std::move(scene), options);
   Rendered rendered;
   rendered.stats = follow_job(farm, job, display);
   rendered.picture = fetch_picture(farm, job);
@@ -40,17 +61,17 @@ Rendered render_on_farm(const RenderCommand& command, SceneInput scene, FrontalP
   return rendered;
 }
 
-/// With what the whole command took, which it returns.
-double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started) {
-  const double wall_s = std::chrono::duration<double>(Clock::now() - started).count();
-  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds()));
+/// With what the whole command took, which it returns, and what reading took of that.
+double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started, double load_s) {
+  const double wall_s = seconds_since(started);
+  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds(), load_s));
   return wall_s;
 }
 
 void write_outputs(const RenderCommand& command, const Outputs& outputs, const std::string& scene,
-                   const Rendered& rendered, Clock::time_point started) {
+                   const Rendered& rendered, Clock::time_point started, double load_s) {
   write_pictures(outputs, rendered.picture, scene);
-  const double wall_s = write_timed_stats(outputs, rendered.stats, started);
+  const double wall_s = write_timed_stats(outputs, rendered.stats, started, load_s);
   if (command.is_quiet) return;
   std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
               rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
@@ -67,7 +88,9 @@ ExitStatus run(const RenderCommand& command) {
   Outputs outputs = command.outputs;
   if (outputs.exr.empty()) outputs.exr = default_exr(command.scene);
   check_outputs(outputs, command.scene);
+  const auto reading = Clock::now();
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
+  double load_s = seconds_since(reading);
   check_is_built(command.scene, scene.scene);
   const std::string name = scene.name;
   if (!command.is_quiet) {
@@ -77,23 +100,25 @@ ExitStatus run(const RenderCommand& command) {
     ProgressDisplay display(stdout, command.is_quiet);
     Rendered rendered = render_here(std::move(scene), command.options, command.threads, display);
     const InterruptsHeld held;
-    write_outputs(command, outputs, name, rendered, started);
+    write_outputs(command, outputs, name, rendered, started, load_s);
     return ExitStatus::kDone;
   }
   check_farm_limits(scene, command.options);
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
-  scene.scene = {};
   Rendered rendered;
   try {
-    rendered = render_on_farm(command, std::move(scene), frontal);
+    const auto compiling = Clock::now();
+    SharedBytes bytes = bytes_to_send(std::move(scene));
+    load_s += seconds_since(compiling);
+    rendered = render_on_farm(command, name, std::move(bytes), frontal);
   } catch (const Failure& failure) {
-    write_timed_stats(outputs, failure.statistics(), started);
+    write_timed_stats(outputs, failure.statistics(), started, load_s);
     throw;
   }
   // The files are written while the farm stops; from here on an interrupt changes nothing any more.
   frontal.request_stop();
-  write_outputs(command, outputs, name, rendered, started);
+  write_outputs(command, outputs, name, rendered, started, load_s);
   frontal.stop();
   return ExitStatus::kDone;
 }

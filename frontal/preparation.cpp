@@ -58,6 +58,22 @@ void check_is_built(const Scene& scene, std::vector<control::ErrorItem>& errors)
   }
 }
 
+/// Nothing, and errors, where the bytes are no scene.
+std::optional<Model> model_of(std::span<const std::byte> scene, std::vector<control::ErrorItem>& errors) {
+  if (is_encoded_model(scene)) {
+    auto decoded = decode_model(scene);
+    if (auto* model = std::get_if<Model>(&decoded)) return std::move(*model);
+    const auto& error = std::get<ModelError>(decoded);
+    add_error(errors, "", "the compiled scene is broken: " + error.where + ": " + error.why);
+    return std::nullopt;
+  }
+  const ReadResult read = read_scene_text(text_of(scene));
+  for (const SceneError& e : read.errors) add_error(errors, e.pointer, e.message);
+  if (!read.scene) return std::nullopt;
+  check_is_built(*read.scene, errors);
+  return compile_scene(*read.scene);
+}
+
 Algorithm chosen(Algorithm wanted, const Model& model) {
   if (wanted != Algorithm::kAuto) return wanted;
   return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
@@ -166,12 +182,9 @@ PreparationResult run(const PreparationWork& work) {
   PreparationResult result;
   result.job = work.job;
   const auto started = Clock::now();
-  ReadResult read = read_scene_text(text_of(work.scene_text));
-  for (const SceneError& e : read.errors) add_error(result.errors, e.pointer, e.message);
-  if (!read.scene) return result;
-  check_is_built(*read.scene, result.errors);
-  Model model = compile_scene(*read.scene);
-  read.scene.reset();
+  auto whole = model_of(work.scene, result.errors);
+  if (!whole) return result;
+  Model& model = *whole;
   apply_overrides(work.options, model.settings, result.errors);
   check_credit_limits(model.settings, result.errors);
   if (result.errors.empty() && !fits_model_limits(model)) {

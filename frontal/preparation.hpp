@@ -21,7 +21,8 @@ inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{32} << 20;
 struct PreparationWork {
   std::uint32_t job = 0;
   std::string scene_name;
-  Bytes scene_text;
+  /// Its text, or the model that it has been compiled to.
+  Bytes scene;
   control::JobOptions options;
   Hypercube cube = *Hypercube::of_size(1);
   std::uint64_t replica_bytes = kReplicaBytes;

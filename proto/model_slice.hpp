@@ -47,6 +47,9 @@ bool fits_model_limits(const Model& model);
 /// broken one is a bug that the receiver reports.
 std::vector<std::byte> encode_model(const Model& model);
 
+/// Whether bytes begin as encode_model's do; no text of a scene does.
+bool is_encoded_model(std::span<const std::byte> bytes);
+
 /// Takes no more memory than the counts that the bytes can hold, and checks every index: nodes of a
 /// decoded model nest properly, and every material, plane, point, mesh and primitive that
 /// they name exists.

@@ -320,6 +320,10 @@ class ModelReader {
 
 }  // namespace
 
+bool is_encoded_model(std::span<const std::byte> bytes) {
+  return bytes.size() >= sizeof kModelMagic && load_little<std::uint32_t>(bytes.data()) == kModelMagic;
+}
+
 std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes) {
   return ModelReader(bytes).read();
 }

@@ -13,7 +13,7 @@ inline PreparedScene prepared(const Scene& scene, const control::JobOptions& opt
   const std::string text = write_scene_text(scene);
   PreparationWork work;
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  work.scene_text.assign(bytes, bytes + text.size());
+  work.scene.assign(bytes, bytes + text.size());
   work.options = options;
   work.options.algorithm = algorithm;
   work.cube = *Hypercube::of_size(nodes);

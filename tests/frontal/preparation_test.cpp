@@ -1,0 +1,70 @@
+// Scenes come as text, or compiled by who read them: both are cut alike.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "csg/random_model.hpp"
+#include "frontal/prepared.hpp"
+#include "proto/model_slice.hpp"
+#include "scene/read_scene.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+PreparationResult cut(Bytes scene, const control::JobOptions& options) {
+  PreparationWork work;
+  work.scene = std::move(scene);
+  work.options = options;
+  work.cube = *Hypercube::of_size(4);
+  return run(work);
+}
+
+}  // namespace
+
+TEST_CASE("a compiled scene is cut as its text is") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    INFO("seed " << seed);
+    const Scene scene = RandomModel(seed).scene();
+    control::JobOptions options;
+    options.algorithm = seed % 4 == 0 ? Algorithm::kRoth : Algorithm::kMacro;
+    options.width = 64;
+    options.height = 48;
+    options.max_depth = 3;
+    const PreparedScene text = prepared(scene, options, 4, options.algorithm);
+    // As read from the text, which may write a map in another way.
+    const auto read = read_scene_text(write_scene_text(scene));
+    REQUIRE(read.scene);
+    const PreparationResult compiled = cut(encode_model(compile_scene(*read.scene)), options);
+    REQUIRE(compiled.scene);
+    CHECK(compiled.errors.empty());
+    CHECK(compiled.scene->settings == text.settings);
+    CHECK(compiled.scene->settings.image.width == 64);
+    CHECK(compiled.scene->primitives == text.primitives);
+    CHECK(compiled.scene->objects == text.objects);
+    CHECK(compiled.scene->horizons == text.horizons);
+    CHECK(compiled.scene->grid == text.grid);
+    REQUIRE(compiled.scene->slices.size() == text.slices.size());
+    for (std::size_t i = 0; i < text.slices.size(); ++i) {
+      CHECK(std::ranges::equal(compiled.scene->slices[i].bytes(), text.slices[i].bytes()));
+    }
+  }
+}
+
+TEST_CASE("a broken compiled scene is bad input, and so are options that do not fit it") {
+  const Bytes whole = encode_model(compile_scene(RandomModel(3).scene()));
+  Bytes broken = whole;
+  broken.resize(broken.size() - 1);
+  const PreparationResult short_one = cut(broken, {});
+  CHECK_FALSE(short_one.scene);
+  REQUIRE(short_one.errors.size() == 1);
+  CHECK(short_one.errors.front().why.starts_with("the compiled scene is broken: "));
+  control::JobOptions options;
+  options.width = 0;
+  const PreparationResult no_picture = cut(whole, options);
+  CHECK_FALSE(no_picture.scene);
+  REQUIRE_FALSE(no_picture.errors.empty());
+  CHECK(no_picture.errors.front().where == "--size");
+  CHECK_FALSE(is_encoded_model({}));
+  CHECK_FALSE(is_encoded_model(std::as_bytes(std::span("{\"graycube\": 1}"))));
+}
