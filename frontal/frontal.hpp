@@ -44,6 +44,9 @@ struct FrontalOptions {
   /// Larger models are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
   FlowLimits limits{};
+  /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a camera has a direction,
+  /// and whatever else readers of scenes check, is not checked again.
+  bool takes_compiled_scenes = false;
 };
 
 class Frontal {

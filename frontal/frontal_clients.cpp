@@ -3,6 +3,7 @@
 
 #include "frontal/frontal.hpp"
 #include "proto/control.hpp"
+#include "proto/model_slice.hpp"
 #include "proto/picture_rows.hpp"
 
 namespace graycube {
@@ -54,6 +55,9 @@ void Frontal::on_submit(const PeerId& peer, const control::Submit& m, std::span<
   if (m.options.algorithm == Algorithm::kSerial) {
     return refuse(peer, 0, FailureCode::kBadRequest, "--algorithm",
                   "serial runs in the command itself, without a farm");
+  }
+  if (is_encoded_model(scene) && !options_.takes_compiled_scenes) {
+    return refuse(peer, 0, FailureCode::kBadInput, m.scene_name, "this farm compiles scenes itself: expected JSON or CBOR");
   }
   QueuedJob job;
   job.info.job = next_job_++;

@@ -64,7 +64,8 @@ class FrontalProcess {
                   .threads = a.threads,
                   .silence_s = a.silence_s,
                   .version = kVersion,
-                  .limits = a.limits},
+                  .limits = a.limits,
+                  .takes_compiled_scenes = a.is_private},
                  *store_),
         preparation_(wakeup_) {
     frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };

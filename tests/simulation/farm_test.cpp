@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "proto/model_slice.hpp"
+#include "scene/compile_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "simulation/pictures.hpp"
 
 using namespace graycube;
@@ -127,4 +130,14 @@ TEST_CASE("a scene with mistakes fails with all of them") {
   REQUIRE(outcome.failed);
   CHECK(outcome.failed->code == FailureCode::kBadInput);
   CHECK(outcome.failed->errors.size() >= 3);
+}
+
+TEST_CASE("a farm that anybody may submit to takes no compiled scene") {
+  const Bytes compiled = encode_model(compile_scene(*read_scene_text(scene_text(36, 24)).scene));
+  RandomFarm farm({.nodes = 2});
+  const Outcome outcome =
+      farm.render({reinterpret_cast<const char*>(compiled.data()), compiled.size()}, with(Algorithm::kMacro));
+  REQUIRE(outcome.failed);
+  CHECK(outcome.failed->code == FailureCode::kBadInput);
+  CHECK(outcome.failed->errors.front().why == "this farm compiles scenes itself: expected JSON or CBOR");
 }
