@@ -60,6 +60,16 @@ void send_frames(zmq::socket_t& socket, Message message) {
   if (has_payload) socket.send(frame_of(std::move(message.payload)), zmq::send_flags::none);
 }
 
+/// Whether a message is waiting; nothing when a signal has come instead of an answer.
+std::optional<bool> has_message(zmq::socket_ref socket) {
+  try {
+    return (socket.get(zmq::sockopt::events) & ZMQ_POLLIN) != 0;
+  } catch (const zmq::error_t& e) {
+    GRAYCUBE_CHECK(e.num() == EINTR, "ZMQ_EVENTS: %s", e.what());
+    return std::nullopt;
+  }
+}
+
 /// All frames of a message that is waiting; none when none is. Signals don't end it.
 void receive_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) {
   frames.clear();
@@ -212,8 +222,8 @@ void wait_readable(std::span<Readable* const> sockets, std::span<const int> desc
   std::vector<pollfd> items;
   for (Readable* readable : sockets) {
     if (!readable->is_drained_) {
-      const zmq::socket_ref socket(zmq::from_handle, readable->socket());
-      if ((socket.get(zmq::sockopt::events) & ZMQ_POLLIN) != 0) return;
+      const auto found = has_message(zmq::socket_ref(zmq::from_handle, readable->socket()));
+      if (!found || *found) return;
       readable->is_drained_ = true;
     }
     items.push_back({readable->descriptor_, POLLIN, 0});
