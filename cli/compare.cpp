@@ -131,8 +131,7 @@ std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneI
   const auto started = std::chrono::steady_clock::now();
   const double cpu_before_s = own_cpu_seconds();
   const Rendered serial = render_here(scene, command.options, 1, display);
-  const double wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  const double wall_s = seconds_since(started);
   rows.push_back({"serial", "--algorithm serial", RowOutcome::kReference, {},
                   with_command_times(serial.stats, wall_s, own_cpu_seconds() - cpu_before_s)});
   const InterruptsHeld held;

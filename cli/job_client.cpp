@@ -12,11 +12,6 @@ namespace {
 /// After so long without news the frontal is asked whether it is still there.
 constexpr std::chrono::seconds kQuiet{2};
 
-Bytes bytes_of(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-  return Bytes(bytes.begin(), bytes.end());
-}
-
 Failure nonsense(std::uint32_t job) {
   return {ExitStatus::kFailed,
           Problem{"fetch", "job " + std::to_string(job), "the frontal sent no proper picture"}};
@@ -60,6 +55,11 @@ void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Pictu
 }
 
 }  // namespace
+
+Bytes bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+  return Bytes(bytes.begin(), bytes.end());
+}
 
 std::uint32_t submit_scene(FarmClient& farm, const std::string& name, SharedBytes scene,
                            const control::JobOptions& options) {

@@ -11,6 +11,9 @@
 
 namespace graycube {
 
+/// A scene's text as it is sent.
+Bytes bytes_of(const std::string& text);
+
 /// Submits a scene, its text or compiled; its job.
 std::uint32_t submit_scene(FarmClient& farm, const std::string& name, SharedBytes scene,
                            const control::JobOptions& options);

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
-#include <span>
 
 #include "cli/commands.hpp"
 #include "cli/cpu_time.hpp"
@@ -20,10 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 std::vector<std::string> frontal_arguments(const RenderCommand& command) {
   return {"--private", "--nodes", std::to_string(command.nodes), "--threads",
           std::to_string(command.threads)};
@@ -38,8 +33,7 @@ SharedBytes bytes_to_send(SceneInput scene) {
   scene.scene = {};
   const std::size_t most = std::min(kMaxSubmitBytes, kMostExpansion * scene.text.size());
   if (fits_model_limits(model) && encoded_model_bytes(model) <= most) return encode_model(model);
-  const auto bytes = std::as_bytes(std::span(scene.text));
-  return Bytes(bytes.begin(), bytes.end());
+  return bytes_of(scene.text);
 }
 
 /// Renders on a farm of its own. Interrupts must be held: the farm has to be put away.

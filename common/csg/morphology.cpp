@@ -123,7 +123,7 @@ std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by
 }
 
 Aabb dilated_bounds(const Primitive& p, double by) {
-  const double across = by * stretch(p.to_local, 2);
+  const auto across = [&] { return by * stretch(p.to_local, 2); };
   const auto along = [&](int axis) { return by * length(p.to_local.row(axis)); };
   switch (p.kind) {
     case Kind::kEllipsoid:
@@ -132,10 +132,10 @@ Aabb dilated_bounds(const Primitive& p, double by) {
       return grown_bounds(p, {all, all, all});
     }
     case Kind::kParallelepiped: return grown_bounds(p, {along(0), along(1), along(2)});
-    case Kind::kCylinder: return grown_bounds(p, {across, across, along(2)});
+    case Kind::kCylinder: return grown_bounds(p, {across(), across(), along(2)});
     case Kind::kCone: {
       // Below its larger end it goes on growing.
-      const double wider = across + 2 * std::fabs(p.v[5]) * along(2);
+      const double wider = across() + 2 * std::fabs(p.v[5]) * along(2);
       return grown_bounds(p, {wider, wider, along(2)});
     }
     default: return p.bounds.grown(by);
