@@ -22,10 +22,15 @@ constexpr double kCrossingCost = 3;
 /// each primitive.
 constexpr std::uint64_t kPrimaryRaysPerPrimitive = 2;
 
+/// In which part a fine cell is.
+std::uint16_t cell_of(std::uint16_t fine, const std::vector<std::uint32_t>& cuts) {
+  return static_cast<std::uint16_t>(std::upper_bound(cuts.begin(), cuts.end(), fine) - cuts.begin());
+}
+
 }  // namespace
 
-Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
-                       PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons) {
+Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
+                       const std::shared_ptr<const LightHorizons>& horizons, ShadowTracing shadows) {
   const ImageSize& image = whole.model().settings.image;
   const auto frame = CameraFrame::from(whole.model().settings.camera, image);
   const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
@@ -33,16 +38,19 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
   const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
   const bool too_costly = wanted == PartitionMode::kAuto && !whole.has_primary_rays(kPrimaryRaysPerPrimitive);
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
-    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0};
+    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0, {}};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  const CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, kCrossingCost / fine);
+  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, shadows, kCrossingCost / fine);
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
   for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
+  for (LeavingLight& light : load.left_by_light) {
+    light.from = {cell_of(light.from.column, cuts.columns), cell_of(light.from.row, cuts.rows)};
+  }
   return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges)),
-          load.rays_per_primary};
+          load.rays_per_primary, std::move(load.left_by_light)};
 }
 
 }  // namespace graycube

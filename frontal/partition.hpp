@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "frontal/whole_scene.hpp"
 #include "proto/messages.hpp"
 #include "space/light_horizons.hpp"
 #include "space/macro_grid.hpp"
 #include "topology/hypercube.hpp"
+#include "trace/coarse_load.hpp"
 
 namespace graycube {
 
@@ -18,12 +20,14 @@ struct Partition {
   MacroGrid grid;
   /// As CoarseLoad says; 0 where there was no pre-render.
   double rays_per_primary = 0;
+  /// As CoarseLoad says, `from` being a macro-region of the grid.
+  std::vector<LeavingLight> left_by_light;
 };
 
 /// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse
 /// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
 /// the picture. `horizons` may be null.
-Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
-                       PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons);
+Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
+                       const std::shared_ptr<const LightHorizons>& horizons, ShadowTracing shadows);
 
 }  // namespace graycube

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "frontal/partition.hpp"
+#include "frontal/slices.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
@@ -28,6 +29,9 @@ constexpr std::uint32_t kAutoScatter = 1;
 /// subdivided for them, and to each texel.
 constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
+
+/// Up to this size of the model most nodes have room for all that their shadow rays ask for.
+constexpr std::uint64_t kFinishedModelBytes = 2 * kSmallSlices;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -122,7 +126,11 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  const Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), horizons);
+  const Occluders occluders = horizons ? Occluders::of(model) : Occluders();
+  const ShadowTracing tracing = !occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes ? ShadowTracing::kWhereItBegins
+                                                       : ShadowTracing::kWhereItGoes;
+  const Partition cut =
+      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), horizons, tracing);
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
@@ -134,9 +142,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     out.slices.push_back(encode_model(model));
     return;
   }
-  for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
-    out.slices.push_back(encode_model(restrict_to_share(model, grid, share_of(work.cube, Rank{rank}))));
-  }
+  out.slices = slices_of(model, work.cube, cut, occluders);
 }
 
 }  // namespace

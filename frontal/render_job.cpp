@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "frontal/slices.hpp"
 #include "proto/share_of.hpp"
 
 namespace graycube {
@@ -49,7 +50,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
   for (const SharedBytes& slice : scene_.slices) slice_bytes_.push_back(slice.size());
   held_bytes_ = slice_bytes_;
   const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
-  room_bytes_ = std::max(kMostShares * all / nodes_, kSmallSlices);
+  room_bytes_ = slice_room(all, nodes_);
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
     const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));
     own_tiles_.emplace_back(tiles.begin(), tiles.end());

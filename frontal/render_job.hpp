@@ -38,10 +38,6 @@ inline constexpr std::uint32_t kPartOfRothShare = 4;
 /// of those that are left: the fewer, the more of them can still be taken over.
 inline constexpr std::uint32_t kLeastTilesPerThread = 4;
 inline constexpr std::uint32_t kPartOfTilesLeft = 4;
-/// Slices that a node may hold, its own and copies of neighbours': so many times an equal share of all, or so many
-/// bytes where that is more.
-inline constexpr std::uint64_t kMostShares = 2;
-inline constexpr std::uint64_t kSmallSlices = std::uint64_t{256} << 10;
 /// Shadows local: what a node may use for other nodes' models.
 inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 

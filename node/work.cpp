@@ -10,13 +10,31 @@
 namespace graycube {
 namespace {
 
-std::optional<Model> decoded_model(std::span<const std::byte> bytes, WorkResult& result) {
-  auto decoded = decode_model(bytes);
+/// A node's slice: its model, and its foreign horizons where it has any.
+struct Slice {
+  Model model;
+  std::shared_ptr<const LightHorizons> foreign_horizons;
+};
+
+std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes, const Model& model,
+                                                      WorkResult& result) {
+  auto decoded = decode_horizons(bytes, model.settings.lights.size());
+  if (decoded) return std::make_shared<const LightHorizons>(*std::move(decoded));
+  result.error = "the light horizons received are broken";
+  return nullptr;
+}
+
+std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, WorkResult& result) {
+  auto decoded = take_model(bytes);
   if (const auto* error = std::get_if<ModelError>(&decoded)) {
     result.error = "the macro-region received is broken: " + error->where + ": " + error->why;
     return std::nullopt;
   }
-  return std::get<Model>(std::move(decoded));
+  Slice slice{std::get<Model>(std::move(decoded)), nullptr};
+  if (bytes.empty()) return slice;
+  slice.foreign_horizons = decoded_horizons(bytes, slice.model, result);
+  if (!slice.foreign_horizons) return std::nullopt;
+  return slice;
 }
 
 void build(BuildWork work, WorkResult& result) {
@@ -26,28 +44,24 @@ void build(BuildWork work, WorkResult& result) {
     result.error = "less came than was announced";
     return;
   }
-  const std::size_t model_bytes = bytes.size() - work.horizon_bytes;
-  auto model = decoded_model(bytes.first(model_bytes), result);
-  if (!model) return;
+  auto slice = decoded_slice(bytes.first(bytes.size() - work.horizon_bytes), result);
+  if (!slice) return;
   std::shared_ptr<const LightHorizons> horizons;
   if (work.horizon_bytes > 0) {
-    auto decoded = decode_horizons(bytes.last(work.horizon_bytes), model->settings.lights.size());
-    if (!decoded) {
-      result.error = "the light horizons received are broken";
-      return;
-    }
-    horizons = std::make_shared<const LightHorizons>(*std::move(decoded));
+    horizons = decoded_horizons(bytes.last(work.horizon_bytes), slice->model, result);
+    if (!horizons) return;
   }
   work.slice = {};
   std::shared_ptr<Domain> domain;
   if (work.edges) {
-    const auto frame = CameraFrame::from(model->settings.camera, model->settings.image);
+    const auto frame = CameraFrame::from(slice->model.settings.camera, slice->model.settings.image);
     MacroGrid grid(frame, std::move(work.edges->columns), std::move(work.edges->rows));
-    domain = std::make_shared<Domain>(std::move(grid), work.share, *std::move(model));
+    domain = std::make_shared<Domain>(std::move(grid), work.share, std::move(slice->model));
   } else {
-    domain = std::make_shared<Domain>(*std::move(model));
+    domain = std::make_shared<Domain>(std::move(slice->model));
   }
   domain->set_horizons(std::move(horizons));
+  domain->set_foreign_horizons(std::move(slice->foreign_horizons));
   if (work.is_replica) domain->set_replica();
   result.domain = std::move(domain);
   result.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -79,13 +93,15 @@ WorkResult Workbench::run(Work work) {
   }
   if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
     result.borrowed_from = b->from;
-    if (auto model = decoded_model(b->slice.bytes(), result)) result.borrowed = Territory::of(*std::move(model));
+    if (auto slice = decoded_slice(b->slice.bytes(), result)) result.borrowed = Territory::of(std::move(slice->model));
     return result;
   }
   if (auto* c = std::get_if<CopyWork>(&work.what)) {
     result.copied_from = c->from;
-    auto model = decoded_model(c->slice.bytes(), result);
-    if (model) result.domain = work.domain->of_neighbour(c->share, *std::move(model));
+    if (auto slice = decoded_slice(c->slice.bytes(), result)) {
+      result.domain =
+          work.domain->of_neighbour(c->share, std::move(slice->model), std::move(slice->foreign_horizons));
+    }
     return result;
   }
   Evaluator& evaluator = evaluator_for(std::move(work.domain));

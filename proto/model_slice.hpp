@@ -39,6 +39,9 @@ struct ModelError {
 /// Size of what encode_model gives.
 std::size_t encoded_model_bytes(const Model& model);
 
+/// What an object adds to that, but for planes and meshes.
+std::size_t encoded_object_bytes(const Model& model, const Object& object);
+
 /// True when encode_model may be called: no count, nor the size, nor the depth of a tree beyond its
 /// limit.
 bool fits_model_limits(const Model& model);
@@ -54,5 +57,7 @@ bool is_encoded_model(std::span<const std::byte> bytes);
 /// decoded model nest properly, and every material, plane, point, mesh and primitive that
 /// they name exists.
 [[nodiscard]] std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes);
+/// As decode_model where more bytes may follow: `bytes` becomes those.
+[[nodiscard]] std::variant<Model, ModelError> take_model(std::span<const std::byte>& bytes);
 
 }  // namespace graycube

@@ -48,6 +48,8 @@ class ModelReader {
  public:
   explicit ModelReader(std::span<const std::byte> bytes) : r_(bytes), size_(bytes.size()) {}
 
+  std::size_t remaining() const { return r_.remaining(); }
+
   std::variant<Model, ModelError> read() {
     const Counts counts = header();
     if (!error_) settings(counts);
@@ -59,7 +61,6 @@ class ModelReader {
     section("node", counts.nodes, model_.nodes, &ModelReader::node);
     section("object", counts.objects, model_.objects, &ModelReader::object);
     if (!error_) trees();
-    if (!error_ && r_.remaining() != 0) fail("end", "bytes left over");
     if (error_) return *std::move(error_);
     return std::move(model_);
   }
@@ -325,7 +326,16 @@ bool is_encoded_model(std::span<const std::byte> bytes) {
 }
 
 std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes) {
-  return ModelReader(bytes).read();
+  auto model = take_model(bytes);
+  if (model.index() == 0 && !bytes.empty()) return ModelError{"end", "bytes left over"};
+  return model;
+}
+
+std::variant<Model, ModelError> take_model(std::span<const std::byte>& bytes) {
+  ModelReader reader(bytes);
+  auto model = reader.read();
+  bytes = bytes.last(reader.remaining());
+  return model;
 }
 
 }  // namespace graycube

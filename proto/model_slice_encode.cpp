@@ -131,6 +131,14 @@ std::size_t encoded_model_bytes(const Model& model) {
   return bytes;
 }
 
+std::size_t encoded_object_bytes(const Model& model, const Object& object) {
+  std::size_t bytes = kObjectBytes + object.node_count * kNodeBytes;
+  for (const TreeNode& n : model.tree(object)) {
+    if (!is_inner(n.kind)) bytes += primitive_bytes(flags_of(model.primitives[n.primitive]));
+  }
+  return bytes;
+}
+
 namespace {
 
 bool meshes_fit(const Model& model) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct Model {
   std::vector<Object> objects;
 
   PrimitiveData data() const { return {planes, meshes}; }
+  std::span<const TreeNode> tree(const Object& object) const {
+    return {nodes.data() + object.first_node, object.node_count};
+  }
   friend bool operator==(const Model&, const Model&) = default;
 };
 

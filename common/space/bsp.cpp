@@ -41,7 +41,7 @@ class BspBuilder {
     CellContent content;
     for (std::uint32_t i = first_object; i < end_object; ++i) {
       const Object& object = model_.objects[i];
-      restrict_tree({model_.nodes.data() + object.first_node, object.node_count}, i,
+      restrict_tree(model_.tree(object), i,
                     Aabb::everything(), content);
     }
     bsp_.nodes_.emplace_back();

@@ -155,8 +155,7 @@ class View {
 bool is_inside(const Model& model, const Vec3& point) {
   return std::any_of(model.objects.begin(), model.objects.end(), [&](const Object& object) {
     if (!object.bounds.contains(point)) return false;
-    const std::span<const TreeNode> tree{model.nodes.data() + object.first_node, object.node_count};
-    return evaluate(tree, [&](std::uint32_t p) { return contains(model.primitives[p], model.data(), point); });
+    return evaluate(model.tree(object), [&](std::uint32_t p) { return contains(model.primitives[p], model.data(), point); });
   });
 }
 

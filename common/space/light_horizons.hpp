@@ -66,6 +66,8 @@ class LightHorizons {
   LightHorizons(std::vector<Map> maps, std::vector<LightDepths> depths);
   /// Of a whole model. A light that something surrounds so closely that its map would be useless gets none.
   static LightHorizons of(const Model& model);
+  /// Of maps by light; those that would say nothing are dropped.
+  static LightHorizons without_useless(std::vector<Map> maps);
 
   const std::vector<Map>& maps() const { return maps_; }
   const std::vector<LightDepths>& depths() const { return depths_; }

@@ -19,14 +19,13 @@ class ModelExtract {
     to_.materials = from.materials;
   }
 
-  void add(std::uint32_t id, const Aabb& bounds, std::vector<TreeNode> tree) {
-    Object object{id, static_cast<std::uint32_t>(to_.nodes.size()),
-                  static_cast<std::uint32_t>(tree.size()), bounds};
-    for (TreeNode& n : tree) {
+  void add(const Object& object, std::span<const TreeNode> tree) {
+    const auto first = static_cast<std::uint32_t>(to_.nodes.size());
+    for (TreeNode n : tree) {
       if (n.size == 1) n.primitive = copy(n.primitive);
+      to_.nodes.push_back(n);
     }
-    to_.nodes.insert(to_.nodes.end(), tree.begin(), tree.end());
-    to_.objects.push_back(object);
+    to_.objects.push_back({object.id, first, static_cast<std::uint32_t>(tree.size()), object.bounds});
   }
 
   Model take() { return std::move(to_); }
@@ -86,8 +85,8 @@ class ShareTest {
 
 }  // namespace
 
-Model restrict_to_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
-  ModelExtract extract(model);
+ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
+  ModelContents contents{std::vector<bool>(model.objects.size()), {}};
   const ShareTest test(grid, share, model.delta);
   const auto side = [&](std::uint32_t index) {
     const Primitive& p = model.primitives[index];
@@ -96,11 +95,47 @@ Model restrict_to_share(const Model& model, const MacroGrid& grid, const RegionS
     return touches ? CellSide::kCrosses : CellSide::kOutside;
   };
   std::vector<TreeNode> kept;
-  for (const Object& object : model.objects) {
+  for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
+    const Object& object = model.objects[i];
     if (!test.may_touch(object.bounds)) continue;
     kept.clear();
-    const std::span<const TreeNode> tree{model.nodes.data() + object.first_node, object.node_count};
-    if (prune(tree, side, kept) == Pruned::kVaries) extract.add(object.id, object.bounds, kept);
+    if (prune(model.tree(object), side, kept) != Pruned::kVaries) continue;
+    // Nothing is folded unless a leaf goes.
+    if (kept.size() == object.node_count) {
+      contents.is_whole[i] = true;
+    } else {
+      contents.parts.push_back({i, kept});
+    }
+  }
+  return contents;
+}
+
+void ModelContents::hold_whole(const std::vector<bool>& objects) {
+  for (std::size_t i = 0; i < is_whole.size(); ++i) is_whole[i] = is_whole[i] || objects[i];
+  std::erase_if(parts, [&](const Part& part) { return is_whole[part.object]; });
+}
+
+std::vector<std::uint32_t> places_of_parts(const ModelContents& contents) {
+  std::vector<std::uint32_t> places;
+  std::uint32_t before = 0, object = 0;
+  for (const ModelContents::Part& part : contents.parts) {
+    for (; object < part.object; ++object) before += contents.is_whole[object] ? 1 : 0;
+    places.push_back(before++);
+  }
+  return places;
+}
+
+Model extract(const Model& model, const ModelContents& contents) {
+  ModelExtract extract(model);
+  auto part = contents.parts.begin();
+  for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
+    const Object& object = model.objects[i];
+    if (contents.is_whole[i]) {
+      extract.add(object, model.tree(object));
+    } else if (part != contents.parts.end() && part->object == i) {
+      extract.add(object, part->tree);
+      ++part;
+    }
   }
   return extract.take();
 }

@@ -57,7 +57,7 @@ class SurfaceTreeBuilder {
 
   void add_object(std::uint32_t index) {
     const Object& object = model_.objects[index];
-    const std::span<const TreeNode> tree{model_.nodes.data() + object.first_node, object.node_count};
+    const auto tree = model_.tree(object);
     const auto literals = static_cast<std::uint32_t>(std::count_if(tree.begin(), tree.end(), is_leaf));
     if (literals <= options_.whole_object_literals) {
       if (!object.bounds.is_empty()) add_item(index, tree, object.bounds, SurfaceItem::kAllSpace);

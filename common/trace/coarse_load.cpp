@@ -22,13 +22,17 @@ constexpr std::size_t kManyRays = 8192;
 class CoarseTrace {
  public:
   CoarseTrace(const Domain& whole, const MacroGrid& grid,
-              std::shared_ptr<const LightHorizons> horizons, double crossing_cost)
+              std::shared_ptr<const LightHorizons> horizons, ShadowTracing shadows, double crossing_cost)
       : grid_(grid),
+        shadows_(shadows),
         crossing_cost_(crossing_cost),
         map_(grid.columns(), grid.rows()),
         domain_(whole.restricted_to(grid, {grid.columns(), grid.rows(), 0, 0})),
         evaluator_(domain_),
-        waiting_(std::size_t{grid.columns()} * grid.rows()) {
+        open_domain_(whole),
+        open_evaluator_(open_domain_),
+        waiting_(std::size_t{grid.columns()} * grid.rows()),
+        staying_(waiting_.size()) {
     domain_.set_horizons(std::move(horizons));
   }
 
@@ -41,7 +45,7 @@ class CoarseTrace {
         const bool is_whole = x == block.x0 && y == block.y0 &&
                               grid_.region_of_pixel(block.x1 - 1, block.y1 - 1) == at;
         if (is_whole) part = block;
-        trace(at, [&] { evaluator_.trace_pixels(part, step_); });
+        trace(at, evaluator_, [&] { evaluator_.trace_pixels(part, step_); });
         if (is_whole) return;
       }
     }
@@ -52,7 +56,11 @@ class CoarseTrace {
   void finish() {
     const std::size_t last = waiting_.size() - 1;
     for (bool forth = true; waiting_count_ > 0; forth = !forth) {
-      for (std::size_t i = 0; i <= last; ++i) trace_waiting(waiting_[forth ? i : last - i]);
+      for (std::size_t i = 0; i <= last; ++i) {
+        const std::size_t at = forth ? i : last - i;
+        trace_waiting(waiting_[at]);
+        trace_staying(staying_[at]);
+      }
     }
   }
   bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
@@ -60,6 +68,7 @@ class CoarseTrace {
   /// So far, of the rays that do not wait.
   std::uint64_t crossings() const { return crossings_; }
   const LoadMap& map() const { return map_; }
+  std::vector<LeavingLight> take_left_by_light() { return std::move(left_by_light_); }
   double rays_per_primary() const {
     const auto all = std::accumulate(created_.begin(), created_.end(), std::uint64_t{0});
     const std::uint64_t primary = created_[static_cast<std::size_t>(RayKind::kPrimary)];
@@ -74,19 +83,26 @@ class CoarseTrace {
     crossings_ += taken_.size();
     waiting_count_ -= taken_.size();
     map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
-    trace(at, [&] { evaluator_.trace_rays(taken_, step_); });
+    trace(at, evaluator_, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
+  }
+  /// Shadow rays that are traced where they began, on their further way.
+  void trace_staying(std::vector<RayTask>& rays) {
+    if (rays.empty()) return;
+    waiting_count_ -= rays.size();
+    trace(rays.front().region, open_evaluator_, [&] { open_evaluator_.trace_rays(rays, step_); });
+    rays.clear();
   }
   std::size_t index_of(RegionIndex r) const {
     return std::size_t{r.row} * grid_.columns() + r.column;
   }
 
   template <typename Trace>
-  void trace(RegionIndex at, Trace&& work) {
+  void trace(RegionIndex at, const Evaluator& evaluator, Trace&& work) {
     domain_.confine_to({grid_.columns(), grid_.rows(), at.column, at.row});
-    const WalkCounts before = evaluator_.walk_counts();
+    const WalkCounts before = evaluator.walk_counts();
     work();
-    const WalkCounts walk = evaluator_.walk_counts().since(before);
+    const WalkCounts walk = evaluator.walk_counts().since(before);
     const auto& created = step_.rays.created;
     const auto rays = std::accumulate(created.begin(), created.end(), std::uint64_t{0});
     for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
@@ -94,20 +110,38 @@ class CoarseTrace {
                                   kCellCost * static_cast<double>(walk.cells_visited) +
                                   kQuarticCost * static_cast<double>(walk.quartics_solved) +
                                   static_cast<double>(walk.primitives_tested);
-    for (const RayTask& ray : step_.leaving) waiting_[index_of(ray.region)].push_back(ray);
+    for (RayTask& ray : step_.leaving) take_leaving(ray, at);
     waiting_count_ += step_.leaving.size();
     step_.clear();
   }
 
+  /// Hops tell shadow rays that have left their first region from those that have not.
+  void take_leaving(RayTask& ray, RegionIndex from) {
+    if (ray.kind == RayKind::kShadow && ray.hops == 0) {
+      ray.hops = 1;
+      left_by_light_.push_back({ray, from});
+      if (shadows_ == ShadowTracing::kWhereItBegins) {
+        ray.region = from;
+        return staying_[index_of(from)].push_back(ray);
+      }
+    }
+    waiting_[index_of(ray.region)].push_back(ray);
+  }
+
   const MacroGrid& grid_;
+  ShadowTracing shadows_;
   double crossing_cost_;
   LoadMap map_;
   /// The whole scene, seen as the region under way.
   Domain domain_;
   Evaluator evaluator_;
+  /// The same without boundaries.
+  Domain open_domain_;
+  Evaluator open_evaluator_;
   /// By region.
-  std::vector<std::vector<RayTask>> waiting_;
+  std::vector<std::vector<RayTask>> waiting_, staying_;
   std::size_t waiting_count_ = 0;
+  std::vector<LeavingLight> left_by_light_;
   std::vector<RayTask> taken_;
   std::uint64_t crossings_ = 0;
   std::array<std::uint64_t, kRayKinds> created_{};  // by kind
@@ -124,9 +158,9 @@ std::uint32_t spreading_step(std::uint32_t count) {
 
 }  // namespace
 
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
-                       std::shared_ptr<const LightHorizons> horizons, double crossing_cost) {
-  CoarseTrace trace(whole, grid, std::move(horizons), crossing_cost);
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
+                       ShadowTracing shadows, double crossing_cost) {
+  CoarseTrace trace(whole, grid, std::move(horizons), shadows, crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;
   const double wanted =
@@ -148,7 +182,7 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
     at = (at + stride) % count;
   }
   trace.finish();
-  return {trace.map(), trace.rays_per_primary()};
+  return {trace.map(), trace.rays_per_primary(), trace.take_left_by_light()};
 }
 
 }  // namespace graycube

@@ -22,15 +22,25 @@ inline constexpr double kCreatedCost = 6;
 inline constexpr double kCellCost = 2;
 inline constexpr double kQuarticCost = 20;
 
+/// A shadow ray that left the region in which it began, with where it goes on.
+struct LeavingLight {
+  RayTask ray;
+  RegionIndex from;
+};
+
 struct CoarseLoad {
   /// By region, what tracing a few evenly spread pixels took there, in tests of primitives.
   LoadMap map;
   /// The rays that descend from a primary ray, itself included, on average.
   double rays_per_primary;
+  std::vector<LeavingLight> left_by_light;
 };
 
+/// Who traces a shadow ray that leaves a region.
+enum class ShadowTracing : std::uint8_t { kWhereItGoes, kWhereItBegins };
+
 /// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid,
-                       std::shared_ptr<const LightHorizons> horizons, double crossing_cost);
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
+                       ShadowTracing shadows, double crossing_cost);
 
 }  // namespace graycube

@@ -85,6 +85,10 @@ class Domain {
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
+  /// Of what this domain does not hold; shadow rays need not leave it where nothing of that can stand in their way.
+  void set_foreign_horizons(std::shared_ptr<const LightHorizons> horizons) {
+    foreign_horizons_ = std::move(horizons);
+  }
   /// The model is a replica of the whole scene, not only what the domain's regions need: no ray stops at their
   /// boundaries.
   void set_replica() { is_replica_ = true; }
@@ -92,8 +96,9 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
-  /// A neighbour's regions, seen as this domain sees its own.
-  std::shared_ptr<const Domain> of_neighbour(const RegionShare& share, Model model) const;
+  /// A neighbour's regions, with its foreign horizons, seen as this domain sees its own.
+  std::shared_ptr<const Domain> of_neighbour(const RegionShare& share, Model model,
+                                             std::shared_ptr<const LightHorizons> foreign_horizons = nullptr) const;
   /// What this domain holds, seen as the regions of a share.
   Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
     Domain domain = *this;
@@ -103,6 +108,9 @@ class Domain {
   }
   /// From here on only those of the grid's regions; not while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
+  bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
+  /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on; has_foreign_horizons() only.
+  bool holds_way_to_light(const RayTask& task, double t) const;
   bool borrows() const { return !borrowed_.empty(); }
   bool has_horizons() const { return horizons_ != nullptr; }
   /// What a light's horizons tell of the way that a shadow ray takes to it; has_horizons() only.
@@ -160,7 +168,7 @@ class Domain {
   bool is_replica_ = false;
   /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
-  std::shared_ptr<const LightHorizons> horizons_;
+  std::shared_ptr<const LightHorizons> horizons_, foreign_horizons_;
 };
 
 }  // namespace graycube

@@ -108,6 +108,8 @@ class Evaluator {
   static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
   void trace_sent_rays(Step& step);
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
+  RayPacket::Mask keep_light_rays(std::span<const OpenRay> rays, RayPacket::Mask leaving,
+                                  std::span<const RegionExit, RayPacket::kSize> exits, RayPacket& packet) const;
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
   void go_on(const OpenRay& ray, const RegionExit& exit, Step& step);
   void go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step);

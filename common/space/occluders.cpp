@@ -1,0 +1,90 @@
+#include "space/occluders.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "space/light_view.hpp"
+
+namespace graycube {
+
+Occluders Occluders::of(const Model& model) {
+  struct Place {
+    std::uint32_t texel;
+    Entry entry;
+  };
+  const auto& lights = model.settings.lights;
+  if (lights.size() * model.objects.size() > LightHorizons::kMaxWork) return {};
+  Occluders all;
+  std::vector<Sight> seen;
+  std::vector<Place> places;
+  std::size_t count = 0;
+  for (const PointLight& light : lights) {
+    const LightView view(model, light.position);
+    places.clear();
+    OfLight& l = all.lights_.emplace_back();
+    l.first.assign(LightHorizons::kTexels + 1, 0);
+    for (std::uint32_t object = 0; object < model.objects.size(); ++object) {
+      seen.clear();
+      view.look_at(model.objects[object], seen);
+      count += seen.size();
+      if (count > kMostEntries) return {};
+      for (const Sight& s : seen) {
+        places.push_back({s.texel, {s.begin, object}});
+        ++l.first[s.texel + 1];
+      }
+    }
+    for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) l.first[texel + 1] += l.first[texel];
+    std::vector<std::uint32_t> next(l.first.begin(), l.first.end() - 1);
+    l.entries.resize(places.size());
+    for (const Place& p : places) l.entries[next[p.texel]++] = p.entry;
+    for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
+      std::sort(l.entries.begin() + l.first[texel], l.entries.begin() + l.first[texel + 1],
+                [](const Entry& a, const Entry& b) { return a.begin < b.begin; });
+    }
+  }
+  return all;
+}
+
+std::vector<LightHorizons::Map> Occluders::maps(const std::function<bool(std::uint32_t)>& counts) const {
+  std::vector<LightHorizons::Map> maps;
+  for (std::size_t light = 0; light < lights_.size(); ++light) {
+    auto& map = maps.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
+    for (std::uint32_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
+      const auto entries = at(light, texel);
+      const auto first = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return counts(e.object); });
+      if (first != entries.end()) map[texel] = first->begin;
+    }
+  }
+  return maps;
+}
+
+void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
+                      const std::function<std::size_t(std::uint32_t)>& bytes_of, std::size_t room,
+                      std::vector<bool>& is_held) {
+  // A ray is finished only when all that it asks for is held: each object gets its part of it.
+  std::vector<double> worth(is_held.size());
+  std::vector<std::uint32_t> wanted, missing;
+  for (const OccluderQuery& q : queries) {
+    missing.clear();
+    for (const Occluders::Entry& e : occluders.at(q.light, q.texel)) {
+      if (e.begin >= q.distance) break;
+      if (!is_held[e.object]) missing.push_back(e.object);
+    }
+    for (const std::uint32_t object : missing) {
+      if (worth[object] == 0) wanted.push_back(object);
+      worth[object] += 1 / static_cast<double>(missing.size());
+    }
+  }
+  for (const std::uint32_t object : wanted) worth[object] /= static_cast<double>(bytes_of(object));
+  std::sort(wanted.begin(), wanted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return worth[a] != worth[b] ? worth[a] > worth[b] : a < b;
+  });
+  for (const std::uint32_t object : wanted) {
+    const std::size_t bytes = bytes_of(object);
+    if (bytes > room) continue;
+    room -= bytes;
+    is_held[object] = true;
+  }
+}
+
+}  // namespace graycube

@@ -1,0 +1,62 @@
+// What may stand between the surfaces of macro-regions and the lights: by light and texel of the cube map about it, the
+// objects that show there. A node that holds those that its own surfaces ask for finishes its shadow rays itself, and its
+// foreign horizons, those of the objects that it does not hold, tell it when it may.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "csg/model.hpp"
+#include "space/light_horizons.hpp"
+
+namespace graycube {
+
+/// A shadow ray asks for all objects of a texel that begin nearer to the light than where it leaves the macro-regions
+/// of its node.
+struct OccluderQuery {
+  std::uint32_t light = 0;
+  std::uint32_t texel = 0;
+  double distance = 0;
+};
+
+class Occluders {
+ public:
+  struct Entry {
+    float begin;
+    /// Index into the model's objects.
+    std::uint32_t object;
+  };
+  /// Entries beyond which lists cost more memory and time than they are likely to save.
+  static constexpr std::size_t kMostEntries = std::size_t{1} << 22;
+
+  /// Of a whole model; empty where LightHorizons::kMaxWork or kMostEntries would be passed.
+  static Occluders of(const Model& model);
+
+  bool is_empty() const { return lights_.empty(); }
+  /// The nearest first.
+  std::span<const Entry> at(std::size_t light, std::uint32_t texel) const {
+    const OfLight& l = lights_[light];
+    return std::span(l.entries).subspan(l.first[texel], l.first[texel + 1] - l.first[texel]);
+  }
+  /// By light, the horizon map of those objects for which `counts`(index) holds.
+  std::vector<LightHorizons::Map> maps(const std::function<bool(std::uint32_t)>& counts) const;
+
+ private:
+  struct OfLight {
+    /// By texel, and one more: where its entries begin.
+    std::vector<std::uint32_t> first;
+    std::vector<Entry> entries;
+  };
+  std::vector<OfLight> lights_;
+};
+
+/// What a node is to hold beside `is_held` (by object), chosen for the most rays that it can finish by the byte: those objects
+/// that `queries` ask for, until `bytes_of`(object) add up to `room` bytes. Sets is_held.
+void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
+                      const std::function<std::size_t(std::uint32_t)>& bytes_of, std::size_t room,
+                      std::vector<bool>& is_held);
+
+}  // namespace graycube

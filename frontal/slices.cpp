@@ -1,0 +1,77 @@
+#include "frontal/slices.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "proto/horizon_bytes.hpp"
+#include "proto/model_slice.hpp"
+#include "proto/share_of.hpp"
+#include "space/light_view.hpp"
+#include "space/restrict.hpp"
+
+namespace graycube {
+namespace {
+
+/// By rank.
+std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
+  std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
+  for (const LeavingLight& light : cut.left_by_light) {
+    const RayTask& task = light.ray;
+    const Rank rank = cube.owner_of(light.from.column, light.from.row);
+    const RegionShare share = share_of(cube, rank);
+    auto exit = cut.grid.exit(light.from, task.ray, task.t);
+    while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
+    if (!exit || exit->t >= task.t_max) continue;
+    const Vec3 to_light = model.settings.lights[task.light].position - task.ray.origin;
+    const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
+    queries[rank.value].push_back({task.light, texel, length(to_light) - exit->t});
+  }
+  return queries;
+}
+
+/// Of all that a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its
+/// macro-regions than the objects that they are of.
+LightHorizons foreign_horizons(const Occluders& occluders, const ModelContents& contents, const Model& slice) {
+  auto maps = occluders.maps([&](std::uint32_t object) { return !contents.is_whole[object]; });
+  std::vector<Sight> seen;
+  for (std::size_t light = 0; light < maps.size(); ++light) {
+    const LightView view(slice, slice.settings.lights[light].position);
+    for (const std::uint32_t part : places_of_parts(contents)) {
+      seen.clear();
+      view.look_at(slice.objects[part], seen);
+      for (const Sight& s : seen) maps[light][s.texel] = std::min(maps[light][s.texel], s.begin);
+    }
+  }
+  return LightHorizons::without_useless(std::move(maps));
+}
+
+}  // namespace
+
+std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+                                   const Occluders& occluders) {
+  std::vector<SharedBytes> slices;
+  const auto queries = queries_of(model, cube, cut);
+  const std::uint64_t room = slice_room(encoded_model_bytes(model), cube.nodes());
+  const auto bytes_of = [&](std::uint32_t object) { return encoded_object_bytes(model, model.objects[object]); };
+  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
+    ModelContents contents = contents_of_share(model, cut.grid, share_of(cube, Rank{rank}));
+    if (occluders.is_empty()) {
+      slices.push_back(encode_model(extract(model, contents)));
+      continue;
+    }
+    std::uint64_t held = 0;
+    for (std::uint32_t i = 0; i < model.objects.size(); ++i) held += contents.is_whole[i] ? bytes_of(i) : 0;
+    for (const ModelContents::Part& part : contents.parts) held += bytes_of(part.object);
+    std::vector<bool> whole = contents.is_whole;
+    choose_occluders(occluders, queries[rank], bytes_of, room - std::min(room, held), whole);
+    contents.hold_whole(whole);
+    const Model slice = extract(model, contents);
+    Bytes bytes = encode_model(slice);
+    const Bytes horizons = encode_horizons(foreign_horizons(occluders, contents, slice));
+    bytes.insert(bytes.end(), horizons.begin(), horizons.end());
+    slices.push_back(std::move(bytes));
+  }
+  return slices;
+}
+
+}  // namespace graycube

@@ -1,0 +1,29 @@
+// What each node gets of the scene: the parts that reach into its macro-regions, and what may stand between its surfaces
+// and the lights.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frontal/partition.hpp"
+#include "space/occluders.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+/// Bytes of slices that a node may hold, its own with occluders, and copies of neighbours': so many times an equal share of
+/// the whole scene, or so many bytes where that is more.
+inline constexpr std::uint64_t kMostShares = 2;
+inline constexpr std::uint64_t kSmallSlices = std::uint64_t{1} << 20;
+
+/// Room for slices on each of `nodes`, of a model that takes so many bytes.
+constexpr std::uint64_t slice_room(std::uint64_t model_bytes, std::uint32_t nodes) {
+  return std::max(kMostShares * model_bytes / nodes, kSmallSlices);
+}
+
+/// By rank. Where `occluders` is empty, nodes get nothing but what their macro-regions need; otherwise also what the partition's
+/// pre-render asks for, as far as there is room, and foreign horizons behind the model.
+std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+                                   const Occluders& occluders);
+
+}  // namespace graycube
