@@ -27,7 +27,7 @@ constexpr std::uint32_t kAutoScatter = 1;
 
 /// Depths beside light horizons: there must be this many primary rays to each primitive, since two more scenes are
 /// subdivided for them, and to each texel.
-constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
+constexpr std::uint64_t kRaysPerPrimitiveForDepths = 1200000;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
 /// Up to this size of the model most nodes have room for all that their shadow rays ask for.

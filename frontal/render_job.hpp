@@ -18,7 +18,7 @@ namespace graycube {
 struct FlowLimits {
   /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all their light. All
   /// rays in the machine descend from them (design section 10).
-  std::uint32_t window_tiles = 64;
+  std::uint32_t window_tiles = 256;
   /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not fewer than the least.
   double window_rays = 300'000;
   std::uint32_t least_window_tiles = 8;

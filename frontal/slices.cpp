@@ -24,7 +24,7 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     if (!exit || exit->t >= task.t_max) continue;
     const Vec3 to_light = model.settings.lights[task.light].position - task.ray.origin;
     const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    queries[rank.value].push_back({task.light, texel, length(to_light) - exit->t});
+    queries[rank.value].push_back({task.light, texel, length(to_light)});
   }
   return queries;
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,12 @@ class LightHorizons {
   Reach toward(std::size_t light, const Vec3& direction) const;
   /// The horizon alone.
   double distance(std::size_t light, const Vec3& direction) const { return toward(light, direction).lit; }
+  bool has_depths(std::size_t light) const { return light < block_of_.size() && !block_of_[light].empty(); }
+  /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.
+  void distances_at(std::size_t light, std::span<const std::uint32_t> texels, std::span<float> distances) const {
+    const bool has_map = light < maps_.size() && !maps_[light].empty();
+    for (std::size_t i = 0; i < texels.size(); ++i) distances[i] = has_map ? maps_[light][texels[i]] : 0;
+  }
 
  private:
   static constexpr std::uint16_t kNoBlock = 0xFFFF;
@@ -105,8 +112,7 @@ inline LightHorizons::Reach LightHorizons::toward(std::size_t light, const Vec3&
   const double i = place.u * kSide, j = place.v * kSide;
   const std::uint32_t column = cell_at(i, kSide), row = cell_at(j, kSide);
   const std::size_t texel = (place.face * kSide + row) * kSide + column;
-  const bool has_blocks = light < block_of_.size() && !block_of_[light].empty();
-  const std::uint16_t block = has_blocks ? block_of_[light][texel] : kNoBlock;
+  const std::uint16_t block = has_depths(light) ? block_of_[light][texel] : kNoBlock;
   if (block == kNoBlock) return {static_cast<double>(maps_[light][texel])};
   const LightDepths& depths = depths_[light];
   const auto at = [&](std::uint32_t split) {

@@ -46,14 +46,6 @@ Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdi
       share_(share),
       territory_(Territory::of(std::move(model), subdivision)) {}
 
-bool Domain::holds_way_to_light(const RayTask& task, double t) const {
-  // Far more than rounding makes of a ray's distance from its light.
-  constexpr double kMargin = 1e-8;
-  const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
-  const double left = length(to_light) - t + kMargin * larger(1.0, max_abs(task.ray.origin));
-  return left * (1 + kMargin) < foreign_horizons_->distance(task.light, -task.ray.direction);
-}
-
 RayPacket::Mask Domain::first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                         std::span<Crossing, RayPacket::kSize> found) const {
   if (territory_->tree) return territory_->tree->first_crossings(packet, scratch.tree, found);

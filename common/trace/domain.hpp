@@ -109,14 +109,22 @@ class Domain {
   /// From here on only those of the grid's regions; not while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
+  /// Whether a shadow ray is surely nearer to its light than `distance` when `left` (both in scene units) of the way is left.
+  static bool is_beyond(const RayTask& task, double left, double distance) {
+    // Far more than rounding makes of a ray's distance from its light.
+    constexpr double kMargin = 1e-8;
+    return left * (1 + kMargin) + kMargin * larger(1.0, max_abs(task.ray.origin)) < distance;
+  }
   /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on; has_foreign_horizons() only.
-  bool holds_way_to_light(const RayTask& task, double t) const;
+  bool holds_way_to_light(const RayTask& task, double t) const {
+    const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
+    return is_beyond(task, length(to_light) - t, foreign_horizons_->distance(task.light, -task.ray.direction));
+  }
   bool borrows() const { return !borrowed_.empty(); }
   bool has_horizons() const { return horizons_ != nullptr; }
-  /// What a light's horizons tell of the way that a shadow ray takes to it; has_horizons() only.
-  LightHorizons::Reach reach(std::size_t light, const Ray& ray) const {
-    return horizons_->toward(light, -ray.direction);
-  }
+  /// has_horizons(), has_foreign_horizons() only.
+  const LightHorizons& horizons() const { return *horizons_; }
+  const LightHorizons& foreign_horizons() const { return *foreign_horizons_; }
 
   /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,

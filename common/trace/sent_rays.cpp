@@ -1,9 +1,12 @@
 // What the surfaces that a wave meets send out: their own light, secondary rays, shadow rays, and the credit of each.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "shading/phong.hpp"
+#include "space/cube_texels.hpp"
 #include "trace/first_hit.hpp"
 #include "trace/step.hpp"
 
@@ -124,9 +127,22 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
     cosine_[i] = normal_[0][i] * to_light_[0][i] + normal_[1][i] * to_light_[1][i] +
                  normal_[2][i] * to_light_[2][i];
   }
+  look_up_horizons(light);
   for (std::size_t i = 0; i < count; ++i) {
     if (cosine_[i] > 0) send_light_ray(light, i, step);
   }
+}
+
+/// For all surfaces at once: most of what it takes is waiting for memory.
+void Evaluator::look_up_horizons(std::uint32_t light) {
+  const bool has_foreign = domain_.has_foreign_horizons();
+  if (!domain_.has_horizons() && !has_foreign) return;
+  std::array<std::uint32_t, kWaveRays> texels;
+  static_assert(kWaveRays % kTexelLanes == 0);
+  find_opposite_texels(to_light_[0], to_light_[1], to_light_[2], surfaces_.size(), LightHorizons::kSide, texels);
+  const auto used = std::span(texels).first(surfaces_.size());
+  if (domain_.has_horizons()) domain_.horizons().distances_at(light, used, lit_);
+  if (has_foreign) domain_.foreign_horizons().distances_at(light, used, all_held_);
 }
 
 void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& step) {
@@ -147,8 +163,13 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = distance - sent.task.t;
   sent.task.light = static_cast<std::uint16_t>(light & kLightMask);
+  if (domain_.has_foreign_horizons()) {
+    sent.stays = Domain::is_beyond(sent.task, distance, all_held_[surface]);
+  }
   if (domain_.has_horizons()) {
-    const Horizon at_horizon = meet_horizon(sent.task);
+    LightHorizons::Reach reach{lit_[surface]};
+    if (domain_.horizons().has_depths(light)) reach = domain_.horizons().toward(light, -l);
+    const Horizon at_horizon = meet_horizon(reach, sent.task);
     if (at_horizon != Horizon::kGoesOn) {
       ++step.rays.skipped_by_horizon;
       if (at_horizon == Horizon::kArrives) contribute(sent, weight, step);
@@ -161,8 +182,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
 
 /// Shortens a shadow ray to where it reaches its light's horizon, unless it begins beyond that, where nothing can stand
 /// in its way, or where no light comes.
-Evaluator::Horizon Evaluator::meet_horizon(RayTask& task) const {
-  const LightHorizons::Reach reach = domain_.reach(task.light, task.ray);
+Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, RayTask& task) const {
   // Crossings that count end a little before the light: the ray is between these distances from it.
   const double epsilon = task.t;
   const double farthest = task.t_max + 4 * epsilon;

@@ -225,13 +225,15 @@ void Evaluator::light_arrives(const OpenRay& ray, const Rgb& light, Step& step) 
   open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
-/// Takes those rays that would leave their region, but can be finished here, out of a mask; they go on to their light.
-RayPacket::Mask Evaluator::keep_light_rays(std::span<const OpenRay> rays, RayPacket::Mask leaving,
-                                           std::span<const RegionExit, RayPacket::kSize> exits,
-                                           RayPacket& packet) const {
+/// As Domain::shorten_to_exits, but for those rays that can be finished here: they go on to their light.
+RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
+                                              std::span<RegionExit, RayPacket::kSize> exits) const {
+  if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
+  RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
+  if (!domain_.has_foreign_horizons()) return leaving;
   for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    if (!domain_.holds_way_to_light(rays[i].task, exits[i].t)) continue;
+    if (!rays[i].stays && !domain_.holds_way_to_light(rays[i].task, exits[i].t)) continue;
     packet.t1[i] = rays[i].task.t_max;
     leaving &= ~(RayPacket::Mask{1} << i);
   }
@@ -248,8 +250,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
     light[i] = task.weight;
     packet.add(task.ray, task.t, task.t_max);
   }
-  RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
-  if (domain_.has_foreign_horizons()) leaving = keep_light_rays(rays, leaving, exits, packet);
+  const RayPacket::Mask leaving = shorten_light_rays(rays, packet, exits);
   const RayPacket::Mask passing = domain_.pass_lights(packet, scratch_, light);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const OpenRay& ray = rays[i];

@@ -84,6 +84,8 @@ class Evaluator {
     std::uint32_t slot = 0;
     /// The surface that sent it, until its credit is known.
     std::uint32_t surface = 0;
+    /// A shadow ray: the domain holds all that may stand in its way, whatever regions that is in.
+    bool stays = false;
   };
 
   /// Where a ray of the wave meets a surface.
@@ -108,8 +110,8 @@ class Evaluator {
   static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
   void trace_sent_rays(Step& step);
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
-  RayPacket::Mask keep_light_rays(std::span<const OpenRay> rays, RayPacket::Mask leaving,
-                                  std::span<const RegionExit, RayPacket::kSize> exits, RayPacket& packet) const;
+  RayPacket::Mask shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
+                                     std::span<RegionExit, RayPacket::kSize> exits) const;
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
   void go_on(const OpenRay& ray, const RegionExit& exit, Step& step);
   void go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step);
@@ -121,7 +123,8 @@ class Evaluator {
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
   /// What becomes of a new shadow ray.
   enum class Horizon : std::uint8_t { kGoesOn, kArrives, kEndsInShadow };
-  Horizon meet_horizon(RayTask& task) const;
+  void look_up_horizons(std::uint32_t light);
+  Horizon meet_horizon(const LightHorizons::Reach& reach, RayTask& task) const;
   void share_credit();
   void open_pixel(std::uint32_t pixel);
   void contribute(const OpenRay& ray, const Rgb& light, Step& step);
@@ -138,6 +141,9 @@ class Evaluator {
   std::vector<SurfacePoint> surfaces_;
   alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
   alignas(64) Coordinates distance_, cosine_;
+  /// Of the light's horizons, where the domain has them: what is surely nearer to the light than any surface, and than
+  /// any that is foreign.
+  std::array<float, kWaveRays> lit_, all_held_;
   /// What they send out: refracted and reflected rays, and the shadow rays of each light.
   std::array<std::vector<OpenRay>, 2> secondary_;
   std::vector<std::vector<OpenRay>> shadow_;
