@@ -125,9 +125,9 @@ class FrontalProcess {
     for (Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, std::move(o.message));
     for (const Frontal::Spawn& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
-    for (const Frontal::Spawn& s : frontal_.take_spawns()) {
-      processes_.start(s.rank, s.incarnation, inbox_.endpoint());
-    }
+    std::vector<NodeStart> starts;
+    for (const Frontal::Spawn& s : frontal_.take_spawns()) starts.push_back({s.rank, s.incarnation});
+    processes_.start(starts, inbox_.endpoint());
   }
 
   int signals_;

@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <sstream>
 #include <system_error>
 
 namespace graycube {
@@ -17,10 +20,12 @@ std::string description(int status) {
   return "exited with status " + std::to_string(WEXITSTATUS(status));
 }
 
-/// The child starts with default signal handling and nothing blocked, whatever the frontal has set.
-class SpawnAttributes {
+/// The child starts with default signal handling and nothing blocked, whatever the frontal has set, and writes to `output`.
+class SpawnPlan {
  public:
-  SpawnAttributes() {
+  explicit SpawnPlan(int output) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     ::posix_spawnattr_init(&attributes_);
     sigset_t none, all;
     ::sigemptyset(&none);
@@ -29,43 +34,78 @@ class SpawnAttributes {
     ::posix_spawnattr_setsigdefault(&attributes_, &all);
     ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
-  ~SpawnAttributes() { ::posix_spawnattr_destroy(&attributes_); }
-  SpawnAttributes(const SpawnAttributes&) = delete;
-  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
-  const posix_spawnattr_t* get() const { return &attributes_; }
+  ~SpawnPlan() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&actions_);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+  const posix_spawnattr_t* attributes() const { return &attributes_; }
 
  private:
+  posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
 };
+
+/// What comes out of a pipe until its other end is closed.
+std::string all_of(int pipe) {
+  std::string text;
+  std::array<char, 4096> part;
+  for (;;) {
+    const ssize_t got = ::read(pipe, part.data(), part.size());
+    if (got > 0) text.append(part.data(), static_cast<std::size_t>(got));
+    if (got == 0 || (got < 0 && errno != EINTR)) return text;
+  }
+}
+
+/// Runs a program to its end; what it wrote.
+std::string output_of(std::vector<std::string> command) {
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  std::vector<char*> argv;
+  for (std::string& a : command) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  const SpawnPlan plan(pipe[1]);
+  pid_t pid = 0;
+  const int error = ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(), argv.data(), environ);
+  ::close(pipe[1]);
+  std::string text;
+  if (error == 0) text = all_of(pipe[0]);
+  ::close(pipe[0]);
+  if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
+  while (::waitpid(pid, nullptr, 0) == -1 && errno == EINTR) {
+  }
+  return text;
+}
 
 }  // namespace
 
 NodeProcesses::NodeProcesses(std::filesystem::path program, std::filesystem::path folder,
                              std::uint32_t threads)
-    : program_(std::move(program)), folder_(std::move(folder)), threads_(threads) {}
+    : program_(std::move(program)), folder_(std::move(folder)), threads_(threads) {
+  // The nodes' own parent ends at once: they become children of this process.
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
 
 NodeProcesses::~NodeProcesses() {
   for (const auto& [pid, child] : running_) ::kill(pid, SIGKILL);
   for (const auto& [pid, child] : running_) ::waitpid(pid, nullptr, 0);
 }
 
-void NodeProcesses::start(Rank rank, std::uint32_t incarnation, const std::string& frontal) {
-  const std::string number = std::to_string(rank.value);
-  std::vector<std::string> arguments{
-      program_.string(), "--rank",    number,
-      "--incarnation",   std::to_string(incarnation),
-      "--threads",       std::to_string(threads_),
-      "--frontal",       frontal,
-      "--inbox",         "ipc://" + (folder_ / ("node-" + number)).string()};
-  std::vector<char*> argv;
-  for (std::string& a : arguments) argv.push_back(a.data());
-  argv.push_back(nullptr);
-  const SpawnAttributes attributes;
-  pid_t pid = 0;
-  const int error =
-      ::posix_spawn(&pid, program_.c_str(), nullptr, attributes.get(), argv.data(), environ);
-  if (error != 0) throw std::system_error(error, std::generic_category(), program_.string());
-  running_[pid] = {rank, incarnation};
+void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& frontal) {
+  if (nodes.empty()) return;
+  std::vector<std::string> command{program_.string(), "--threads", std::to_string(threads_), "--frontal", frontal,
+                                   "--folder",        folder_.string()};
+  for (const NodeStart& node : nodes) {
+    command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation", std::to_string(node.incarnation)});
+  }
+  std::istringstream pids(output_of(std::move(command)));
+  for (const NodeStart& node : nodes) {
+    pid_t pid = 0;
+    if (!(pids >> pid)) throw std::system_error(EAGAIN, std::generic_category(), program_.string());
+    running_[pid] = node;
+  }
 }
 
 void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {

@@ -6,12 +6,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "topology/rank.hpp"
 
 namespace graycube {
+
+struct NodeStart {
+  Rank rank;
+  std::uint32_t incarnation;
+};
 
 struct NodeExit {
   Rank rank;
@@ -29,21 +35,18 @@ class NodeProcesses {
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
 
-  /// Throws std::system_error when no process can be started.
-  void start(Rank rank, std::uint32_t incarnation, const std::string& frontal);
+  /// All of them are forked from one process, which has been loaded and linked once and then ends. Throws
+  /// std::system_error when they can't be started.
+  void start(std::span<const NodeStart> nodes, const std::string& frontal);
   void end(Rank rank, std::uint32_t incarnation);
   /// The children that have ended since the last call.
   std::vector<NodeExit> reap();
   bool empty() const { return running_.empty(); }
 
  private:
-  struct Child {
-    Rank rank;
-    std::uint32_t incarnation;
-  };
   std::filesystem::path program_, folder_;
   std::uint32_t threads_;
-  std::map<pid_t, Child> running_;
+  std::map<pid_t, NodeStart> running_;
 };
 
 }  // namespace graycube

@@ -1,11 +1,18 @@
 // graycube-node: one corner of the hypercube. The main thread is the mailroom: it owns every socket.
+#include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "node/evaluator_pool.hpp"
 #include "node/node.hpp"
@@ -18,16 +25,22 @@ namespace graycube {
 namespace {
 
 struct NodeArguments {
-  std::uint32_t rank = 0, incarnation = 0, threads = 1;
-  std::string frontal, inbox;
+  std::vector<std::uint32_t> ranks, incarnations;
+  std::uint32_t threads = 1;
+  std::string frontal, folder;
 };
+
+std::string inbox_of(const NodeArguments& a, std::size_t number) {
+  return "ipc://" + a.folder + "/node-" + std::to_string(a.ranks[number]);
+}
 
 class Mailroom {
  public:
-  explicit Mailroom(const NodeArguments& a)
-      : inbox_(context_, a.inbox),
+  /// Of the node with that number in the arguments.
+  Mailroom(const NodeArguments& a, std::size_t number)
+      : inbox_(context_, inbox_of(a, number)),
         frontal_(context_, a.frontal),
-        node_({Rank{a.rank}, a.incarnation, static_cast<std::uint64_t>(::getpid()),
+        node_({Rank{a.ranks[number]}, a.incarnations[number], static_cast<std::uint64_t>(::getpid()),
                inbox_.endpoint(), a.threads, kVersion}),
         pool_(node_, wakeup_) {
     frontal_.send(node_.hello());
@@ -71,45 +84,89 @@ class Mailroom {
   std::vector<Node::Outgoing> outgoing_;
 };
 
+int fail(const std::string& what, const std::string& where, const std::string& why, int status) {
+  std::fprintf(stderr, "graycube-node: %s: %s: %s\n", what.c_str(), where.c_str(), why.c_str());
+  return status;
+}
+
+int run_node(const NodeArguments& a, std::size_t number) {
+  // A terminal's Ctrl-C is for the command, which stops its nodes in order.
+  ::signal(SIGINT, SIG_IGN);
+  keep_freed_memory(a.threads);
+  try {
+    Mailroom(a, number).run();
+  } catch (const TransportError& e) {
+    return fail("node " + std::to_string(a.ranks[number]), "transport", e.what(), 1);
+  }
+  return 0;
+}
+
+/// In a process just forked: once its parent has ended, and the frontal has become its parent, a node.
+int become_node(const NodeArguments& a, std::size_t number, int until_closed, pid_t forked_from, pid_t frontal) {
+  char none = 0;
+  while (::read(until_closed, &none, 1) == -1 && errno == EINTR) {
+  }
+  ::close(until_closed);
+  // A process closes its files just before its children change parents.
+  while (::getppid() == forked_from) ::sched_yield();
+  // A node never outlives its frontal.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != frontal) return 1;
+  return run_node(a, number);
+}
+
+/// Forks a process for each node, writes their ids and ends: all that loading and linking took is done once, and the
+/// nodes are children of the frontal (a subreaper) like any others.
+int fork_nodes(const NodeArguments& a) {
+  const pid_t self = ::getpid(), frontal = ::getppid();
+  std::array<int, 2> alive{};
+  if (::pipe2(alive.data(), O_CLOEXEC) != 0) return fail("start", "pipe", std::strerror(errno), 1);
+  std::string pids;
+  for (std::size_t number = 0; number < a.ranks.size(); ++number) {
+    const pid_t pid = ::fork();
+    if (pid < 0) return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
+    if (pid == 0) {
+      ::close(alive[1]);
+      // What the frontal waits for the end of.
+      const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+      ::dup2(nowhere, STDOUT_FILENO);
+      ::close(nowhere);
+      return become_node(a, number, alive[0], self, frontal);
+    }
+    pids += std::to_string(pid) + '\n';
+  }
+  std::fputs(pids.c_str(), stdout);
+  return 0;
+}
+
 int run_main(int argc, char** argv) {
-  CLI::App app{"A node of a Graycube farm; started by graycube-frontal."};
+  CLI::App app{"Nodes of a Graycube farm; started by graycube-frontal."};
   app.set_version_flag("--version", std::string("graycube-node ") + kVersion);
   NodeArguments a;
-  app.add_option("--rank", a.rank)->required()->check(CLI::Range(0u, kMaxNodes - 1));
-  app.add_option("--incarnation", a.incarnation)->required();
+  app.add_option("--rank", a.ranks, "Of each node")->required()->check(CLI::Range(0u, kMaxNodes - 1));
+  app.add_option("--incarnation", a.incarnations, "Of each node")->required();
   app.add_option("--threads", a.threads)->check(CLI::Range(1u, kMaxThreads));
   app.add_option("--frontal", a.frontal, "The frontal's endpoint")->required();
-  app.add_option("--inbox", a.inbox, "Where to listen for neighbours")->required();
+  app.add_option("--folder", a.folder, "Where nodes listen for their neighbours")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "graycube-node: usage: command line: %s\n", e.what());
-    return 2;
+    return fail("usage", "command line", e.what(), 2);
   }
-  for (const std::string& endpoint : {a.frontal, a.inbox}) {
-    if (const auto problem = endpoint_problem(endpoint)) {
-      std::fprintf(stderr, "graycube-node: usage: %s: %s\n", endpoint.c_str(), problem->c_str());
-      return 2;
-    }
+  if (a.ranks.size() != a.incarnations.size()) {
+    return fail("usage", "--incarnation", "expected one for each --rank", 2);
+  }
+  if (const auto problem = endpoint_problem(a.frontal)) return fail("usage", a.frontal, *problem, 2);
+  for (std::size_t number = 0; number < a.ranks.size(); ++number) {
+    const std::string inbox = inbox_of(a, number);
+    if (const auto problem = endpoint_problem(inbox)) return fail("usage", inbox, *problem, 2);
   }
   if (const std::string problem = choose_simd_from_environment(); !problem.empty()) {
-    std::fprintf(stderr, "graycube-node: environment: GRAYCUBE_SIMD: %s\n", problem.c_str());
-    return 2;
+    return fail("environment", "GRAYCUBE_SIMD", problem, 2);
   }
-  // A node never outlives its frontal.
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // A terminal's Ctrl-C is for the command, which stops its nodes in order.
-  ::signal(SIGINT, SIG_IGN);
-  keep_freed_memory(a.threads);
-  try {
-    Mailroom(a).run();
-  } catch (const TransportError& e) {
-    std::fprintf(stderr, "graycube-node: node %u: %s\n", a.rank, e.what());
-    return 1;
-  }
-  return 0;
+  return fork_nodes(a);
 }
 
 }  // namespace
