@@ -32,17 +32,19 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 /// Of all that a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its
 /// macro-regions than the objects that they are of.
 LightHorizons foreign_horizons(const Occluders& occluders, const ModelContents& contents, const Model& slice) {
-  auto maps = occluders.maps([&](std::uint32_t object) { return !contents.is_whole[object]; });
+  auto distances = occluders.foreign_distances(contents.is_whole);
+  std::vector<HorizonMap> maps;
   std::vector<Sight> seen;
-  for (std::size_t light = 0; light < maps.size(); ++light) {
+  for (std::size_t light = 0; light < distances.size(); ++light) {
     const LightView view(slice, slice.settings.lights[light].position);
     for (const std::uint32_t part : places_of_parts(contents)) {
       seen.clear();
       view.look_at(slice.objects[part], seen);
-      for (const Sight& s : seen) maps[light][s.texel] = std::min(maps[light][s.texel], s.begin);
+      for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
     }
+    maps.push_back(HorizonMap::of(distances[light]));
   }
-  return LightHorizons::without_useless(std::move(maps));
+  return LightHorizons(std::move(maps));
 }
 
 }  // namespace

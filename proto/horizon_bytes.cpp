@@ -26,15 +26,48 @@ void put_depths(const LightDepths& depths, ByteWriter& w) {
 
 bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
+/// Runs of texels beyond which there is nothing, each with the distances behind it.
+template <typename F>
+void for_each_run(const HorizonMap& map, F&& f) {
+  const std::span<const std::uint16_t> units = map.units;
+  for (std::size_t at = 0; at < units.size();) {
+    const std::size_t begin = at;
+    while (at < units.size() && units[at] == HorizonMap::kNever) ++at;
+    const std::size_t first = at;
+    while (at < units.size() && units[at] != HorizonMap::kNever) ++at;
+    f(static_cast<std::uint16_t>(first - begin), units.subspan(first, at - first));
+  }
+}
+
+std::size_t map_bytes(const HorizonMap& map) {
+  std::size_t bytes = sizeof map.unit;
+  for_each_run(map, [&](std::uint16_t, std::span<const std::uint16_t> units) {
+    bytes += (2 + units.size()) * sizeof(std::uint16_t);
+  });
+  return bytes;
+}
+
+void put_map(const HorizonMap& map, ByteWriter& w) {
+  w.put(map.unit);
+  for_each_run(map, [&](std::uint16_t never, std::span<const std::uint16_t> units) {
+    w.put(never);
+    w.put(static_cast<std::uint16_t>(units.size()));
+    for (const std::uint16_t u : units) w.put(u);
+  });
+}
+
 /// False when the bytes are none.
-bool take_map(ByteReader& r, LightHorizons::Map& map) {
-  const std::byte* at = r.take(LightHorizons::kTexels * sizeof(float));
-  if (at == nullptr) return false;
-  map.reserve(LightHorizons::kTexels);
-  for (std::size_t i = 0; i < LightHorizons::kTexels; ++i) {
-    map.push_back(load_little<float>(at + i * sizeof(float)));
-    // Written so that NaN fails too.
-    if (!(map.back() >= 0)) return false;
+bool take_map(ByteReader& r, HorizonMap& map) {
+  map.unit = r.get<double>();
+  if (!is_positive(map.unit)) return false;
+  map.units.reserve(LightHorizons::kTexels);
+  while (map.units.size() < LightHorizons::kTexels) {
+    const std::size_t never = r.get<std::uint16_t>(), count = r.get<std::uint16_t>();
+    if (!r.ok() || never + count == 0 || never + count > LightHorizons::kTexels - map.units.size()) return false;
+    map.units.resize(map.units.size() + never, HorizonMap::kNever);
+    const std::byte* at = r.take(count * sizeof(std::uint16_t));
+    if (at == nullptr) return false;
+    for (std::size_t i = 0; i < count; ++i) map.units.push_back(load_little<std::uint16_t>(at + i * sizeof(std::uint16_t)));
   }
   return true;
 }
@@ -77,7 +110,7 @@ std::vector<std::byte> encode_horizons(const LightHorizons& horizons) {
   };
   std::size_t size = kHorizonHeaderBytes;
   for (std::size_t light = 0; light < maps.size(); ++light) {
-    size += 1 + (maps[light].empty() ? 0 : maps[light].size() * sizeof(float) + depth_bytes(depths(light)));
+    size += 1 + (maps[light].empty() ? 0 : map_bytes(maps[light]) + depth_bytes(depths(light)));
   }
   ByteWriter w(size);
   w.put(kHorizonMagic);
@@ -86,7 +119,7 @@ std::vector<std::byte> encode_horizons(const LightHorizons& horizons) {
   for (std::size_t light = 0; light < maps.size(); ++light) {
     w.put(static_cast<std::uint8_t>(maps[light].empty() ? 0 : 1));
     if (maps[light].empty()) continue;
-    for (const float distance : maps[light]) w.put(distance);
+    put_map(maps[light], w);
     put_depths(depths(light), w);
   }
   return std::move(w).take();
@@ -98,7 +131,7 @@ std::optional<LightHorizons> decode_horizons(std::span<const std::byte> bytes, s
   if (r.get<std::uint32_t>() != kHorizonMagic) return std::nullopt;
   if (r.get<std::uint32_t>() != LightHorizons::kSide) return std::nullopt;
   if (r.get<std::uint32_t>() != lights) return std::nullopt;
-  std::vector<LightHorizons::Map> maps;
+  std::vector<HorizonMap> maps;
   std::vector<LightDepths> depths;
   std::uint64_t most_texels = kMostDepthTexels;
   for (std::size_t light = 0; light < lights && r.ok(); ++light) {

@@ -12,14 +12,14 @@
 
 namespace graycube {
 
-/// "GCH2", read as a little-endian integer.
-inline constexpr std::uint32_t kHorizonMagic = 0x32484347;
+/// "GCH3", read as a little-endian integer.
+inline constexpr std::uint32_t kHorizonMagic = 0x33484347;
 inline constexpr std::size_t kHorizonHeaderBytes = 12;
 /// Of a light's depths, before its blocks.
 inline constexpr std::size_t kDepthHeaderBytes = 20;
 inline constexpr std::size_t kMaxHorizonBytes =
     kHorizonHeaderBytes +
-    kMaxCreditLights * (2 + LightHorizons::kTexels * (sizeof(float) + sizeof(std::uint32_t)) + kDepthHeaderBytes) +
+    kMaxCreditLights * (2 + sizeof(double) + LightHorizons::kTexels * (2 * sizeof(std::uint16_t) + sizeof(std::uint32_t)) + kDepthHeaderBytes) +
     2 * kMostDepthTexels * sizeof(std::uint16_t);
 
 /// At most kMaxCreditLights lights.

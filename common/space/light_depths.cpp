@@ -51,7 +51,7 @@ std::vector<Demand> demands(const LightHorizons& horizons, const SurfaceTree& wh
       const double distance = length(from_light);
       if (horizons.maps()[l].empty() || !(dot(n, from_light) < 0)) continue;
       const std::size_t texel = cube_texel(cube_place(from_light), LightHorizons::kSide);
-      if (!(horizons.maps()[l][texel] < distance)) continue;
+      if (!(horizons.maps()[l].at(texel) < distance)) continue;
       ++result[l].samples[texel];
       result[l].far = std::max(result[l].far, distance);
     }
@@ -163,7 +163,7 @@ bool is_inside(const Model& model, const Vec3& point) {
 class DepthMaker {
  public:
   /// `map` is the light's horizon.
-  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light, const LightHorizons::Map& map,
+  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light, const HorizonMap& map,
              double far, LightDepths& depths)
       : larger_(larger, light), smaller_(smaller, light), map_(map), far_(far), depths_(depths) {}
 
@@ -207,7 +207,7 @@ class DepthMaker {
   void look_about(std::size_t block, std::uint32_t x0, std::uint32_t y0) {
     aim(block, depths_.split, x0, y0);
     const auto begins = larger_.look(directions_, far_);
-    const double at_least = map_[depths_.blocks[block]];
+    const double at_least = map_.at(depths_.blocks[block]);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const double lit = std::max(begins[i] * (1 - kRelativeError), at_least);
       depths_.lit[places_[i]] =
@@ -238,7 +238,7 @@ class DepthMaker {
   }
 
   View larger_, smaller_;
-  const LightHorizons::Map& map_;
+  const HorizonMap& map_;
   double far_;
   LightDepths& depths_;
   std::vector<Vec3> directions_;

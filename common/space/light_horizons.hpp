@@ -42,6 +42,26 @@ struct LightDepths {
   friend bool operator==(const LightDepths&, const LightDepths&) = default;
 };
 
+/// A light's cube map of distances.
+struct HorizonMap {
+  /// An infinite distance.
+  static constexpr std::uint16_t kNever = 0xFFFF;
+
+  /// > 0, in scene units.
+  double unit = 1;
+  /// By texel, in units; none where the light has no horizon.
+  std::vector<std::uint16_t> units;
+
+  /// Distances ≥ 0 (scene units) by texel, each made shorter by less than a 65 000th of the farthest that is finite. None
+  /// where they say nothing, or nothing of use.
+  static HorizonMap of(std::span<const float> distances);
+  bool empty() const { return units.empty(); }
+  double at(std::size_t texel) const {
+    return units[texel] == kNever ? std::numeric_limits<double>::infinity() : units[texel] * unit;
+  }
+  friend bool operator==(const HorizonMap&, const HorizonMap&) = default;
+};
+
 class LightHorizons {
  public:
   /// Texels along a side of a face.
@@ -49,8 +69,6 @@ class LightHorizons {
   static constexpr std::size_t kTexels = cube_texels(kSide);
   /// Lights × objects beyond which looking for horizons costs more than it is likely to save.
   static constexpr std::uint64_t kMaxWork = 2'000'000;
-  using Map = std::vector<float>;
-
   /// What is known of a direction from a light, as distances from it (scene units).
   struct Reach {
     /// No surface is nearer.
@@ -61,16 +79,14 @@ class LightHorizons {
   };
 
   LightHorizons() = default;
-  /// By light; a map has kTexels distances ≥ 0, or none: that light has no horizon.
-  explicit LightHorizons(std::vector<Map> maps) : LightHorizons(std::move(maps), {}) {}
+  /// By light; a map has kTexels distances or none.
+  explicit LightHorizons(std::vector<HorizonMap> maps) : LightHorizons(std::move(maps), {}) {}
   /// By light, too, or for none; only lights that have a map have depths.
-  LightHorizons(std::vector<Map> maps, std::vector<LightDepths> depths);
+  LightHorizons(std::vector<HorizonMap> maps, std::vector<LightDepths> depths);
   /// Of a whole model. A light that something surrounds so closely that its map would be useless gets none.
   static LightHorizons of(const Model& model);
-  /// Of maps by light; those that would say nothing are dropped.
-  static LightHorizons without_useless(std::vector<Map> maps);
 
-  const std::vector<Map>& maps() const { return maps_; }
+  const std::vector<HorizonMap>& maps() const { return maps_; }
   const std::vector<LightDepths>& depths() const { return depths_; }
   /// True when no light has a map.
   bool is_empty() const;
@@ -83,20 +99,22 @@ class LightHorizons {
   /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.
   void distances_at(std::size_t light, std::span<const std::uint32_t> texels, std::span<float> distances) const {
     const bool has_map = light < maps_.size() && !maps_[light].empty();
-    for (std::size_t i = 0; i < texels.size(); ++i) distances[i] = has_map ? maps_[light][texels[i]] : 0;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      distances[i] = has_map ? static_cast<float>(maps_[light].at(texels[i])) : 0;
+    }
   }
 
  private:
   static constexpr std::uint16_t kNoBlock = 0xFFFF;
   static_assert(kTexels < kNoBlock);
 
-  std::vector<Map> maps_;
+  std::vector<HorizonMap> maps_;
   std::vector<LightDepths> depths_;
   /// By light with depths and texel of its map: the number of its block, or kNoBlock.
   std::vector<std::vector<std::uint16_t>> block_of_;
 };
 
-inline LightHorizons::LightHorizons(std::vector<Map> maps, std::vector<LightDepths> depths)
+inline LightHorizons::LightHorizons(std::vector<HorizonMap> maps, std::vector<LightDepths> depths)
     : maps_(std::move(maps)), depths_(std::move(depths)), block_of_(depths_.size()) {
   for (std::size_t light = 0; light < depths_.size(); ++light) {
     const auto& blocks = depths_[light].blocks;
@@ -113,7 +131,7 @@ inline LightHorizons::Reach LightHorizons::toward(std::size_t light, const Vec3&
   const std::uint32_t column = cell_at(i, kSide), row = cell_at(j, kSide);
   const std::size_t texel = (place.face * kSide + row) * kSide + column;
   const std::uint16_t block = has_depths(light) ? block_of_[light][texel] : kNoBlock;
-  if (block == kNoBlock) return {static_cast<double>(maps_[light][texel])};
+  if (block == kNoBlock) return {maps_[light].at(texel)};
   const LightDepths& depths = depths_[light];
   const auto at = [&](std::uint32_t split) {
     return (std::size_t{block} * split + cell_at((j - row) * split, split)) * split + cell_at((i - column) * split, split);

@@ -1,7 +1,6 @@
 #include "space/light_view.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -105,12 +104,6 @@ double half_space_begin(const Vec3& normal, double offset, const Cone& cone) {
   return steepest < 0 ? offset / steepest : kInf;
 }
 
-/// The nearest float that is no farther, with kSightSpareBits zeros at its end.
-float shortened(double distance) {
-  const float nearer = std::nextafter(static_cast<float>(distance), 0.0f);
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearer) >> kSightSpareBits << kSightSpareBits);
-}
-
 class ObjectView {
  public:
   ObjectView(const Model& model, const Object& object, const Vec3& light, std::vector<Sight>& seen)
@@ -171,7 +164,7 @@ class ObjectView {
     }
     const std::uint32_t face = 2 * static_cast<std::uint32_t>(axis) + (sign < 0 ? 1 : 0);
     seen_.push_back({(face * LightHorizons::kSide + v) * LightHorizons::kSide + u,
-                     shortened(begin * cone.shortest() * (1 - kShorten))});
+                     std::nextafter(static_cast<float>(begin * cone.shortest() * (1 - kShorten)), 0.0f)});
   }
 
   double object_begin(const Cone& cone) const {

@@ -9,12 +9,11 @@
 namespace graycube {
 
 /// A texel in which an object shows, and a distance from the light (scene units, ≥ 0) below which none of its
-/// surfaces begins there. Its last kSightSpareBits bits are 0, so that three bytes hold it.
+/// surfaces begins there.
 struct Sight {
   std::uint32_t texel;
   float begin;
 };
-inline constexpr int kSightSpareBits = 8;
 
 class LightView {
  public:

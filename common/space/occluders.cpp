@@ -45,17 +45,18 @@ Occluders Occluders::of(const Model& model) {
   return all;
 }
 
-std::vector<LightHorizons::Map> Occluders::maps(const std::function<bool(std::uint32_t)>& counts) const {
-  std::vector<LightHorizons::Map> maps;
-  for (std::size_t light = 0; light < lights_.size(); ++light) {
-    auto& map = maps.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
-    for (std::uint32_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
-      const auto entries = at(light, texel);
-      const auto first = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return counts(e.object); });
-      if (first != entries.end()) map[texel] = first->begin;
+std::vector<std::vector<float>> Occluders::foreign_distances(const std::vector<bool>& is_held) const {
+  std::vector<std::vector<float>> distances;
+  for (const OfLight& l : lights_) {
+    auto& of_light = distances.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
+    for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
+      std::uint32_t i = l.first[texel];
+      const std::uint32_t end = l.first[texel + 1];
+      while (i < end && is_held[l.entries[i].object]) ++i;
+      if (i < end) of_light[texel] = l.entries[i].begin;
     }
   }
-  return maps;
+  return distances;
 }
 
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,

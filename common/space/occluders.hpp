@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -41,8 +42,8 @@ class Occluders {
     const OfLight& l = lights_[light];
     return std::span(l.entries).subspan(l.first[texel], l.first[texel + 1] - l.first[texel]);
   }
-  /// By light, the horizon map of those objects for which `counts`(index) holds.
-  std::vector<LightHorizons::Map> maps(const std::function<bool(std::uint32_t)>& counts) const;
+  /// By light and texel, where the nearest of the objects that are not held (by index) begins.
+  std::vector<std::vector<float>> foreign_distances(const std::vector<bool>& is_held) const;
 
  private:
   struct OfLight {
