@@ -39,31 +39,45 @@ void Evaluator::trace_pixels(const PixelRect& rect, Step& step) {
   for (std::uint32_t y = rect.y0; y < rect.y1; y += kBlockSide) {
     for (std::uint32_t x = rect.x0; x < rect.x1; x += kBlockSide) {
       trace_block({x, y, std::min(x + kBlockSide, rect.x1), std::min(y + kBlockSide, rect.y1)}, step);
+      if (domain_.grid() == nullptr) finish_pixels(step);
     }
   }
+  finish_pixels(step);
 }
 
-void Evaluator::trace_block(const PixelRect& block, Step& step) {
-  const ImageSize& image = domain_.settings().image;
-  for (std::uint32_t s = 0; s < image.samples * image.samples; ++s) {
-    for (std::uint32_t y = block.y0; y < block.y1; y += kPacketSide) {
-      for (std::uint32_t x = block.x0; x < block.x1; x += kPacketSide) {
-        start_primary_rays({x, y, std::min(x + kPacketSide, block.x1),
-                            std::min(y + kPacketSide, block.y1)}, s, step);
-      }
-    }
-    trace_all(step);
-  }
+void Evaluator::finish_pixels(Step& step) {
+  trace_all(step);
   close_pixels(step);
 }
 
+/// What the primary rays of a block send out is left on the stack.
+void Evaluator::trace_block(const PixelRect& block, Step& step) {
+  const ImageSize& image = domain_.settings().image;
+  const auto first_slot = static_cast<std::uint32_t>(open_.size());
+  for (std::uint32_t s = 0; s < image.samples * image.samples; ++s) {
+    std::uint32_t slot = first_slot;
+    for (std::uint32_t y = block.y0; y < block.y1; y += kPacketSide) {
+      for (std::uint32_t x = block.x0; x < block.x1; x += kPacketSide) {
+        start_primary_rays({x, y, std::min(x + kPacketSide, block.x1),
+                            std::min(y + kPacketSide, block.y1)}, s, slot, step);
+      }
+    }
+    // Where rays leave for other nodes, too few stay of a block's to fill packets: those of several blocks gather.
+    if (domain_.grid() != nullptr && s == 0) {
+      take_wave(viewing_);
+      trace_wave(step);
+    } else {
+      trace_all(step);
+    }
+  }
+}
+
 /// Sample number s of each pixel. The pixels of a block are opened by the first, in the order of all others.
-void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Step& step) {
+void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std::uint32_t& slot, Step& step) {
   const ImageSize& image = domain_.settings().image;
   const std::uint32_t sx = s % image.samples, sy = s / image.samples;
   for (std::uint32_t y = pixels.y0; y < pixels.y1; ++y) {
     for (std::uint32_t x = pixels.x0; x < pixels.x1; ++x) {
-      const auto slot = static_cast<std::uint32_t>(viewing_.size());
       OpenRay& ray = viewing_.emplace_back();
       // In place: see spawn.
       new (&ray.task.ray) Ray(domain_.frame().primary_ray(x, y, sx, sy));
@@ -71,8 +85,8 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, Ste
       ray.task.t_max = kInf;
       ray.task.weight = {1, 1, 1};
       ray.task.region = domain_.region_of_pixel(x, y);
-      ray.slot = slot;
       if (s == 0) open_pixel(ray.task.pixel);
+      ray.slot = slot++;
       ++step.rays.created[static_cast<std::size_t>(RayKind::kPrimary)];
     }
   }

@@ -100,8 +100,9 @@ class Evaluator {
   using Coordinates = std::array<double, kWaveRays>;
 
   void trace_block(const PixelRect& block, Step& step);
+  void finish_pixels(Step& step);
   void trace_all(Step& step);
-  void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, Step& step);
+  void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, std::uint32_t& slot, Step& step);
   bool has_enough(const Step& step) const;
   void set_all_aside(Step& step);
   void take_wave(std::vector<OpenRay>& stack);
