@@ -1,6 +1,7 @@
 #include "frontal/slices.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "proto/horizon_bytes.hpp"
@@ -31,7 +32,8 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 
 /// Of all that a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its
 /// macro-regions than the objects that they are of.
-LightHorizons foreign_horizons(const Occluders& occluders, const ModelContents& contents, const Model& slice) {
+LightHorizons foreign_horizons(const Occluders& occluders, std::span<const double> reaches, const ModelContents& contents,
+                               const Model& slice) {
   auto distances = occluders.foreign_distances(contents.is_whole);
   std::vector<HorizonMap> maps;
   std::vector<Sight> seen;
@@ -42,7 +44,7 @@ LightHorizons foreign_horizons(const Occluders& occluders, const ModelContents& 
       view.look_at(slice.objects[part], seen);
       for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
     }
-    maps.push_back(HorizonMap::of(distances[light]));
+    maps.push_back(HorizonMap::of(distances[light], reaches[light]));
   }
   return LightHorizons(std::move(maps));
 }
@@ -52,26 +54,31 @@ LightHorizons foreign_horizons(const Occluders& occluders, const ModelContents& 
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
                                    const Occluders& occluders) {
   std::vector<SharedBytes> slices;
+  if (occluders.is_empty()) {
+    for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
+      slices.push_back(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))));
+    }
+    return slices;
+  }
   const auto queries = queries_of(model, cube, cut);
   const std::uint64_t room = slice_room(encoded_model_bytes(model), cube.nodes());
-  const auto bytes_of = [&](std::uint32_t object) { return encoded_object_bytes(model, model.objects[object]); };
+  std::vector<double> reaches;
+  for (const PointLight& light : model.settings.lights) reaches.push_back(LightHorizons::reach_of(model, light));
+  std::vector<std::size_t> bytes;
+  for (const Object& object : model.objects) bytes.push_back(encoded_object_bytes(model, object));
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     ModelContents contents = contents_of_share(model, cut.grid, share_of(cube, Rank{rank}));
-    if (occluders.is_empty()) {
-      slices.push_back(encode_model(extract(model, contents)));
-      continue;
-    }
     std::uint64_t held = 0;
-    for (std::uint32_t i = 0; i < model.objects.size(); ++i) held += contents.is_whole[i] ? bytes_of(i) : 0;
-    for (const ModelContents::Part& part : contents.parts) held += bytes_of(part.object);
+    for (std::size_t i = 0; i < bytes.size(); ++i) held += contents.is_whole[i] ? bytes[i] : 0;
+    for (const ModelContents::Part& part : contents.parts) held += bytes[part.object];
     std::vector<bool> whole = contents.is_whole;
-    choose_occluders(occluders, queries[rank], bytes_of, room - std::min(room, held), whole);
+    choose_occluders(occluders, queries[rank], bytes, room - std::min(room, held), whole);
     contents.hold_whole(whole);
     const Model slice = extract(model, contents);
-    Bytes bytes = encode_model(slice);
-    const Bytes horizons = encode_horizons(foreign_horizons(occluders, contents, slice));
-    bytes.insert(bytes.end(), horizons.begin(), horizons.end());
-    slices.push_back(std::move(bytes));
+    Bytes encoded = encode_model(slice);
+    const Bytes horizons = encode_horizons(foreign_horizons(occluders, reaches, contents, slice));
+    encoded.insert(encoded.end(), horizons.begin(), horizons.end());
+    slices.push_back(std::move(encoded));
   }
   return slices;
 }

@@ -1,6 +1,7 @@
 #include "space/light_horizons.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "space/light_view.hpp"
@@ -27,28 +28,35 @@ LightHorizons LightHorizons::of(const Model& model) {
       view.look_at(object, seen);
       for (const Sight& s : seen) distances[s.texel] = std::min(distances[s.texel], s.begin);
     }
-    maps.push_back(HorizonMap::of(distances));
+    maps.push_back(HorizonMap::of(distances, reach_of(model, light)));
   }
   return LightHorizons(std::move(maps));
 }
 
-HorizonMap HorizonMap::of(std::span<const float> distances) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  float farthest = 0, most = 0;
-  for (const float d : distances) {
-    most = std::max(most, d);
-    farthest = std::max(farthest, d <= kMost ? d : 0);
-  }
-  if (!(most > 0)) return {};
-  // No finite distance is so many units long that it would count as none, and no product is longer than what it is of.
-  HorizonMap map{std::max<double>(farthest, std::numeric_limits<float>::min()) / (kNever - 1), {}};
+HorizonMap HorizonMap::of(std::span<const float> distances, double reach) {
+  if (std::none_of(distances.begin(), distances.end(), [](float d) { return d > 0; })) return {};
+  // No product of unit and units is longer than what it is of.
+  HorizonMap map{reach / (kNever - 1), {}};
   map.units.resize(distances.size());
   const double units_per_length = (1 - kRelativeError) / map.unit;
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double d = distances[i];
-    map.units[i] = d <= kMost ? static_cast<std::uint16_t>(d * units_per_length) : kNever;
+    const bool is_never = d > std::numeric_limits<float>::max();
+    map.units[i] = is_never ? kNever : static_cast<std::uint16_t>(std::min(d, reach) * units_per_length);
   }
   return map;
+}
+
+double LightHorizons::reach_of(const Model& model, const PointLight& light) {
+  double reach = 0;
+  for (const Object& object : model.objects) {
+    const Vec3 lo = object.bounds.lo - light.position, hi = object.bounds.hi - light.position;
+    const Vec3 far{larger(std::fabs(lo.x), std::fabs(hi.x)), larger(std::fabs(lo.y), std::fabs(hi.y)),
+                   larger(std::fabs(lo.z), std::fabs(hi.z))};
+    const double distance = length(far);
+    if (std::isfinite(distance)) reach = std::max(reach, distance);
+  }
+  return reach > 0 ? reach : 1;
 }
 
 bool LightHorizons::is_empty() const {

@@ -52,9 +52,9 @@ struct HorizonMap {
   /// By texel, in units; none where the light has no horizon.
   std::vector<std::uint16_t> units;
 
-  /// Distances ≥ 0 (scene units) by texel, each made shorter by less than a 65 000th of the farthest that is finite. None
-  /// where they say nothing, or nothing of use.
-  static HorizonMap of(std::span<const float> distances);
+  /// Distances ≥ 0 (scene units) by texel, each made shorter by a 65 000th of `reach` at most; what is finite and farther than
+  /// that is cut off there. None where all are 0.
+  static HorizonMap of(std::span<const float> distances, double reach);
   bool empty() const { return units.empty(); }
   double at(std::size_t texel) const {
     return units[texel] == kNever ? std::numeric_limits<double>::infinity() : units[texel] * unit;
@@ -95,6 +95,9 @@ class LightHorizons {
   Reach toward(std::size_t light, const Vec3& direction) const;
   /// The horizon alone.
   double distance(std::size_t light, const Vec3& direction) const { return toward(light, direction).lit; }
+  /// How far away from the light (scene units) distances are worth something: the farthest corner of the bounds of any object
+  /// that has any. > 0.
+  static double reach_of(const Model& model, const PointLight& light);
   bool has_depths(std::size_t light) const { return light < block_of_.size() && !block_of_[light].empty(); }
   /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.
   void distances_at(std::size_t light, std::span<const std::uint32_t> texels, std::span<float> distances) const {

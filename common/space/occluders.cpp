@@ -60,8 +60,7 @@ std::vector<std::vector<float>> Occluders::foreign_distances(const std::vector<b
 }
 
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
-                      const std::function<std::size_t(std::uint32_t)>& bytes_of, std::size_t room,
-                      std::vector<bool>& is_held) {
+                      std::span<const std::size_t> bytes, std::size_t room, std::vector<bool>& is_held) {
   // A ray is finished only when all that it asks for is held: each object gets its part of it.
   std::vector<double> worth(is_held.size());
   std::vector<std::uint32_t> wanted, missing;
@@ -76,14 +75,13 @@ void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery>
       worth[object] += 1 / static_cast<double>(missing.size());
     }
   }
-  for (const std::uint32_t object : wanted) worth[object] /= static_cast<double>(bytes_of(object));
+  for (const std::uint32_t object : wanted) worth[object] /= static_cast<double>(bytes[object]);
   std::sort(wanted.begin(), wanted.end(), [&](std::uint32_t a, std::uint32_t b) {
     return worth[a] != worth[b] ? worth[a] > worth[b] : a < b;
   });
   for (const std::uint32_t object : wanted) {
-    const std::size_t bytes = bytes_of(object);
-    if (bytes > room) continue;
-    room -= bytes;
+    if (bytes[object] > room) continue;
+    room -= bytes[object];
     is_held[object] = true;
   }
 }

@@ -5,8 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -55,9 +53,8 @@ class Occluders {
 };
 
 /// What a node is to hold beside `is_held` (by object), chosen for the most rays that it can finish by the byte: those objects
-/// that `queries` ask for, until `bytes_of`(object) add up to `room` bytes. Sets is_held.
+/// that `queries` ask for, until their `bytes` (by object) add up to `room`. Sets is_held.
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
-                      const std::function<std::size_t(std::uint32_t)>& bytes_of, std::size_t room,
-                      std::vector<bool>& is_held);
+                      std::span<const std::size_t> bytes, std::size_t room, std::vector<bool>& is_held);
 
 }  // namespace graycube
