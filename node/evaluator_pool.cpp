@@ -48,6 +48,10 @@ void EvaluatorPool::work(unsigned index) {
   Workbench bench;
   std::unique_lock lock(mutex_);
   double counted_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+  const auto since_last_count = [&] {
+    const double now_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    return now_s - std::exchange(counted_s, now_s);
+  };
   while (!stopping_) {
     std::optional<Work> piece;
     if (index < node_.threads()) piece = node_.take_work();
@@ -55,6 +59,7 @@ void EvaluatorPool::work(unsigned index) {
     // Also for the result of the piece before.
     after_change();
     if (!piece) {
+      busy_s_ += since_last_count();
       if (!node_.has_job()) bench.clear();
       changed_.wait(lock);
       --waiting_;
@@ -64,11 +69,9 @@ void EvaluatorPool::work(unsigned index) {
     const bool is_primary = std::holds_alternative<TileWork>(piece->what);
     lock.unlock();
     WorkResult result = bench.run(std::move(*piece));
-    // What lies between pieces counts with the later one: looking at the clock takes a system call.
-    const double now_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    const double busy_s = now_s - std::exchange(counted_s, now_s);
     lock.lock();
-    if (!is_build) busy_s_ += busy_s;
+    // Rendering is counted when the evaluator waits: looking at the clock takes a system call.
+    if (is_build) since_last_count();
     if (is_primary) last_primary_ = WaitClock::Time::clock::now();
     node_.give_result(std::move(result));
   }

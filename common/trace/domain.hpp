@@ -164,6 +164,11 @@ class Domain {
     if (!grid_ || is_replica_) return 0;
     return grid_->shorten_to_exits(region, packet, exits);
   }
+  /// Primary rays stay in their pixel's macro-region, unless they are on its boundary.
+  bool primary_rays_may_leave() const {
+    const auto is_inside = [](double at) { return at > 0 && at < 1; };
+    return !is_inside(frame_.sample_x) || !is_inside(frame_.sample_y);
+  }
   RegionIndex region_of_pixel(std::uint32_t x, std::uint32_t y) const {
     return grid_ ? grid_->region_of_pixel(x, y) : RegionIndex{};
   }

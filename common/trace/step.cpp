@@ -76,6 +76,8 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
 void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std::uint32_t& slot, Step& step) {
   const ImageSize& image = domain_.settings().image;
   const std::uint32_t sx = s % image.samples, sy = s / image.samples;
+  const RegionIndex first = domain_.region_of_pixel(pixels.x0, pixels.y0);
+  const bool is_one_region = first == domain_.region_of_pixel(pixels.x1 - 1, pixels.y1 - 1);
   for (std::uint32_t y = pixels.y0; y < pixels.y1; ++y) {
     for (std::uint32_t x = pixels.x0; x < pixels.x1; ++x) {
       OpenRay& ray = viewing_.emplace_back();
@@ -84,7 +86,7 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std
       ray.task.pixel = y * image.width + x;
       ray.task.t_max = kInf;
       ray.task.weight = {1, 1, 1};
-      ray.task.region = domain_.region_of_pixel(x, y);
+      ray.task.region = is_one_region ? first : domain_.region_of_pixel(x, y);
       if (s == 0) open_pixel(ray.task.pixel);
       ray.slot = slot++;
       ++step.rays.created[static_cast<std::size_t>(RayKind::kPrimary)];
@@ -283,10 +285,12 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
   for (const OpenRay& ray : rays) packet.add(ray.task.ray, ray.task.t, kInf);
-  const RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
+  const RayTask& front = rays.front().task;
+  const bool may_leave = front.kind != RayKind::kPrimary || domain_.primary_rays_may_leave();
+  const RayPacket::Mask leaving = may_leave ? domain_.shorten_to_exits(front.region, packet, exits) : 0;
   std::array<Crossing, RayPacket::kSize> found;
   RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
-  hits |= entries_behind(domain_, rays.front().task.kind, packet, scratch_, found);
+  hits |= entries_behind(domain_, front.kind, packet, scratch_, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], step);
