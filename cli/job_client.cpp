@@ -1,8 +1,10 @@
 #include "cli/job_client.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
 
+#include "proto/control.hpp"
 #include "proto/picture_rows.hpp"
 #include "shading/settings.hpp"
 
@@ -98,6 +100,20 @@ std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& dis
 
 control::JobInfo job_info(FarmClient& farm, std::uint32_t job) {
   return farm.ask<control::JobInfo>(control::Status{job}, "job").first;
+}
+
+std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job, const Outputs& outputs,
+                                                     const ImageSize& size) {
+  const auto absolute = [](const std::filesystem::path& path) {
+    return path.empty() ? std::string() : std::filesystem::absolute(path).string();
+  };
+  const control::Write request{job, absolute(outputs.exr), absolute(outputs.png)};
+  // Text in messages is cut and mended where it is too long or no UTF-8.
+  const auto arriving = decode(encode(request));
+  const auto* message = std::get_if<ControlMessage>(&arriving);
+  if (message == nullptr || *message != ControlMessage(request)) return std::nullopt;
+  if (std::uint64_t{size.width} * size.height > kMostPixelsToWrite) return std::nullopt;
+  return farm.ask<control::Written>(request, "output").first;
 }
 
 Picture fetch_picture(FarmClient& farm, std::uint32_t job) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cli/farm_client.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_input.hpp"
 #include "film/film.hpp"
@@ -28,6 +30,11 @@ control::JobInfo job_info(FarmClient& farm, std::uint32_t job);
 
 /// A done job's picture. Throws a Failure also when the frontal sends nonsense.
 Picture fetch_picture(FarmClient& farm, std::uint32_t job);
+
+/// Has a private frontal write a done job's picture, each file whole or not at all. Nothing where it can't: the picture is too
+/// large, or no message holds the paths. Throws a Failure when a file can't be written.
+std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job, const Outputs& outputs,
+                                                     const ImageSize& size);
 
 /// "roth on 8 nodes, 4 token rounds".
 std::string summary_text(const control::JobInfo& info);

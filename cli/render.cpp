@@ -36,9 +36,17 @@ SharedBytes bytes_to_send(SceneInput scene) {
   return bytes_of(scene.text);
 }
 
-/// Renders on a farm of its own. Interrupts must be held: the farm has to be put away.
-Rendered render_on_farm(const RenderCommand& command, const std::string& name, SharedBytes scene,
-                        FrontalProcess& frontal) {
+ImageSize size_of(const Scene& scene, const control::JobOptions& options) {
+  ImageSize size = scene.settings.image;
+  size.width = options.width.value_or(size.width);
+  size.height = options.height.value_or(size.height);
+  return size;
+}
+
+/// Renders on a farm of its own, which writes the pictures, too, if it can: there are no pixels then. Interrupts must be held:
+/// the farm has to be put away.
+Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs, const std::string& name, SharedBytes scene,
+                        const ImageSize& size, FrontalProcess& frontal) {
   ProgressDisplay display(stdout, command.is_quiet);
   const std::string& endpoint = frontal.wait_until_listening();
   FarmClient farm(endpoint, [&] {
@@ -50,22 +58,29 @@ Rendered render_on_farm(const RenderCommand& command, const std::string& name, S
   const std::uint32_t job = submit_scene(farm, name, std::move(scene), options);
   Rendered rendered;
   rendered.stats = follow_job(farm, job, display);
-  rendered.picture = fetch_picture(farm, job);
+  if (const auto written = have_picture_written(farm, job, outputs, size)) {
+    rendered.picture.width = written->width;
+    rendered.picture.height = written->height;
+    rendered.written_cpu_s = written->cpu_s;
+  } else {
+    rendered.picture = fetch_picture(farm, job);
+  }
   rendered.summary = summary_text(job_info(farm, job));
   return rendered;
 }
 
-/// With what the whole command took, which it returns, and what reading took of that.
-double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started, double load_s) {
+/// With what the whole command took, which it returns, what reading took of that, and what the frontal took to write pictures.
+double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started, double load_s,
+                         double written_cpu_s = 0) {
   const double wall_s = seconds_since(started);
-  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds(), load_s));
+  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds() + written_cpu_s, load_s));
   return wall_s;
 }
 
 void write_outputs(const RenderCommand& command, const Outputs& outputs, const std::string& scene,
                    const Rendered& rendered, Clock::time_point started, double load_s) {
-  write_pictures(outputs, rendered.picture, scene);
-  const double wall_s = write_timed_stats(outputs, rendered.stats, started, load_s);
+  if (!rendered.picture.rgb.empty()) write_pictures(outputs, rendered.picture, scene);
+  const double wall_s = write_timed_stats(outputs, rendered.stats, started, load_s, rendered.written_cpu_s);
   if (command.is_quiet) return;
   std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
               rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
@@ -103,9 +118,10 @@ ExitStatus run(const RenderCommand& command) {
   Rendered rendered;
   try {
     const auto compiling = Clock::now();
+    const ImageSize size = size_of(scene.scene, command.options);
     SharedBytes bytes = bytes_to_send(std::move(scene));
     load_s += seconds_since(compiling);
-    rendered = render_on_farm(command, name, std::move(bytes), frontal);
+    rendered = render_on_farm(command, outputs, name, std::move(bytes), size, frontal);
   } catch (const Failure& failure) {
     write_timed_stats(outputs, failure.statistics(), started, load_s);
     throw;

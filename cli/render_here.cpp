@@ -93,7 +93,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.per_node.front().memory_bytes = domain.memory_bytes();
   display.clear();
   return {film.develop(), statistics_json(s),
-          "serial, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads")};
+          "serial, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), 0};
 }
 
 }  // namespace graycube

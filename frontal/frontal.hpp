@@ -46,7 +46,7 @@ struct FrontalOptions {
   FlowLimits limits{};
   /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a camera has a direction,
   /// and whatever else readers of scenes check, is not checked again.
-  bool takes_compiled_scenes = false;
+  bool is_private = false;
 };
 
 class Frontal {
@@ -123,7 +123,10 @@ class Frontal {
   void on_submit(const PeerId& peer, const control::Submit& m, std::span<const std::byte> scene);
   void on_watch(const PeerId& peer, std::uint32_t job);
   void on_cancel(const PeerId& peer, std::uint32_t job);
+  /// The picture of a job that is done; null, and a refusal sent, where there is none.
+  const Picture* done_picture(const PeerId& peer, std::uint32_t job);
   void on_fetch(const PeerId& peer, const control::Fetch& m);
+  void on_write(const PeerId& peer, const control::Write& m);
   void send_list(const PeerId& peer);
   void send_nodes(const PeerId& peer);
   std::optional<control::JobInfo> find_info(std::uint32_t job) const;

@@ -1,6 +1,7 @@
 // What clients may ask of the frontal.
 #include <algorithm>
 
+#include "film/picture_files.hpp"
 #include "frontal/frontal.hpp"
 #include "proto/control.hpp"
 #include "proto/model_slice.hpp"
@@ -30,6 +31,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message, const
   }
   if (std::holds_alternative<control::Nodes>(message)) return send_nodes(peer);
   if (const auto* fetch = std::get_if<control::Fetch>(&message)) return on_fetch(peer, *fetch);
+  if (const auto* write = std::get_if<control::Write>(&message)) return on_write(peer, *write);
   if (std::holds_alternative<control::Down>(message)) {
     send(peer, control::Bye{});
     return go_down();
@@ -56,7 +58,7 @@ void Frontal::on_submit(const PeerId& peer, const control::Submit& m, std::span<
     return refuse(peer, 0, FailureCode::kBadRequest, "--algorithm",
                   "serial runs in the command itself, without a farm");
   }
-  if (is_encoded_model(scene) && !options_.takes_compiled_scenes) {
+  if (is_encoded_model(scene) && !options_.is_private) {
     return refuse(peer, 0, FailureCode::kBadInput, m.scene_name, "this farm compiles scenes itself: expected JSON or CBOR");
   }
   QueuedJob job;
@@ -167,17 +169,45 @@ void Frontal::end_queued(std::size_t index, JobState state, FailureCode code,
   keep(std::move(job), {});
 }
 
+const Picture* Frontal::done_picture(const PeerId& peer, std::uint32_t job) {
+  const auto info = find_info(job);
+  const Picture* picture = info && info->state == JobState::kDone ? store_.picture(job) : nullptr;
+  if (!info) {
+    refuse(peer, job, FailureCode::kUnknownJob, "", "no such job");
+  } else if (info->state != JobState::kDone) {
+    refuse(peer, job, FailureCode::kNotDone, "", "the job is " + std::string(to_string(info->state)));
+  } else if (picture == nullptr) {
+    refuse(peer, job, FailureCode::kFailed, "", "the picture is not kept any longer");
+  }
+  return picture;
+}
+
+/// The picture needs no way through sockets: who asks is the one that has started this frontal, and could write the files
+/// itself.
+void Frontal::on_write(const PeerId& peer, const control::Write& m) {
+  if (!options_.is_private) {
+    return refuse(peer, m.job, FailureCode::kBadRequest, "type", "only a private frontal writes files");
+  }
+  const Picture* picture = done_picture(peer, m.job);
+  if (picture == nullptr) return;
+  if (std::uint64_t{picture->width} * picture->height > kMostPixelsToWrite) {
+    return refuse(peer, m.job, FailureCode::kTooLarge, "", "the picture has to be fetched");
+  }
+  const double began_s = cpu_seconds();
+  const char* option = "-o";
+  try {
+    if (!m.exr.empty()) write_exr(m.exr, *picture, {find_info(m.job)->scene, options_.version});
+    option = "--png";
+    if (!m.png.empty()) write_png(m.png, *picture);
+  } catch (const PictureError& e) {
+    return refuse(peer, m.job, FailureCode::kFailed, option, e.what());
+  }
+  send(peer, control::Written{m.job, picture->width, picture->height, cpu_seconds() - began_s});
+}
+
 void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
-  const auto info = find_info(m.job);
-  if (!info) return refuse(peer, m.job, FailureCode::kUnknownJob, "", "no such job");
-  if (info->state != JobState::kDone) {
-    return refuse(peer, m.job, FailureCode::kNotDone, "",
-                  "the job is " + std::string(to_string(info->state)));
-  }
-  const Picture* picture = store_.picture(m.job);
-  if (picture == nullptr) {
-    return refuse(peer, m.job, FailureCode::kFailed, "", "the picture is not kept any longer");
-  }
+  const Picture* picture = done_picture(peer, m.job);
+  if (picture == nullptr) return;
   if (m.first_row >= picture->height) {
     return refuse(peer, m.job, FailureCode::kBadRequest, "first_row", "beyond the picture");
   }

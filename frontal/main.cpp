@@ -65,10 +65,10 @@ class FrontalProcess {
                   .silence_s = a.silence_s,
                   .version = kVersion,
                   .limits = a.limits,
-                  .takes_compiled_scenes = a.is_private},
+                  .is_private = a.is_private},
                  *store_),
         preparation_(wakeup_) {
-    frontal_.cpu_seconds = [] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); };
+    frontal_.cpu_seconds = [this] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s(); };
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     if (http_) std::cout << "page " << http_->url() << std::endl;
     std::cout << "listening " << inbox_.endpoint() << std::endl;

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -59,8 +60,10 @@ std::string all_of(int pipe) {
   }
 }
 
-/// Runs a program to its end; what it wrote.
-std::string output_of(std::vector<std::string> command) {
+double seconds_of(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`.
+std::string output_of(std::vector<std::string> command, double& cpu_s) {
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   std::vector<char*> argv;
@@ -74,8 +77,10 @@ std::string output_of(std::vector<std::string> command) {
   if (error == 0) text = all_of(pipe[0]);
   ::close(pipe[0]);
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
-  while (::waitpid(pid, nullptr, 0) == -1 && errno == EINTR) {
+  rusage usage{};
+  while (::wait4(pid, nullptr, 0, &usage) == -1 && errno == EINTR) {
   }
+  cpu_s += seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   return text;
 }
 
@@ -100,7 +105,7 @@ void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& f
   for (const NodeStart& node : nodes) {
     command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation", std::to_string(node.incarnation)});
   }
-  std::istringstream pids(output_of(std::move(command)));
+  std::istringstream pids(output_of(std::move(command), start_cpu_s_));
   for (const NodeStart& node : nodes) {
     pid_t pid = 0;
     if (!(pids >> pid)) throw std::system_error(EAGAIN, std::generic_category(), program_.string());

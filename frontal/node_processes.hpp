@@ -42,10 +42,13 @@ class NodeProcesses {
   /// The children that have ended since the last call.
   std::vector<NodeExit> reap();
   bool empty() const { return running_.empty(); }
+  /// CPU time that starting took in processes that are no nodes.
+  double start_cpu_s() const { return start_cpu_s_; }
 
  private:
   std::filesystem::path program_, folder_;
   std::uint32_t threads_;
+  double start_cpu_s_ = 0;
   std::map<pid_t, NodeStart> running_;
 };
 

@@ -292,6 +292,12 @@ void each_field(auto& visit, Is<Fetch> auto& m) {
   visit("plane", m.plane, kPlaneRange);
 }
 
+void each_field(auto& visit, Is<Write> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("exr", m.exr, kText);
+  visit("png", m.png, kText);
+}
+
 void each_field(auto&, Is<Down> auto&) {}
 
 // ---- frontal → client
@@ -348,6 +354,13 @@ void each_field(auto& visit, Is<Picture> auto& m) {
   visit("rows", m.rows, {.max = kMaxImageSide});
   visit("plane", m.plane, kPlaneRange);
   visit("aov", m.aov, kAovText);
+}
+
+void each_field(auto& visit, Is<Written> auto& m) {
+  visit("job", m.job, at_least_one());
+  visit("width", m.width, {.min = 1, .max = kMaxImageSide});
+  visit("height", m.height, {.min = 1, .max = kMaxImageSide});
+  visit("cpu_s", m.cpu_s, kSeconds);
 }
 
 void each_field(auto& visit, Is<Failed> auto& m) {

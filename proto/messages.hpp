@@ -26,6 +26,8 @@ inline constexpr std::size_t kMaxJobsListed = 256;
 inline constexpr std::size_t kMaxErrorsListed = 100;
 /// Largest binary frame behind `submit` (the scene's text) and behind `picture`.
 inline constexpr std::size_t kMaxSubmitBytes = std::size_t{1} << 28;
+/// Writing larger pictures would keep a frontal from everything else for too long.
+inline constexpr std::uint64_t kMostPixelsToWrite = std::uint64_t{1} << 22;
 inline constexpr std::size_t kMaxPictureBytes = std::size_t{1} << 26;
 /// Most macro-regions per node along either side of the grid.
 inline constexpr std::uint32_t kMaxScatter = 8;
@@ -430,6 +432,15 @@ struct Fetch {
   friend bool operator==(const Fetch&, const Fetch&) = default;
 };
 
+/// To a private frontal: write a picture's files, "" for none. For pictures of at most kMostPixelsToWrite.
+struct Write {
+  static constexpr std::string_view kType = "write";
+  std::uint32_t job = 0;
+  /// Absolute paths.
+  std::string exr{}, png{};
+  friend bool operator==(const Write&, const Write&) = default;
+};
+
 /// Stop the farm.
 struct Down {
   static constexpr std::string_view kType = "down";
@@ -507,6 +518,15 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
+/// The files are there, each whole.
+struct Written {
+  static constexpr std::string_view kType = "written";
+  std::uint32_t job = 0, width = 1, height = 1;
+  /// What writing took of the frontal's CPU time, which the statistics can't have.
+  double cpu_s = 0;
+  friend bool operator==(const Written&, const Written&) = default;
+};
+
 /// Refusals and failed jobs; job 0 when the request named none.
 struct Failed {
   static constexpr std::string_view kType = "failed";
@@ -533,8 +553,8 @@ using ControlMessage =
                  control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
                  control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
                  control::Shutdown, control::Submit, control::Status, control::List,
-                 control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Down,
+                 control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write, control::Down,
                  control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-                 control::NodeList, control::Done, control::Picture, control::Failed, control::Bye>;
+                 control::NodeList, control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
 
 }  // namespace graycube

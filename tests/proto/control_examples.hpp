@@ -112,6 +112,7 @@ inline std::vector<ControlMessage> example_messages() {
       Cancel{9},
       Nodes{},
       Fetch{9, 100, 20, 2},
+      Write{9, "/tmp/a.exr", ""},
       Down{},
       Accepted{9},
       example_job(),
@@ -120,6 +121,7 @@ inline std::vector<ControlMessage> example_messages() {
       NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
       Done{9, stats},
       Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
+      Written{9, 640, 480, 0.25},
       Failed{9, FailureCode::kFailed, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
   };
