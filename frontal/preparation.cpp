@@ -27,7 +27,7 @@ constexpr std::uint32_t kAutoScatter = 1;
 
 /// Depths beside light horizons: there must be this many primary rays to each primitive, since two more scenes are
 /// subdivided for them, and to each texel.
-constexpr std::uint64_t kRaysPerPrimitiveForDepths = 1200000;
+constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
 /// Up to this size of the model most nodes have room for all that their shadow rays ask for.
@@ -92,17 +92,30 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
   out.slices.push_back(encode_model(model));
 }
 
-/// Light horizons where they are wanted and there are any: on one node no ray leaves, and lights that are walled
-/// in have none.
-std::shared_ptr<const LightHorizons> horizons_for(ShadowMode shadows, const Hypercube& cube, const WholeScene& whole) {
-  if (shadows != ShadowMode::kHorizon || cube.nodes() == 1) return nullptr;
-  LightHorizons horizons = LightHorizons::of(whole.model());
-  if (horizons.is_empty()) return nullptr;
-  if (whole.has_primary_rays(kRaysPerPrimitiveForDepths)) {
-    const std::uint64_t most_texels = whole.model().settings.image.primary_rays() / kRaysPerDepthTexel;
+/// What is known of shadow rays' ways to the lights.
+struct LightWays {
+  std::shared_ptr<const LightHorizons> horizons;
+  Occluders occluders;
+  ShadowTracing tracing = ShadowTracing::kWhereItGoes;
+};
+
+/// Nothing where horizons aren't wanted or there are none: on one node no ray leaves, and lights that are walled in have
+/// none. Depths only where too many shadow rays will leave their nodes for want of room for occluders.
+LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
+  LightWays ways;
+  if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return ways;
+  const Model& model = whole.model();
+  if (work.options.flow == FlowMode::kCredit) ways.occluders = Occluders::of(model);
+  LightHorizons horizons = ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons(model);
+  if (horizons.is_empty()) return {};
+  if (!ways.occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes) {
+    ways.tracing = ShadowTracing::kWhereItBegins;
+  } else if (whole.has_primary_rays(kRaysPerPrimitiveForDepths)) {
+    const std::uint64_t most_texels = model.settings.image.primary_rays() / kRaysPerDepthTexel;
     horizons = with_depths(std::move(horizons), *whole.territory()->tree, most_texels);
   }
-  return std::make_shared<const LightHorizons>(std::move(horizons));
+  ways.horizons = std::make_shared<const LightHorizons>(std::move(horizons));
+  return ways;
 }
 
 /// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
@@ -120,17 +133,14 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   out.queue = work.options.queue;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas = is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
-  const auto horizons = horizons_for(out.shadows, work.cube, whole);
-  if (horizons) {
-    out.horizons = encode_horizons(*horizons);
+  const LightWays ways = ways_to_lights(work, whole);
+  if (ways.horizons) {
+    out.horizons = encode_horizons(*ways.horizons);
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  const Occluders occluders = horizons ? Occluders::of(model) : Occluders();
-  const ShadowTracing tracing = !occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes ? ShadowTracing::kWhereItBegins
-                                                       : ShadowTracing::kWhereItGoes;
   const Partition cut =
-      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), horizons, tracing);
+      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons, ways.tracing);
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
@@ -142,7 +152,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     out.slices.push_back(encode_model(model));
     return;
   }
-  out.slices = slices_of(model, work.cube, cut, occluders);
+  out.slices = slices_of(model, work.cube, cut, ways.occluders);
 }
 
 }  // namespace

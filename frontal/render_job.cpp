@@ -165,6 +165,9 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
     }
   } else {
     auto& own = own_tiles_[rank.value];
+    // Many at a time: a message for each tile that becomes whole would wake a node for next to nothing.
+    const std::uint32_t most = window(own.size());
+    if (!scene_.has_replicas && most - std::min(open, most) < most / kPartOfWindow) return tiles;
     while (!own.empty() && open < window(own.size())) {
       tiles.push_back(own.front());
       own.pop_front();

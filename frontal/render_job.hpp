@@ -29,6 +29,8 @@ struct FlowLimits {
   /// node's links are a quarter of it, or one for each class and link.
   std::uint64_t outbox_rays = kDefaultOutboxRays;
 };
+/// Tiles are handed out again once this part of the window is free.
+inline constexpr std::uint32_t kPartOfWindow = 4;
 /// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,
 /// so that light comes in fewer messages; pixels and lines are handed out as in 1987.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;

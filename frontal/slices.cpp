@@ -13,6 +13,9 @@
 namespace graycube {
 namespace {
 
+/// Of the scene on one node, with occluders: space is shared out however small the scene is.
+constexpr double kMostPart = 0.375;
+
 /// By rank.
 std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
@@ -25,7 +28,10 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     if (!exit || exit->t >= task.t_max) continue;
     const Vec3 to_light = model.settings.lights[task.light].position - task.ray.origin;
     const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    queries[rank.value].push_back({task.light, texel, length(to_light)});
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t t = (texel & ~std::uint32_t{LightHorizons::kSide + 1}) | (k & 1) | (k >> 1) * LightHorizons::kSide;
+      queries[rank.value].push_back({task.light, t, length(to_light)});
+    }
   }
   return queries;
 }
@@ -61,7 +67,8 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     return slices;
   }
   const auto queries = queries_of(model, cube, cut);
-  const std::uint64_t room = slice_room(encoded_model_bytes(model), cube.nodes());
+  const std::uint64_t all = encoded_model_bytes(model);
+  const std::uint64_t room = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
   std::vector<double> reaches;
   for (const PointLight& light : model.settings.lights) reaches.push_back(LightHorizons::reach_of(model, light));
   std::vector<std::size_t> bytes;

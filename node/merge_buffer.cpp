@@ -14,11 +14,11 @@ bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
 }  // namespace
 
 std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
-  // Fibonacci hashing: neighbours in a row of pixels fall far apart.
-  constexpr std::uint32_t kGolden = 2654435769u;
+  // Fibonacci hashing of short rows of pixels: those of one lie side by side, as they are looked for.
+  constexpr std::uint32_t kGolden = 2654435769u, kRow = 16;
   if (slots_.empty()) slots_.resize(2 * keys_);
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t i = (key * kGolden) & mask;; i = (i + 1) & mask) {
+  for (std::size_t i = (key / kRow * kGolden * kRow + key % kRow) & mask;; i = (i + 1) & mask) {
     Slot& slot = slots_[i];
     if (slot.generation != generation_) {
       slot = {key, next, generation_};

@@ -59,6 +59,15 @@ std::vector<std::vector<float>> Occluders::foreign_distances(const std::vector<b
   return distances;
 }
 
+LightHorizons Occluders::horizons(const Model& model) const {
+  std::vector<HorizonMap> maps;
+  const auto distances = foreign_distances(std::vector<bool>(model.objects.size()));
+  for (std::size_t light = 0; light < distances.size(); ++light) {
+    maps.push_back(HorizonMap::of(distances[light], LightHorizons::reach_of(model, model.settings.lights[light])));
+  }
+  return LightHorizons(std::move(maps));
+}
+
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
                       std::span<const std::size_t> bytes, std::size_t room, std::vector<bool>& is_held) {
   // A ray is finished only when all that it asks for is held: each object gets its part of it.

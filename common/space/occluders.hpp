@@ -40,6 +40,8 @@ class Occluders {
     const OfLight& l = lights_[light];
     return std::span(l.entries).subspan(l.first[texel], l.first[texel + 1] - l.first[texel]);
   }
+  /// Those of all objects, as LightHorizons::of has them.
+  LightHorizons horizons(const Model& model) const;
   /// By light and texel, where the nearest of the objects that are not held (by index) begins.
   std::vector<std::vector<float>> foreign_distances(const std::vector<bool>& is_held) const;
 
