@@ -69,9 +69,15 @@ std::string output_of(std::vector<std::string> command, double& cpu_s) {
   std::vector<char*> argv;
   for (std::string& a : command) argv.push_back(a.data());
   argv.push_back(nullptr);
+  // All symbols, those of libraries too, are looked up before anything is forked.
+  std::string bind_now = "LD_BIND_NOW=1";
+  std::vector<char*> environment{bind_now.data()};
+  for (char** variable = environ; *variable != nullptr; ++variable) environment.push_back(*variable);
+  environment.push_back(nullptr);
   const SpawnPlan plan(pipe[1]);
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(), argv.data(), environ);
+  const int error =
+      ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(), argv.data(), environment.data());
   ::close(pipe[1]);
   std::string text;
   if (error == 0) text = all_of(pipe[0]);

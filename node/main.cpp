@@ -118,6 +118,8 @@ int become_node(const NodeArguments& a, std::size_t number, int until_closed, pi
 /// Forks a process for each node, writes their ids and ends: all that loading and linking took is done once, and the
 /// nodes are children of the frontal (a subreaper) like any others.
 int fork_nodes(const NodeArguments& a) {
+  // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread.
+  { const ZmqContext first; }
   const pid_t self = ::getpid(), frontal = ::getppid();
   std::array<int, 2> alive{};
   if (::pipe2(alive.data(), O_CLOEXEC) != 0) return fail("start", "pipe", std::strerror(errno), 1);
