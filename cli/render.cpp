@@ -49,8 +49,9 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs, co
                         const ImageSize& size, FrontalProcess& frontal) {
   ProgressDisplay display(stdout, command.is_quiet);
   const std::string& endpoint = frontal.wait_until_listening();
+  bool ends_on_interrupt = true;
   FarmClient farm(endpoint, [&] {
-    throw_if_interrupted();
+    if (ends_on_interrupt) throw_if_interrupted();
     frontal.check_running();
   });
   control::JobOptions options = command.options;
@@ -58,11 +59,15 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs, co
   const std::uint32_t job = submit_scene(farm, name, std::move(scene), options);
   Rendered rendered;
   rendered.stats = follow_job(farm, job, display);
+  // As when the command writes them: from here on an interrupt changes nothing any more.
+  throw_if_interrupted();
+  ends_on_interrupt = false;
   if (const auto written = have_picture_written(farm, job, outputs, size)) {
     rendered.picture.width = written->width;
     rendered.picture.height = written->height;
     rendered.written_cpu_s = written->cpu_s;
   } else {
+    ends_on_interrupt = true;
     rendered.picture = fetch_picture(farm, job);
   }
   rendered.summary = summary_text(job_info(farm, job));

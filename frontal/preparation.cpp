@@ -106,7 +106,7 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return ways;
   const Model& model = whole.model();
   if (work.options.flow == FlowMode::kCredit) ways.occluders = Occluders::of(model);
-  LightHorizons horizons = ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons(model);
+  LightHorizons horizons = ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons();
   if (horizons.is_empty()) return {};
   if (!ways.occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes) {
     ways.tracing = ShadowTracing::kWhereItBegins;

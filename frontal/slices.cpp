@@ -7,7 +7,6 @@
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
-#include "space/light_view.hpp"
 #include "space/restrict.hpp"
 
 namespace graycube {
@@ -36,25 +35,6 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
   return queries;
 }
 
-/// Of all that a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its
-/// macro-regions than the objects that they are of.
-LightHorizons foreign_horizons(const Occluders& occluders, std::span<const double> reaches, const ModelContents& contents,
-                               const Model& slice) {
-  auto distances = occluders.foreign_distances(contents.is_whole);
-  std::vector<HorizonMap> maps;
-  std::vector<Sight> seen;
-  for (std::size_t light = 0; light < distances.size(); ++light) {
-    const LightView view(slice, slice.settings.lights[light].position);
-    for (const std::uint32_t part : places_of_parts(contents)) {
-      seen.clear();
-      view.look_at(slice.objects[part], seen);
-      for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
-    }
-    maps.push_back(HorizonMap::of(distances[light], reaches[light]));
-  }
-  return LightHorizons(std::move(maps));
-}
-
 }  // namespace
 
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
@@ -69,8 +49,6 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
   const auto queries = queries_of(model, cube, cut);
   const std::uint64_t all = encoded_model_bytes(model);
   const std::uint64_t room = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
-  std::vector<double> reaches;
-  for (const PointLight& light : model.settings.lights) reaches.push_back(LightHorizons::reach_of(model, light));
   std::vector<std::size_t> bytes;
   for (const Object& object : model.objects) bytes.push_back(encoded_object_bytes(model, object));
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
@@ -83,7 +61,7 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     contents.hold_whole(whole);
     const Model slice = extract(model, contents);
     Bytes encoded = encode_model(slice);
-    const Bytes horizons = encode_horizons(foreign_horizons(occluders, reaches, contents, slice));
+    const Bytes horizons = encode_horizons(occluders.foreign_horizons(contents, slice));
     encoded.insert(encoded.end(), horizons.begin(), horizons.end());
     slices.push_back(std::move(encoded));
   }

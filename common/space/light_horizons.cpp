@@ -12,6 +12,9 @@ namespace {
 /// Distances in units are given this much shorter, relatively, before they are rounded down.
 constexpr double kRelativeError = 1e-9;
 
+/// Where nothing tells how far distances are worth something.
+constexpr double kReachOfNearest = 100;
+
 }  // namespace
 
 LightHorizons LightHorizons::of(const Model& model) {
@@ -35,6 +38,11 @@ LightHorizons LightHorizons::of(const Model& model) {
 
 HorizonMap HorizonMap::of(std::span<const float> distances, double reach) {
   if (std::none_of(distances.begin(), distances.end(), [](float d) { return d > 0; })) return {};
+  if (reach == 0) {
+    double nearest = std::numeric_limits<float>::max();
+    for (const float d : distances) nearest = d > 0 ? std::min<double>(nearest, d) : nearest;
+    reach = kReachOfNearest * nearest;
+  }
   // No product of unit and units is longer than what it is of.
   HorizonMap map{reach / (kNever - 1), {}};
   map.units.resize(distances.size());
@@ -56,7 +64,7 @@ double LightHorizons::reach_of(const Model& model, const PointLight& light) {
     const double distance = length(far);
     if (std::isfinite(distance)) reach = std::max(reach, distance);
   }
-  return reach > 0 ? reach : 1;
+  return reach;
 }
 
 bool LightHorizons::is_empty() const {

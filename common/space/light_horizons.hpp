@@ -53,7 +53,7 @@ struct HorizonMap {
   std::vector<std::uint16_t> units;
 
   /// Distances ≥ 0 (scene units) by texel, each made shorter by a 65 000th of `reach` at most; what is finite and farther than
-  /// that is cut off there. None where all are 0.
+  /// that is cut off there. 0 stands for a hundred times the nearest that isn't 0. None where all are 0.
   static HorizonMap of(std::span<const float> distances, double reach);
   bool empty() const { return units.empty(); }
   double at(std::size_t texel) const {
@@ -96,7 +96,7 @@ class LightHorizons {
   /// The horizon alone.
   double distance(std::size_t light, const Vec3& direction) const { return toward(light, direction).lit; }
   /// How far away from the light (scene units) distances are worth something: the farthest corner of the bounds of any object
-  /// that has any. > 0.
+  /// that has any; 0 where none has.
   static double reach_of(const Model& model, const PointLight& light);
   bool has_depths(std::size_t light) const { return light < block_of_.size() && !block_of_[light].empty(); }
   /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.

@@ -15,6 +15,7 @@ Occluders Occluders::of(const Model& model) {
   const auto& lights = model.settings.lights;
   if (lights.size() * model.objects.size() > LightHorizons::kMaxWork) return {};
   Occluders all;
+  all.objects_ = model.objects.size();
   std::vector<Sight> seen;
   std::vector<Place> places;
   std::size_t count = 0;
@@ -22,6 +23,7 @@ Occluders Occluders::of(const Model& model) {
     const LightView view(model, light.position);
     places.clear();
     OfLight& l = all.lights_.emplace_back();
+    l.reach = LightHorizons::reach_of(model, light);
     l.first.assign(LightHorizons::kTexels + 1, 0);
     for (std::uint32_t object = 0; object < model.objects.size(); ++object) {
       seen.clear();
@@ -59,11 +61,27 @@ std::vector<std::vector<float>> Occluders::foreign_distances(const std::vector<b
   return distances;
 }
 
-LightHorizons Occluders::horizons(const Model& model) const {
+LightHorizons Occluders::horizons() const {
   std::vector<HorizonMap> maps;
-  const auto distances = foreign_distances(std::vector<bool>(model.objects.size()));
-  for (std::size_t light = 0; light < distances.size(); ++light) {
-    maps.push_back(HorizonMap::of(distances[light], LightHorizons::reach_of(model, model.settings.lights[light])));
+  const auto distances = foreign_distances(std::vector<bool>(objects_));
+  for (std::size_t light = 0; light < lights_.size(); ++light) {
+    maps.push_back(HorizonMap::of(distances[light], lights_[light].reach));
+  }
+  return LightHorizons(std::move(maps));
+}
+
+LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const Model& slice) const {
+  auto distances = foreign_distances(contents.is_whole);
+  std::vector<HorizonMap> maps;
+  std::vector<Sight> seen;
+  for (std::size_t light = 0; light < lights_.size(); ++light) {
+    const LightView view(slice, slice.settings.lights[light].position);
+    for (const std::uint32_t part : places_of_parts(contents)) {
+      seen.clear();
+      view.look_at(slice.objects[part], seen);
+      for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
+    }
+    maps.push_back(HorizonMap::of(distances[light], lights_[light].reach));
   }
   return LightHorizons(std::move(maps));
 }

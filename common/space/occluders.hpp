@@ -10,6 +10,7 @@
 
 #include "csg/model.hpp"
 #include "space/light_horizons.hpp"
+#include "space/restrict.hpp"
 
 namespace graycube {
 
@@ -41,17 +42,24 @@ class Occluders {
     return std::span(l.entries).subspan(l.first[texel], l.first[texel + 1] - l.first[texel]);
   }
   /// Those of all objects, as LightHorizons::of has them.
-  LightHorizons horizons(const Model& model) const;
+  LightHorizons horizons() const;
+  /// Of what a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its macro-regions than
+  /// the objects that they are of. `slice` is what is extracted of the model by the contents.
+  LightHorizons foreign_horizons(const ModelContents& contents, const Model& slice) const;
+
+ private:
   /// By light and texel, where the nearest of the objects that are not held (by index) begins.
   std::vector<std::vector<float>> foreign_distances(const std::vector<bool>& is_held) const;
 
- private:
   struct OfLight {
+    /// LightHorizons::reach_of.
+    double reach = 1;
     /// By texel, and one more: where its entries begin.
     std::vector<std::uint32_t> first;
     std::vector<Entry> entries;
   };
   std::vector<OfLight> lights_;
+  std::size_t objects_ = 0;
 };
 
 /// What a node is to hold beside `is_held` (by object), chosen for the most rays that it can finish by the byte: those objects

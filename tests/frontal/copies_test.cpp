@@ -3,6 +3,7 @@
 
 #include "frontal/prepared.hpp"
 #include "frontal/render_job.hpp"
+#include "frontal/slices.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;

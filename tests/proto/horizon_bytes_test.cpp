@@ -1,8 +1,8 @@
 // Light horizons over the wire.
 #include "proto/horizon_bytes.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
-#include <limits>
 
 #include "proto/random.hpp"
 
@@ -13,9 +13,9 @@ namespace {
 
 LightHorizons some_horizons() {
   Random random(7);
-  LightHorizons::Map map(LightHorizons::kTexels);
-  for (float& d : map) d = static_cast<float>(random.below(1000));
-  map.front() = std::numeric_limits<float>::infinity();
+  HorizonMap map{0.125, std::vector<std::uint16_t>(LightHorizons::kTexels)};
+  for (std::uint16_t& d : map.units) d = static_cast<std::uint16_t>(random.below(1000));
+  map.units.front() = HorizonMap::kNever;
   LightDepths depths;
   depths.split = 3;
   depths.unit = 0.25;
@@ -26,8 +26,11 @@ LightHorizons some_horizons() {
   return LightHorizons({map, {}, map}, {{}, {}, depths});
 }
 
-/// Where the third light's depths begin.
-constexpr std::size_t kDepthsAt = kHorizonHeaderBytes + 3 + 2 * LightHorizons::kTexels * sizeof(float) + 1;
+/// Of a map: its unit, one run's two lengths, and all distances but the first, which never comes.
+constexpr std::size_t kMapBytes = 8 + 4 + 2 * (LightHorizons::kTexels - 1);
+/// Where the first light's map begins, and where the third's depths do.
+constexpr std::size_t kMapAt = kHorizonHeaderBytes + 1;
+constexpr std::size_t kDepthsAt = kHorizonHeaderBytes + 3 + 2 * kMapBytes + 1;
 
 }  // namespace
 
@@ -64,9 +67,31 @@ TEST_CASE("bytes that are no horizons are refused") {
     broken[kDepthsAt + static_cast<std::size_t>(at)] = std::byte(value);
     CHECK_FALSE(decode_horizons(broken, 3));
   }
-  for (const std::uint32_t bits : {0x7FC00000u, 0xBF800000u}) {  // no number, a negative one
+  // The unit becomes no number, negative, 0.
+  for (const auto& [at, value] : {std::pair{7, 0x7F}, {7, 0xBF}, {7, 0x00}}) {
     auto broken = bytes;
-    for (int i = 0; i < 4; ++i) broken[17 + static_cast<std::size_t>(i)] = std::byte(bits >> (8 * i));
+    broken[kMapAt + static_cast<std::size_t>(at)] = std::byte(value);
+    if (value == 0x7F) broken[kMapAt + 6] = std::byte{0xF8};
+    if (value == 0x00) std::fill_n(broken.begin() + kMapAt, 8, std::byte{0});
     CHECK_FALSE(decode_horizons(broken, 3));
   }
+  // A run that is too long, and one of nothing.
+  for (const int at : {8, 10}) {
+    auto broken = bytes;
+    broken[kMapAt + static_cast<std::size_t>(at) + 1] = std::byte{0xFF};
+    CHECK_FALSE(decode_horizons(broken, 3));
+  }
+  auto broken = bytes;
+  std::fill_n(broken.begin() + kMapAt + 8, 4, std::byte{0});
+  CHECK_FALSE(decode_horizons(broken, 3));
+}
+
+TEST_CASE("a map in which nothing ever comes takes few bytes") {
+  const HorizonMap empty{1, std::vector<std::uint16_t>(LightHorizons::kTexels, HorizonMap::kNever)};
+  const LightHorizons sent({empty});
+  const auto bytes = encode_horizons(sent);
+  CHECK(bytes.size() < 40);
+  const auto received = decode_horizons(bytes, 1);
+  REQUIRE(received);
+  CHECK(received->maps() == sent.maps());
 }

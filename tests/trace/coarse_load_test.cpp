@@ -41,6 +41,32 @@ TEST_CASE("a coarse render tells how many rays descend from a pixel") {
   CHECK(coarse_load(Domain(model), MacroGrid::regular(frame, 4, 4), nullptr, ShadowTracing::kWhereItGoes, 0).rays_per_primary == 3);
 }
 
+TEST_CASE("shadow rays traced where they begin are work for the region of their surface") {
+  const Model model = compile_scene(corner_scene());
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid = MacroGrid::regular(frame, 8, 8);
+  const Domain whole(model);
+  const CoarseLoad goes = coarse_load(whole, grid, nullptr, ShadowTracing::kWhereItGoes, 0);
+  const CoarseLoad begins = coarse_load(whole, grid, nullptr, ShadowTracing::kWhereItBegins, 0);
+  // The same rays leave, each noted once, where it began.
+  REQUIRE(goes.left_by_light.size() > 50);
+  REQUIRE(begins.left_by_light.size() == goes.left_by_light.size());
+  CHECK(begins.rays_per_primary == goes.rays_per_primary);
+  for (const LeavingLight& light : begins.left_by_light) {
+    REQUIRE(light.ray.kind == RayKind::kShadow);
+    REQUIRE(grid.may_touch(light.from, light.ray.ray.origin, 0, model.delta));
+    REQUIRE(light.ray.region != light.from);
+  }
+  // Where no primary or secondary ray comes, there is work only for rays on their way to a light.
+  std::size_t idle_goes = 0, idle_begins = 0;
+  for (std::size_t i = 0; i < goes.map.load.size(); ++i) {
+    idle_goes += goes.map.load[i] == 0 ? 1 : 0;
+    idle_begins += begins.map.load[i] == 0 ? 1 : 0;
+  }
+  CHECK(idle_begins >= idle_goes);
+  CHECK(total(begins.map) != total(goes.map));
+}
+
 TEST_CASE("balanced boundaries are drawn together where the work is") {
   const Model model = compile_scene(corner_scene());
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);

@@ -8,6 +8,7 @@
 
 #include "csg/random_model.hpp"
 #include "space/light_depths.hpp"
+#include "space/occluders.hpp"
 #include "space/restrict.hpp"
 #include "trace/render_serial.hpp"
 #include "trace/tile_plan.hpp"
@@ -75,6 +76,31 @@ class Machine {
       }
     }
   }
+
+  /// The same, where nodes also hold whole what dice say of the objects, as occluders, and know what they don't hold.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, const Occluders& occluders,
+          Dice& dice)
+      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        const RegionShare share{columns, rows, column, row};
+        ModelContents contents = contents_of_share(model, grid, share);
+        const std::uint64_t one_in = 1 + dice.below(4);
+        std::vector<bool> chosen(model.objects.size());
+        for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
+        contents.hold_whole(chosen);
+        parts += contents.parts.size();
+        const Model slice = extract(model, contents);
+        domains_.push_back(std::make_unique<Domain>(grid, share, slice));
+        domains_.back()->set_foreign_horizons(
+            std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, slice)));
+        evaluators_.emplace_back(*domains_.back());
+      }
+    }
+  }
+
+  /// Objects of which nodes hold a part.
+  std::size_t parts = 0;
 
   /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken together,
   /// as many as come.
@@ -225,6 +251,63 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
   CHECK(skipped_with_depth > skipped + 500);
   CHECK(with < without);
   CHECK(with_depth < with);
+}
+
+TEST_CASE("nodes that hold some occluders give the picture of the whole, and hand over less") {
+  std::uint64_t without = 0, with = 0, parts = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    RandomOptions options;
+    options.unbounded = seed % 2 == 0;
+    Scene scene = RandomModel(seed, options).scene();
+    if (!options.unbounded) {
+      for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
+    }
+    const Model model = compile_scene(scene);
+    const Harvest whole = trace_whole(model);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    Dice dice(seed);
+    const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
+    const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
+    Machine machine(model, grid, columns, rows, Occluders::of(model), dice);
+    const Harvest held = machine.trace(dice);
+    check_equal(whole, held, model.settings.image);
+    with += held.handed_over;
+    parts += machine.parts;
+    without += Machine(model, grid, columns, rows).trace(dice).handed_over;
+  }
+  CHECK(10 * with < 9 * without);
+  CHECK(parts > 200);
+}
+
+TEST_CASE("a node that holds all objects finishes all shadow rays") {
+  std::uint64_t handed_over = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = RandomModel(seed).scene();
+    scene.settings.max_depth = 0;
+    const Model model = compile_scene(scene);
+    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
+    const RegionShare share{4, 2, 1, 1};
+    ModelContents contents = contents_of_share(model, grid, share);
+    contents.hold_whole(std::vector<bool>(model.objects.size(), true));
+    const Model slice = extract(model, contents);
+    REQUIRE(slice == model);
+    Domain domain(grid, share, slice);
+    domain.set_foreign_horizons(
+        std::make_shared<const LightHorizons>(Occluders::of(model).foreign_horizons(contents, slice)));
+    Step step;
+    const TilePlan plan(model.settings.image, {5, 3}, grid);
+    for (const std::uint32_t tile : plan.tiles_of(share)) Evaluator(domain).trace_pixels(plan.rect(tile), step);
+    REQUIRE(step.leaving.empty());
+    step.clear();
+    const Domain without(grid, share, slice);
+    for (const std::uint32_t tile : plan.tiles_of(share)) Evaluator(without).trace_pixels(plan.rect(tile), step);
+    handed_over += step.leaving.size();
+  }
+  CHECK(handed_over > 500);
 }
 
 TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {

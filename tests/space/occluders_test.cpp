@@ -1,0 +1,172 @@
+// What may stand between surfaces and lights: foreign horizons must never promise a way that something foreign blocks.
+#include "space/occluders.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "csg/random_model.hpp"
+#include "geometry/simd.hpp"
+#include "space/cube_map.hpp"
+#include "space/cube_texels.hpp"
+#include "space/surface_tree.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+PointLight light_at(const Vec3& p) { return {p, {1, 1, 1}, Falloff::kNone}; }
+
+Model lit_from_origin(std::vector<CsgNode> objects) {
+  Scene scene = scene_of(std::move(objects));
+  scene.settings.lights = {light_at({0, 0, 0})};
+  return compile_scene(scene);
+}
+
+/// Balls in a row away from a light at the origin, along x, and one aside.
+Model row_of_balls() {
+  std::vector<CsgNode> balls;
+  for (const Vec3& at : {Vec3{5, 0, 0}, Vec3{10, 0, 0}, Vec3{15, 0, 0}, Vec3{0, 10, 0}}) {
+    balls.push_back(node_of(SphereShape{at, 1}));
+  }
+  return lit_from_origin(std::move(balls));
+}
+
+std::uint32_t texel_of(const Vec3& direction) {
+  return static_cast<std::uint32_t>(cube_texel(cube_place(direction), LightHorizons::kSide));
+}
+
+}  // namespace
+
+TEST_CASE("the horizons of all objects are those of the scene") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    CHECK(Occluders::of(model).horizons().maps() == LightHorizons::of(model).maps());
+  }
+}
+
+TEST_CASE("nothing that a node does not hold is nearer to a light than its foreign horizon") {
+  std::uint64_t promised = 0, beyond = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    Scene scene = RandomModel(seed).scene();
+    for (PointLight& light : scene.settings.lights) light.position = dice.point(dice.one_in(2) ? 4.0 : 12.0);
+    const Model model = compile_scene(scene);
+    std::vector<bool> held(model.objects.size()), others(model.objects.size());
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = dice.one_in(2);
+    for (std::size_t i = 0; i < held.size(); ++i) others[i] = !held[i];
+    const ModelContents contents{held, {}};
+    const Occluders occluders = Occluders::of(model);
+    const LightHorizons foreign = occluders.foreign_horizons(contents, extract(model, contents));
+    const Model rest = extract(model, {others, {}});
+    const SurfaceTree tree = SurfaceTree::build(rest);
+    TreeScratch scratch;
+    for (std::size_t light = 0; light < model.settings.lights.size(); ++light) {
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 d = dice.unit_vector();
+        const auto hit = tree.first_crossing({model.settings.lights[light].position, d}, 0, Aabb::kInf, scratch);
+        const double distance = foreign.distance(light, d);
+        REQUIRE(distance <= (hit ? hit->t : Aabb::kInf));
+        promised += distance > 0 ? 1 : 0;
+        beyond += distance > occluders.horizons().distance(light, d) ? 1 : 0;
+        if (i >= 20) continue;
+        REQUIRE(distance >= occluders.horizons().distance(light, d));
+      }
+    }
+  }
+  CHECK(promised > 10'000);
+  CHECK(beyond > 1000);
+}
+
+TEST_CASE("a part that a node holds counts as foreign, with the surfaces that it has there") {
+  // Two boxes' intersection begins where the second does; the first alone, held as a part, is nearer to the light.
+  const Model model = lit_from_origin({operation(
+      Operation::kDifference, {node_of(BoxShape{{4, -1, -1}, {9, 1, 1}}), node_of(BoxShape{{3, -2, -2}, {8, 2, 2}})})});
+  const auto distance = [&](const ModelContents& contents) {
+    return Occluders::of(model).foreign_horizons(contents, extract(model, contents)).distance(0, {1, 0, 0});
+  };
+  // The texel's directions are not quite the x axis.
+  const double nothing_held = distance({{false}, {}}), whole = distance({{true}, {}});
+  CHECK(whole == Aabb::kInf);
+  const auto tree = model.tree(model.objects[0]);
+  REQUIRE(tree.size() == 3);
+  TreeNode first_box = tree[1];
+  const ModelContents part{{false}, {{0, {first_box}}}};
+  CHECK(places_of_parts(part) == std::vector<std::uint32_t>{0});
+  CHECK(distance(part) <= 4);
+  CHECK(distance(part) > 3.9);
+  CHECK(nothing_held >= distance(part));
+}
+
+TEST_CASE("occluders are chosen as rays ask for them") {
+  const Model model = row_of_balls();
+  const Occluders occluders = Occluders::of(model);
+  const std::vector<std::size_t> bytes(4, 100);
+  const OccluderQuery behind_two{0, texel_of({1, 0, 0}), 12};
+  std::vector<bool> held(4);
+  choose_occluders(occluders, {{behind_two}}, bytes, 1000, held);
+  // What lies farther from the light than the ray's surface, or elsewhere, is none.
+  CHECK(held == std::vector<bool>{true, true, false, false});
+}
+
+TEST_CASE("occluders that serve most rays by the byte come first, and no more than there is room for") {
+  const Model model = row_of_balls();
+  const Occluders occluders = Occluders::of(model);
+  const OccluderQuery far_x{0, texel_of({1, 0, 0}), 20}, far_y{0, texel_of({0, 1, 0}), 20};
+  std::vector<bool> held(4);
+  choose_occluders(occluders, {{far_x, far_x, far_y}}, {{100, 100, 100, 100}}, 100, held);
+  CHECK(held == std::vector<bool>{false, false, false, true});
+  held.assign(4, false);
+  choose_occluders(occluders, {{far_x, far_x, far_y}}, {{10, 100, 100, 100}}, 100, held);
+  CHECK(held == std::vector<bool>{true, false, false, false});
+  held.assign(4, false);
+  choose_occluders(occluders, {{far_x, far_x, far_y}}, {{100, 100, 100, 100}}, 99, held);
+  CHECK(held == std::vector<bool>(4));
+}
+
+TEST_CASE("texels of many directions are those of each, with any instruction set") {
+  Dice dice(1);
+  std::array<double, 64> x, y, z;
+  for (const std::string& name : simd_names()) {
+    INFO(name);
+    REQUIRE(choose_simd(name));
+    for (int round = 0; round < 200; ++round) {
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        Vec3 d = dice.unit_vector();
+        if (dice.one_in(8)) d[static_cast<int>(dice.below(3))] = 0;
+        if (dice.one_in(8)) d = {d.x, d.x, -d.x};
+        x[i] = d.x;
+        y[i] = d.y;
+        z[i] = d.z;
+      }
+      std::array<std::uint32_t, 64> texels;
+      find_opposite_texels(x, y, z, x.size(), LightHorizons::kSide, texels);
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        const Vec3 opposite{-x[i], -y[i], -z[i]};
+        REQUIRE(texels[i] < LightHorizons::kTexels);
+        REQUIRE(texels[i] == texel_of(opposite));
+      }
+    }
+    // Whatever is no direction gets some texel.
+    x.fill(std::nan(""));
+    std::array<std::uint32_t, 64> texels;
+    find_opposite_texels(x, y, z, x.size(), LightHorizons::kSide, texels);
+    for (const std::uint32_t t : texels) REQUIRE(t < LightHorizons::kTexels);
+  }
+  REQUIRE(choose_simd("best"));
+}
+
+TEST_CASE("a map's distances are a little shorter, or cut off at its reach") {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  std::vector<float> distances{0, 1, 99.5f, 100, 1e9f, kInf};
+  const HorizonMap map = HorizonMap::of(distances, 100);
+  const std::vector<double> expected{0, 1, 99.5, 100, 100, Aabb::kInf};
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    INFO(i);
+    CHECK(map.at(i) <= expected[i]);
+    if (std::isfinite(expected[i])) CHECK(map.at(i) >= expected[i] - 100.0 / 65'000);
+  }
+  CHECK(HorizonMap::of(std::vector<float>(4), 100).empty());
+}
