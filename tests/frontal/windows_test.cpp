@@ -34,6 +34,30 @@ TEST_CASE("roth hands out many tiles while many are left, and few towards the en
   CHECK(few.next_tiles(Rank{0}).size() == kRothTilesPerThread * kThreads);
 }
 
+TEST_CASE("in macro tiles are handed out again when a quarter of the window is free") {
+  Scene scene = corner_scene();
+  scene.settings.image = {512, 512, 1};
+  RenderJob job(1, prepared(scene, {.partition = PartitionMode::kRegular}, kNodes), *Hypercube::of_size(kNodes), 1,
+                {.window_tiles = 16});
+  const std::vector<std::uint32_t> first = job.next_tiles(Rank{0});
+  REQUIRE(first.size() == 16);
+  std::uint64_t sequence = 0;
+  const auto make_whole = [&](std::uint32_t tile) {
+    const BatchStamp stamp{job.id(), job.epoch(), 0, 0, sequence++};
+    const std::uint64_t units = kTileSide * kTileSide;
+    std::vector<Rank> opened;
+    const Bytes batch = encode_contributions(stamp, {{{tile, Credit::from_words({units, 0, 0, 0, 0})}}}, {});
+    REQUIRE(job.add_contributions(batch, opened).empty());
+    REQUIRE(opened == std::vector<Rank>{Rank{0}});
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    make_whole(first[i]);
+    CHECK(job.next_tiles(Rank{0}).empty());
+  }
+  make_whole(first[3]);
+  CHECK(job.next_tiles(Rank{0}).size() == 4);
+}
+
 TEST_CASE("in macro windows shrink where many rays descend from a pixel") {
   const auto job = [](Scene scene, FlowLimits limits) {
     scene.settings.image = {1024, 1024, 1};

@@ -36,6 +36,18 @@ TEST_CASE("the first scene is rendered on 8 nodes in seconds, and says how") {
   CHECK(sandbox.temporary_files().empty());
 }
 
+TEST_CASE("a picture whose name is no UTF-8 is the same as any other") {
+  Sandbox sandbox;
+  for (const char* name : {"plain.exr", "odd\xff.exr"}) {
+    const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-n", "4", "--algorithm", "macro",
+                                   "-q", "-o", name});
+    INFO(o.err);
+    REQUIRE(o.status == 0);
+  }
+  CHECK(read_exr(sandbox / "plain.exr") == read_exr(sandbox / "odd\xff.exr"));
+  CHECK(sandbox.files().size() == 2);
+}
+
 TEST_CASE("a macro render's statistics add up") {
   Sandbox sandbox;
   const Json serial = render_stats(sandbox, "mirrors.json", {"--algorithm", "serial"});

@@ -60,6 +60,7 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
     const ModelContents contents{held, {}};
     const Occluders occluders = Occluders::of(model);
     const LightHorizons foreign = occluders.foreign_horizons(contents, extract(model, contents));
+    const LightHorizons all = occluders.horizons();
     const Model rest = extract(model, {others, {}});
     const SurfaceTree tree = SurfaceTree::build(rest);
     TreeScratch scratch;
@@ -70,9 +71,10 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
         const double distance = foreign.distance(light, d);
         REQUIRE(distance <= (hit ? hit->t : Aabb::kInf));
         promised += distance > 0 ? 1 : 0;
-        beyond += distance > occluders.horizons().distance(light, d) ? 1 : 0;
-        if (i >= 20) continue;
-        REQUIRE(distance >= occluders.horizons().distance(light, d));
+        const double of_all = all.distance(light, d);
+        beyond += distance > of_all ? 1 : 0;
+        // Where nothing is bounded they may be rounded to other units.
+        REQUIRE(distance >= 0.995 * of_all);
       }
     }
   }

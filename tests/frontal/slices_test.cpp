@@ -1,0 +1,101 @@
+// What each node gets of a scene.
+#include "frontal/slices.hpp"
+
+#include <catch2/catch.hpp>
+#include <variant>
+
+#include "csg/random_model.hpp"
+#include "frontal/prepared.hpp"
+#include "proto/horizon_bytes.hpp"
+#include "proto/model_slice.hpp"
+#include "proto/share_of.hpp"
+#include "space/restrict.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+/// Balls all over a block of space in front of the eye, lit from the side.
+Scene many_balls() {
+  Dice dice(7);
+  std::vector<CsgNode> balls;
+  for (int i = 0; i < 1500; ++i) balls.push_back(node_of(SphereShape{dice.point(10), dice.between(0.1, 0.4)}));
+  Scene scene = scene_of(std::move(balls));
+  scene.settings.camera.eye = {0, 0, -30};
+  scene.settings.camera.look_at = {0, 0, 0};
+  scene.settings.camera.up = {0, 1, 0};
+  scene.settings.camera.projection = Projection::kPerspective;
+  scene.settings.camera.fov_degrees = 45;
+  scene.settings.image = {256, 256, 1};
+  scene.settings.lights = {{{-40, 30, -20}, {1, 1, 1}, Falloff::kNone}};
+  return scene;
+}
+
+struct Slice {
+  Model model;
+  bool has_foreign_horizons;
+};
+
+std::vector<Slice> slices(const PreparedScene& prepared) {
+  std::vector<Slice> all;
+  for (const SharedBytes& bytes : prepared.slices) {
+    std::span<const std::byte> rest = bytes.bytes();
+    auto model = take_model(rest);
+    REQUIRE(model.index() == 0);
+    all.push_back({std::get<Model>(std::move(model)), !rest.empty()});
+    if (!rest.empty()) REQUIRE(decode_horizons(rest, all.back().model.settings.lights.size()));
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("with light horizons nodes get occluders too, but less than half of a scene; without, only their own part") {
+  const PreparedScene with = prepared(many_balls(), {.shadows = ShadowMode::kHorizon}, 16);
+  const PreparedScene without = prepared(many_balls(), {.shadows = ShadowMode::kForward}, 16);
+  const PreparedScene historical =
+      prepared(many_balls(), {.shadows = ShadowMode::kHorizon, .flow = FlowMode::kBlocking}, 16);
+  const auto more = slices(with), own = slices(without), as_in_1987 = slices(historical);
+  std::size_t more_in_all = 0, own_in_all = 0;
+  for (std::size_t rank = 0; rank < 16; ++rank) {
+    INFO("rank " << rank);
+    CHECK(more[rank].has_foreign_horizons);
+    CHECK_FALSE(own[rank].has_foreign_horizons);
+    CHECK_FALSE(as_in_1987[rank].has_foreign_horizons);
+    CHECK(more[rank].model.objects.size() <= 600);
+    more_in_all += more[rank].model.objects.size();
+    own_in_all += own[rank].model.objects.size();
+  }
+  // Partitions differ, their sum hardly does.
+  CHECK(own_in_all < 2400);
+  CHECK(more_in_all > own_in_all + 1000);
+}
+
+TEST_CASE("what a node gets beside its own part is what its shadow rays ask for") {
+  const Scene scene = many_balls();
+  const Model model = compile_scene(scene);
+  const PreparedScene cut = prepared(scene, {}, 16);
+  const auto frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid(frame, cut.grid.column_edges, cut.grid.row_edges);
+  const Hypercube cube = *Hypercube::of_size(16);
+  // The light shines from the left and above: of two nodes with as much of the scene, the one to the right below has more
+  // in its way.
+  std::size_t beside_upper_left = 0, beside_lower_right = 0;
+  const auto all = slices(cut);
+  for (std::uint32_t rank = 0; rank < 16; ++rank) {
+    const RegionShare share = share_of(cube, Rank{rank});
+    const std::size_t own = restrict_to_share(model, grid, share).objects.size();
+    REQUIRE(all[rank].model.objects.size() >= own);
+    const std::size_t beside = all[rank].model.objects.size() - own;
+    if (share.column < 2 && share.row < 2) beside_upper_left += beside;
+    if (share.column >= 2 && share.row >= 2) beside_lower_right += beside;
+  }
+  CHECK(beside_lower_right != beside_upper_left);
+  CHECK(std::max(beside_lower_right, beside_upper_left) > 2 * std::min(beside_lower_right, beside_upper_left));
+}
+
+TEST_CASE("room for slices is twice an equal share, or a little for small scenes") {
+  CHECK(slice_room(1000, 16) == kSmallSlices);
+  CHECK(slice_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);
+}
