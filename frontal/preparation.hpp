@@ -44,6 +44,8 @@ struct PreparedScene {
   std::uint64_t primitives = 0, objects = 0;
   /// By rank; one for all where every node holds the whole model.
   std::vector<SharedBytes> slices;
+  /// What slices may take on each node, in bytes.
+  std::uint64_t slice_room = 0;
   /// Encoded light horizons, for every node; empty without them.
   Bytes horizons;
   /// In `macro`: every node holds the whole model.

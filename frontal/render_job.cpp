@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "frontal/slices.hpp"
 #include "proto/share_of.hpp"
 
 namespace graycube {
@@ -49,8 +48,6 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
   if (is_roth()) return;
   for (const SharedBytes& slice : scene_.slices) slice_bytes_.push_back(slice.size());
   held_bytes_ = slice_bytes_;
-  const std::uint64_t all = std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
-  room_bytes_ = slice_room(all, nodes_);
   for (std::uint32_t rank = 0; rank < nodes_; ++rank) {
     const auto tiles = scene_.plan->tiles_of(share_of(cube_, Rank{rank}));
     own_tiles_.emplace_back(tiles.begin(), tiles.end());
@@ -74,7 +71,7 @@ const SharedBytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
 }
 
 bool RenderJob::has_room(Rank helper, Rank owner) const {
-  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= room_bytes_;
+  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= scene_.slice_room;
 }
 
 bool RenderJob::may_be_copied(Rank owner) const {

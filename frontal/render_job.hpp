@@ -128,7 +128,6 @@ class RenderJob {
   std::vector<std::uint32_t> open_, relief_;          // by rank
   std::vector<std::uint32_t> copies_;                 // by rank: bits of the neighbours whose slice it has
   std::vector<std::uint64_t> slice_bytes_, held_bytes_;  // by rank: of each slice; of what a node holds
-  std::uint64_t room_bytes_ = 0;                 // for slices, on each node
   std::uint32_t next_tile_ = 0;                  // roth: one queue for all
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;

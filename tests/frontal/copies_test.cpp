@@ -1,5 +1,6 @@
 // Which nodes get copies of their neighbours' slices, and when.
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "frontal/prepared.hpp"
 #include "frontal/render_job.hpp"
@@ -17,6 +18,7 @@ const Hypercube kCube = *Hypercube::of_size(4);
 RenderJob job_with_slices(const std::vector<std::size_t>& bytes) {
   PreparedScene cut = prepared(corner_scene(), {});
   for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i] = Bytes(bytes[i]);
+  cut.slice_room = slice_room(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}), kCube.nodes());
   return RenderJob(1, std::move(cut), kCube, 1);
 }
 

@@ -51,7 +51,7 @@ std::vector<Slice> slices(const PreparedScene& prepared) {
 
 }  // namespace
 
-TEST_CASE("with light horizons nodes get occluders too, but less than half of a scene; without, only their own part") {
+TEST_CASE("with light horizons nodes get occluders too, but less than half of a scene, and without only their own part") {
   const PreparedScene with = prepared(many_balls(), {.shadows = ShadowMode::kHorizon}, 16);
   const PreparedScene without = prepared(many_balls(), {.shadows = ShadowMode::kForward}, 16);
   const PreparedScene historical =
