@@ -134,8 +134,10 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas = is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
   const LightWays ways = ways_to_lights(work, whole);
+  Bytes horizons;
   if (ways.horizons) {
-    out.horizons = encode_horizons(*ways.horizons);
+    horizons = encode_horizons(*ways.horizons);
+    out.horizon_bytes = horizons.size();
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
@@ -153,7 +155,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     return;
   }
   out.slice_room = slice_room(encoded_model_bytes(model), work.cube.nodes());
-  out.slices = slices_of(model, work.cube, cut, ways.occluders);
+  out.slices = slices_of(model, work.cube, cut, ways.occluders, horizons);
 }
 
 }  // namespace

@@ -42,12 +42,12 @@ struct PreparedScene {
   RenderSettings settings;
   std::optional<TilePlan> plan;
   std::uint64_t primitives = 0, objects = 0;
-  /// By rank; one for all where every node holds the whole model.
+  /// By rank, light horizons behind; one for all where every node holds the whole model.
   std::vector<SharedBytes> slices;
   /// What slices may take on each node, in bytes.
   std::uint64_t slice_room = 0;
-  /// Encoded light horizons, for every node; empty without them.
-  Bytes horizons;
+  /// Of light horizons, in each slice.
+  std::uint64_t horizon_bytes = 0;
   /// In `macro`: every node holds the whole model.
   bool has_replicas = false;
   /// In `macro`: nodes that run dry may get copies of their neighbours' slices, to help them.

@@ -57,13 +57,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
 SharedBytes RenderJob::take_slice(Rank rank) {
   if (scene_.slices.size() == 1) return scene_.slices.front();
   SharedBytes& held = scene_.slices[rank.value];
-  const SharedBytes slice = lends() || may_be_copied(rank) ? held : std::exchange(held, {});
-  if (scene_.horizons.empty()) return slice;
-  Bytes both;
-  both.reserve(slice.size() + scene_.horizons.size());
-  both.insert(both.end(), slice.bytes().begin(), slice.bytes().end());
-  both.insert(both.end(), scene_.horizons.begin(), scene_.horizons.end());
-  return both;
+  return lends() || may_be_copied(rank) ? held : std::exchange(held, {});
 }
 
 const SharedBytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
@@ -102,7 +96,7 @@ control::Load RenderJob::load() const {
   m.shadows = scene_.shadows;
   m.flow = scene_.flow;
   m.queue = scene_.queue;
-  m.horizon_bytes = is_roth() ? 0 : scene_.horizons.size();
+  m.horizon_bytes = scene_.horizon_bytes;
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.is_replica = scene_.has_replicas;
   m.makes_copies = scene_.makes_copies;

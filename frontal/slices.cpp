@@ -13,7 +13,7 @@ namespace graycube {
 namespace {
 
 /// Of the scene on one node, with occluders: space is shared out however small the scene is.
-constexpr double kMostPart = 0.375;
+constexpr double kMostPart = 0.45;
 
 /// By rank.
 std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
@@ -38,11 +38,17 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 }  // namespace
 
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
-                                   const Occluders& occluders) {
+                                   const Occluders& occluders, std::span<const std::byte> horizons) {
   std::vector<SharedBytes> slices;
+  const auto add = [&](const Bytes& slice, std::span<const std::byte> foreign) {
+    Bytes all;
+    all.reserve(slice.size() + foreign.size() + horizons.size());
+    for (const auto part : {std::span(slice), foreign, horizons}) all.insert(all.end(), part.begin(), part.end());
+    slices.push_back(std::move(all));
+  };
   if (occluders.is_empty()) {
     for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-      slices.push_back(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))));
+      add(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))), {});
     }
     return slices;
   }
@@ -60,10 +66,7 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     choose_occluders(occluders, queries[rank], bytes, room - std::min(room, held), whole);
     contents.hold_whole(whole);
     const Model slice = extract(model, contents);
-    Bytes encoded = encode_model(slice);
-    const Bytes horizons = encode_horizons(occluders.foreign_horizons(contents, slice));
-    encoded.insert(encoded.end(), horizons.begin(), horizons.end());
-    slices.push_back(std::move(encoded));
+    add(encode_model(slice), encode_horizons(occluders.foreign_horizons(contents, slice)));
   }
   return slices;
 }

@@ -22,8 +22,8 @@ constexpr std::uint64_t slice_room(std::uint64_t model_bytes, std::uint32_t node
 }
 
 /// By rank. Where `occluders` is empty, nodes get nothing but what their macro-regions need; otherwise also what the partition's
-/// pre-render asks for, as far as there is room, and foreign horizons behind the model.
+/// pre-render asks for, as far as there is room, and foreign horizons behind the model. `horizons`, encoded, come last.
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
-                                   const Occluders& occluders);
+                                   const Occluders& occluders, std::span<const std::byte> horizons);
 
 }  // namespace graycube

@@ -104,7 +104,7 @@ void Node::on_load(const control::Load& m, const SharedBytes& slice) {
   borrowed_bytes_ = 0;
   moves_ = 0;
   unbuilt_slice_ = slice;
-  slice_bytes_ = slice.size() - std::min<std::size_t>(slice.size(), m.horizon_bytes);
+  slice_bytes_ = slice.size();
   incarnations_.clear();
   const bool is_tree = m.sums == SumsMode::kTree;
   parent_ = is_tree ? cube_->tree_parent(id_.rank) : std::nullopt;

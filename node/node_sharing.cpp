@@ -28,7 +28,7 @@ void Node::on_copy(const control::Copy& m, const SharedBytes& slice) {
   if (m.job != job_ || m.epoch != epoch_ || state_ != State::kRendering) return;
   const std::uint32_t bit = bit_of(Rank{m.rank});
   if (bit >= copies_.size() || domain_->grid() == nullptr) return drop("copy", "not a neighbour's");
-  lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice});
+  lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice, load_.horizon_bytes});
 }
 
 void Node::adopt_copy(WorkResult& result) {

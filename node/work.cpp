@@ -24,7 +24,13 @@ std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte>
   return nullptr;
 }
 
-std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, WorkResult& result) {
+/// Of a slice without the light horizons at its end.
+std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t horizon_bytes, WorkResult& result) {
+  if (horizon_bytes > bytes.size()) {
+    result.error = "less came than was announced";
+    return std::nullopt;
+  }
+  bytes = bytes.first(bytes.size() - horizon_bytes);
   auto decoded = take_model(bytes);
   if (const auto* error = std::get_if<ModelError>(&decoded)) {
     result.error = "the macro-region received is broken: " + error->where + ": " + error->why;
@@ -40,11 +46,7 @@ std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, WorkResult&
 void build(BuildWork work, WorkResult& result) {
   const auto started = std::chrono::steady_clock::now();
   const std::span<const std::byte> bytes = work.slice.bytes();
-  if (work.horizon_bytes > bytes.size()) {
-    result.error = "less came than was announced";
-    return;
-  }
-  auto slice = decoded_slice(bytes.first(bytes.size() - work.horizon_bytes), result);
+  auto slice = decoded_slice(bytes, work.horizon_bytes, result);
   if (!slice) return;
   std::shared_ptr<const LightHorizons> horizons;
   if (work.horizon_bytes > 0) {
@@ -93,12 +95,12 @@ WorkResult Workbench::run(Work work) {
   }
   if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
     result.borrowed_from = b->from;
-    if (auto slice = decoded_slice(b->slice.bytes(), result)) result.borrowed = Territory::of(std::move(slice->model));
+    if (auto slice = decoded_slice(b->slice.bytes(), 0, result)) result.borrowed = Territory::of(std::move(slice->model));
     return result;
   }
   if (auto* c = std::get_if<CopyWork>(&work.what)) {
     result.copied_from = c->from;
-    if (auto slice = decoded_slice(c->slice.bytes(), result)) {
+    if (auto slice = decoded_slice(c->slice.bytes(), c->horizon_bytes, result)) {
       result.domain =
           work.domain->of_neighbour(c->share, std::move(slice->model), std::move(slice->foreign_horizons));
     }

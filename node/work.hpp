@@ -25,7 +25,7 @@ struct GridEdges {
 /// Subdivide the macro-regions that came with `load`.
 struct BuildWork {
   SharedBytes slice;
-  /// Behind the model come so many bytes of light horizons.
+  /// The slice ends with so many bytes of light horizons.
   std::size_t horizon_bytes = 0;
   /// The model is the whole scene.
   bool is_replica = false;
@@ -43,6 +43,8 @@ struct CopyWork {
   Rank from;
   RegionShare share;
   SharedBytes slice;
+  /// As in BuildWork; they are the node's own, too.
+  std::size_t horizon_bytes = 0;
 };
 /// Trace the primary rays of a tile, or of a part of it.
 struct TileWork {

@@ -109,16 +109,17 @@ class Domain {
   /// From here on only those of the grid's regions; not while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
-  /// Whether a shadow ray is surely nearer to its light than `distance` when `left` (both in scene units) of the way is left.
-  static bool is_beyond(const RayTask& task, double left, double distance) {
+  /// Whether a shadow ray from `origin` is surely nearer to its light than `distance` when `left` (both in scene units) of its
+  /// way is left.
+  static bool is_beyond(const Vec3& origin, double left, double distance) {
     // Far more than rounding makes of a ray's distance from its light.
     constexpr double kMargin = 1e-8;
-    return left * (1 + kMargin) + kMargin * larger(1.0, max_abs(task.ray.origin)) < distance;
+    return left * (1 + kMargin) + kMargin * larger(1.0, max_abs(origin)) < distance;
   }
   /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on; has_foreign_horizons() only.
   bool holds_way_to_light(const RayTask& task, double t) const {
     const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
-    return is_beyond(task, length(to_light) - t, foreign_horizons_->distance(task.light, -task.ray.direction));
+    return is_beyond(task.ray.origin, length(to_light) - t, foreign_horizons_->distance(task.light, -task.ray.direction));
   }
   bool borrows() const { return !borrowed_.empty(); }
   bool has_horizons() const { return horizons_ != nullptr; }

@@ -157,41 +157,40 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   const Rgb weight = task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
   if (!(max_component(weight) > 0)) return;
   const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
+  ShadowWay way{origin_epsilon(p), distance - origin_epsilon(p)};
+  if (domain_.has_horizons()) {
+    LightHorizons::Reach reach{lit_[surface]};
+    if (domain_.horizons().has_depths(light)) reach = domain_.horizons().toward(light, -l);
+    const Horizon at_horizon = meet_horizon(reach, way);
+    if (at_horizon != Horizon::kGoesOn) {
+      ++step.rays.skipped_by_horizon;
+      if (at_horizon == Horizon::kArrives) contribute(*at.ray, weight, step);
+      return;
+    }
+  }
   OpenRay& sent = shadow_[light].emplace_back();
   spawn(task, RayKind::kShadow, p, l, weight, sent.task);
   sent.slot = at.ray->slot;
   sent.surface = static_cast<std::uint32_t>(surface);
-  sent.task.t_max = distance - sent.task.t;
+  sent.stays = domain_.has_foreign_horizons() && Domain::is_beyond(p, distance, all_held_[surface]);
+  sent.task.t_max = way.t_max;
   sent.task.light = static_cast<std::uint16_t>(light & kLightMask);
-  if (domain_.has_foreign_horizons()) {
-    sent.stays = Domain::is_beyond(sent.task, distance, all_held_[surface]);
-  }
-  if (domain_.has_horizons()) {
-    LightHorizons::Reach reach{lit_[surface]};
-    if (domain_.horizons().has_depths(light)) reach = domain_.horizons().toward(light, -l);
-    const Horizon at_horizon = meet_horizon(reach, sent.task);
-    if (at_horizon != Horizon::kGoesOn) {
-      ++step.rays.skipped_by_horizon;
-      if (at_horizon == Horizon::kArrives) contribute(sent, weight, step);
-      shadow_[light].pop_back();
-      return;
-    }
-  }
+  sent.task.ends_at_horizon = way.ends_at_horizon;
   ++at.lights;
 }
 
-/// Shortens a shadow ray to where it reaches its light's horizon, unless it begins beyond that, where nothing can stand
+/// Shortens a shadow ray's way to where it reaches its light's horizon, unless it begins beyond that, where nothing can stand
 /// in its way, or where no light comes.
-Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, RayTask& task) const {
+Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, ShadowWay& way) {
   // Crossings that count end a little before the light: the ray is between these distances from it.
-  const double epsilon = task.t;
-  const double farthest = task.t_max + 4 * epsilon;
-  if (task.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance) return Horizon::kEndsInShadow;
+  const double epsilon = way.t;
+  const double farthest = way.t_max + 4 * epsilon;
+  if (way.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance) return Horizon::kEndsInShadow;
   const double end = farthest - reach.lit;
-  if (!(end < task.t_max)) return Horizon::kGoesOn;
-  task.t_max = end;
-  task.ends_at_horizon = true;
-  return end > task.t ? Horizon::kGoesOn : Horizon::kArrives;
+  if (!(end < way.t_max)) return Horizon::kGoesOn;
+  way.t_max = end;
+  way.ends_at_horizon = true;
+  return end > way.t ? Horizon::kGoesOn : Horizon::kArrives;
 }
 
 /// Among what each surface sends out and its own contribution.

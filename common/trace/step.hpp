@@ -125,7 +125,12 @@ class Evaluator {
   /// What becomes of a new shadow ray.
   enum class Horizon : std::uint8_t { kGoesOn, kArrives, kEndsInShadow };
   void look_up_horizons(std::uint32_t light);
-  Horizon meet_horizon(const LightHorizons::Reach& reach, RayTask& task) const;
+  /// Where a shadow ray's crossings count: t ≤ their parameter < t_max.
+  struct ShadowWay {
+    double t, t_max;
+    bool ends_at_horizon = false;
+  };
+  static Horizon meet_horizon(const LightHorizons::Reach& reach, ShadowWay& way);
   void share_credit();
   void open_pixel(std::uint32_t pixel);
   void contribute(const OpenRay& ray, const Rgb& light, Step& step);

@@ -42,7 +42,7 @@ TEST_CASE("a compiled scene is cut as its text is") {
     CHECK(compiled.scene->settings.image.width == 64);
     CHECK(compiled.scene->primitives == text.primitives);
     CHECK(compiled.scene->objects == text.objects);
-    CHECK(compiled.scene->horizons == text.horizons);
+    CHECK(compiled.scene->horizon_bytes == text.horizon_bytes);
     CHECK(compiled.scene->grid == text.grid);
     REQUIRE(compiled.scene->slices.size() == text.slices.size());
     for (std::size_t i = 0; i < text.slices.size(); ++i) {
