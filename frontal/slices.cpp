@@ -1,7 +1,7 @@
 #include "frontal/slices.hpp"
 
 #include <algorithm>
-#include <span>
+#include <array>
 #include <utility>
 
 #include "proto/horizon_bytes.hpp"
@@ -15,7 +15,16 @@ namespace {
 /// Of the scene on one node, with occluders: space is shared out however small the scene is.
 constexpr double kMostPart = 0.45;
 
-/// By rank.
+/// The texels of the square of 2 × 2 that a texel is in: the pre-render looks at few pixels, and what one surface asks for
+/// in a texel the next may ask for beside it.
+std::array<std::uint32_t, 4> square_of(std::uint32_t texel) {
+  constexpr std::uint32_t kSide = LightHorizons::kSide;
+  static_assert(kSide % 2 == 0);
+  const std::uint32_t first = texel / kSide / 2 * 2 * kSide + texel % kSide / 2 * 2;
+  return {first, first + 1, first + kSide, first + kSide + 1};
+}
+
+/// By rank: what shadow rays ask for that leave their node.
 std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
   for (const LeavingLight& light : cut.left_by_light) {
@@ -25,15 +34,44 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     auto exit = cut.grid.exit(light.from, task.ray, task.t);
     while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
     if (!exit || exit->t >= task.t_max) continue;
-    const Vec3 to_light = model.settings.lights[task.light].position - task.ray.origin;
+    const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
     const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t t = (texel & ~std::uint32_t{LightHorizons::kSide + 1}) | (k & 1) | (k >> 1) * LightHorizons::kSide;
-      queries[rank.value].push_back({task.light, t, length(to_light)});
-    }
+    for (const std::uint32_t t : square_of(texel)) queries[rank.value].push_back({task.light, t, distance});
   }
   return queries;
 }
+
+/// What nodes hold, with occluders.
+class Contents {
+ public:
+  Contents(const Model& model, const Hypercube& cube, const Partition& cut, const Occluders& occluders)
+      : model_(model), cube_(cube), cut_(cut), occluders_(occluders), queries_(queries_of(model, cube, cut)) {
+    for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
+    const std::uint64_t all = encoded_model_bytes(model);
+    room_ = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
+  }
+
+  ModelContents of(Rank rank) const {
+    ModelContents contents = contents_of_share(model_, cut_.grid, share_of(cube_, rank));
+    std::uint64_t held = 0;
+    for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
+    for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
+    std::vector<bool> whole = contents.is_whole;
+    choose_occluders(occluders_, queries_[rank.value], bytes_, room_ - std::min(room_, held), whole);
+    contents.hold_whole(whole);
+    return contents;
+  }
+
+ private:
+  const Model& model_;
+  const Hypercube& cube_;
+  const Partition& cut_;
+  const Occluders& occluders_;
+  std::vector<std::vector<OccluderQuery>> queries_;
+  /// By object.
+  std::vector<std::size_t> bytes_;
+  std::uint64_t room_ = 0;
+};
 
 }  // namespace
 
@@ -43,7 +81,9 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
   const auto add = [&](const Bytes& slice, std::span<const std::byte> foreign) {
     Bytes all;
     all.reserve(slice.size() + foreign.size() + horizons.size());
-    for (const auto part : {std::span(slice), foreign, horizons}) all.insert(all.end(), part.begin(), part.end());
+    for (const auto part : {std::span<const std::byte>(slice), foreign, horizons}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
     slices.push_back(std::move(all));
   };
   if (occluders.is_empty()) {
@@ -52,19 +92,9 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     }
     return slices;
   }
-  const auto queries = queries_of(model, cube, cut);
-  const std::uint64_t all = encoded_model_bytes(model);
-  const std::uint64_t room = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
-  std::vector<std::size_t> bytes;
-  for (const Object& object : model.objects) bytes.push_back(encoded_object_bytes(model, object));
+  const Contents all_contents(model, cube, cut, occluders);
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-    ModelContents contents = contents_of_share(model, cut.grid, share_of(cube, Rank{rank}));
-    std::uint64_t held = 0;
-    for (std::size_t i = 0; i < bytes.size(); ++i) held += contents.is_whole[i] ? bytes[i] : 0;
-    for (const ModelContents::Part& part : contents.parts) held += bytes[part.object];
-    std::vector<bool> whole = contents.is_whole;
-    choose_occluders(occluders, queries[rank], bytes, room - std::min(room, held), whole);
-    contents.hold_whole(whole);
+    const ModelContents contents = all_contents.of(Rank{rank});
     const Model slice = extract(model, contents);
     add(encode_model(slice), encode_horizons(occluders.foreign_horizons(contents, slice)));
   }

@@ -2,7 +2,9 @@
 // and the lights.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "frontal/partition.hpp"

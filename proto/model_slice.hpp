@@ -39,7 +39,7 @@ struct ModelError {
 /// Size of what encode_model gives.
 std::size_t encoded_model_bytes(const Model& model);
 
-/// What an object adds to that, but for planes and meshes.
+/// What an object adds to that.
 std::size_t encoded_object_bytes(const Model& model, const Object& object);
 
 /// True when encode_model may be called: no count, nor the size, nor the depth of a tree beyond its

@@ -134,7 +134,10 @@ std::size_t encoded_model_bytes(const Model& model) {
 std::size_t encoded_object_bytes(const Model& model, const Object& object) {
   std::size_t bytes = kObjectBytes + object.node_count * kNodeBytes;
   for (const TreeNode& n : model.tree(object)) {
-    if (!is_inner(n.kind)) bytes += primitive_bytes(flags_of(model.primitives[n.primitive]));
+    if (is_inner(n.kind)) continue;
+    const Primitive& p = model.primitives[n.primitive];
+    bytes += primitive_bytes(flags_of(p)) + p.plane_count * kPlaneBytes;
+    if (p.kind == PrimitiveKind::kMesh) bytes += mesh_bytes(model.meshes[p.mesh].surface());
   }
   return bytes;
 }

@@ -95,6 +95,22 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
   CHECK(std::max(beside_lower_right, beside_upper_left) > 2 * std::min(beside_lower_right, beside_upper_left));
 }
 
+TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    Model empty = model;
+    empty.primitives.clear();
+    empty.planes.clear();
+    empty.meshes.clear();
+    empty.nodes.clear();
+    empty.objects.clear();
+    std::size_t bytes = encoded_model_bytes(empty);
+    for (const Object& object : model.objects) bytes += encoded_object_bytes(model, object);
+    CHECK(bytes == encoded_model_bytes(model));
+  }
+}
+
 TEST_CASE("room for slices is twice an equal share, or a little for small scenes") {
   CHECK(slice_room(1000, 16) == kSmallSlices);
   CHECK(slice_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);
