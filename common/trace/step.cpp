@@ -315,6 +315,7 @@ void Evaluator::contribute(const OpenRay& ray, const Rgb& light, Step& step) {
 }
 
 void Evaluator::close_pixels(Step& step) {
+  if (step.returns.empty()) step.returns.reserve(open_.size());
   // A ray that went on as a whole brought nothing; its tile may be whole before this could arrive.
   for (const PixelReturn& sum : open_) {
     if (sum.merged > 0 || !sum.credit.is_zero()) step.returns.push_back(sum);
