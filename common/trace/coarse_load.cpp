@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -12,8 +13,8 @@
 namespace graycube {
 namespace {
 
-/// Side of the blocks of pixels that are traced together: neighbours share most of the way.
-constexpr std::uint32_t kCoarseBlock = 2;
+/// Blocks of pixels side by side: neighbours share most of the way.
+constexpr std::uint32_t kBlockWidth = 2, kBlockHeight = 1;
 /// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
 /// block comes on top.
 constexpr std::size_t kManyRays = 8192;
@@ -36,19 +37,26 @@ class CoarseTrace {
     domain_.set_horizons(std::move(horizons));
   }
 
-  /// The pixels' primary rays; they may belong to several regions.
-  void trace_block(const PixelRect& block) {
+  /// Primary rays wait as all others do: those of a region are traced together.
+  void add_block(const PixelRect& block) {
+    const CameraFrame& frame = domain_.frame();
+    const std::uint32_t samples = frame.image.samples;
     for (std::uint32_t y = block.y0; y < block.y1; ++y) {
       for (std::uint32_t x = block.x0; x < block.x1; ++x) {
         const RegionIndex at = grid_.region_of_pixel(x, y);
-        PixelRect part{x, y, x + 1, y + 1};
-        const bool is_whole = x == block.x0 && y == block.y0 &&
-                              grid_.region_of_pixel(block.x1 - 1, block.y1 - 1) == at;
-        if (is_whole) part = block;
-        trace(at, evaluator_, [&] { evaluator_.trace_pixels(part, step_); });
-        if (is_whole) return;
+        for (std::uint32_t s = 0; s < samples * samples; ++s) {
+          RayTask& ray = waiting_[index_of(at)].emplace_back();
+          ray.ray = frame.primary_ray(x, y, s % samples, s / samples);
+          ray.t_max = std::numeric_limits<double>::infinity();
+          ray.weight = {1, 1, 1};
+          ray.pixel = y * frame.image.width + x;
+          ray.region = at;
+        }
       }
     }
+    const std::uint64_t rays = std::uint64_t{block.x1 - block.x0} * (block.y1 - block.y0) * samples * samples;
+    waiting_count_ += rays;
+    created_[static_cast<std::size_t>(RayKind::kPrimary)] += rays;
   }
 
   /// Traces what has left its region, region by region to and fro, until nothing is left: what goes the same way
@@ -80,9 +88,13 @@ class CoarseTrace {
     if (rays.empty()) return;
     taken_.swap(rays);
     const RegionIndex at = taken_.front().region;
-    crossings_ += taken_.size();
     waiting_count_ -= taken_.size();
-    map_.at(at.column, at.row) += crossing_cost_ * static_cast<double>(taken_.size());
+    const auto began = static_cast<std::size_t>(
+        std::count_if(taken_.begin(), taken_.end(), [](const RayTask& r) { return r.kind == RayKind::kPrimary; }));
+    const std::size_t came = taken_.size() - began;
+    crossings_ += came;
+    map_.at(at.column, at.row) +=
+        crossing_cost_ * static_cast<double>(came) + kCreatedCost * static_cast<double>(began);
     trace(at, evaluator_, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
@@ -166,17 +178,23 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_p
   const double wanted =
       std::clamp(kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
                  static_cast<double>(kMostCoarsePixels));
-  const auto step = std::max(
-      kCoarseBlock, static_cast<std::uint32_t>(kCoarseBlock * std::sqrt(pixels / wanted)));
-  const std::uint32_t first = (step - kCoarseBlock) / 2;
+  const double step = std::sqrt(kBlockWidth * kBlockHeight * pixels / wanted);
+  // As many blocks in each region as in any other.
+  const auto blocks = [step](std::uint32_t side, std::uint32_t regions, std::uint32_t block) {
+    const auto each = static_cast<std::uint32_t>(std::lround(side / (regions * step)));
+    return std::min(regions * std::max(1u, each), std::max(1u, side / block));
+  };
+  const std::uint32_t across = blocks(image.width, grid.columns(), kBlockWidth);
+  const std::uint32_t count = across * blocks(image.height, grid.rows(), kBlockHeight);
+  const auto middle = [](std::uint32_t i, std::uint32_t of, std::uint32_t side) {
+    return static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * side / (2 * std::uint64_t{of}));
+  };
   const std::uint64_t most_crossings =
       std::max(kLeastCoarseCrossings, kCoarseCrossingsPerPixel * image.width * image.height);
-  const auto blocks = [&](std::uint32_t side) { return side > first ? (side - first - 1) / step + 1 : 0; };
-  const std::uint32_t across = blocks(image.width), count = across * blocks(image.height);
   const std::uint32_t stride = spreading_step(count);
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
-    const std::uint32_t x = first + at % across * step, y = first + at / across * step;
-    trace.trace_block({x, y, std::min(x + kCoarseBlock, image.width), std::min(y + kCoarseBlock, image.height)});
+    const std::uint32_t x = middle(at % across, across, image.width), y = middle(at / across, count / across, image.height);
+    trace.add_block({x, y, std::min(x + kBlockWidth, image.width), std::min(y + kBlockHeight, image.height)});
     // Also when the blocks have doubled: what they take to the end is known before it is too much.
     if (trace.has_many_waiting() || std::has_single_bit(i + 1)) trace.finish();
     at = (at + stride) % count;

@@ -8,7 +8,7 @@
 namespace graycube {
 
 /// Pixels that are traced: about this share of the picture, within these bounds.
-inline constexpr double kCoarseShare = 0.009;
+inline constexpr double kCoarseShare = 0.0078;
 inline constexpr std::uint64_t kLeastCoarsePixels = 1024;
 inline constexpr std::uint64_t kMostCoarsePixels = 16384;
 /// Fewer where their rays have crossed from region to region so many times for each pixel of the picture, or so many

@@ -92,7 +92,7 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
     if (share.column >= 2 && share.row >= 2) beside_lower_right += beside;
   }
   CHECK(beside_lower_right != beside_upper_left);
-  CHECK(std::max(beside_lower_right, beside_upper_left) > 2 * std::min(beside_lower_right, beside_upper_left));
+  CHECK(2 * std::max(beside_lower_right, beside_upper_left) > 3 * std::min(beside_lower_right, beside_upper_left));
 }
 
 TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
