@@ -78,6 +78,7 @@ LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const M
     const LightView view(slice, slice.settings.lights[light].position);
     for (const std::uint32_t part : places_of_parts(contents)) {
       seen.clear();
+      // A pruned tree lies within the object's bounds: what goes from a conjunction is the complement of something.
       view.look_at(slice.objects[part], seen);
       for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
     }
