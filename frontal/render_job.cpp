@@ -202,9 +202,7 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::
   limits.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());
   limits.max_depth = scene_.settings.max_depth;
   limits.nodes = nodes_;
-  std::vector<TileCredit> credits;
-  std::vector<Contribution> contributions;
-  const auto result = decode_contributions(batch, limits, credits, contributions);
+  const auto result = decode_contributions(batch, limits, credits_, contributions_);
   if (const auto* error = std::get_if<BatchError>(&result)) {
     return "a broken batch of contributions: " + std::string(to_string(*error));
   }
@@ -214,11 +212,11 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::
     return "a batch of contributions from node " + std::to_string(s.sender) + " was lost";
   }
   ++batches_received_[s.sender];
-  for (const Contribution& c : contributions) {
+  for (const Contribution& c : contributions_) {
     if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
     film_.add(c.pixel, c.light);
   }
-  for (const TileCredit& c : credits) {
+  for (const TileCredit& c : credits_) {
     switch (ledger_.add(c.tile, c.credit)) {
       case CreditResult::kOpen: break;
       case CreditResult::kWhole:

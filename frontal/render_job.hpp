@@ -132,6 +132,9 @@ class RenderJob {
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;
   std::vector<std::uint64_t> batches_received_, assignments_sent_;
+  /// Of the batch that is taken in.
+  std::vector<TileCredit> credits_;
+  std::vector<Contribution> contributions_;
   std::optional<control::Terminated> verdict_;
   std::uint32_t rounds_ = 0, hops_ = 0;
   std::vector<control::NodeStats> reports_;

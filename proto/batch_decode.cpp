@@ -191,12 +191,15 @@ BatchResult decode_contributions(std::span<const std::byte> message, const Batch
                                  std::vector<TileCredit>& credits,
                                  std::vector<Contribution>& contributions) {
   credits.clear();
-  contributions.clear();
   const std::byte* at = nullptr;
   const BatchResult result = open(message, limits, BatchType::kContributions, at);
   const auto* h = std::get_if<BatchHeader>(&result);
-  if (h == nullptr) return result;
+  if (h == nullptr) {
+    contributions.clear();
+    return result;
+  }
   const std::size_t credit_bytes = h->count * kTileCreditBytes;
+  // Of the batch before: all are overwritten, so that none need be made anew.
   contributions.resize(h->second_count);
   if (!load_all(at, h->count, kTileCreditBytes, limits, load_credit, credits) ||
       !load_light({at + credit_bytes, h->payload_bytes - credit_bytes}, limits, contributions)) {

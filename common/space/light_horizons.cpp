@@ -9,8 +9,9 @@
 namespace graycube {
 namespace {
 
-/// Distances in units are given this much shorter, relatively, before they are rounded down.
-constexpr double kRelativeError = 1e-9;
+/// Distances in units are given this much shorter, relatively, before they are rounded down: more than rounding them to
+/// floats (LightHorizons::distances_at) can make of them.
+constexpr double kRelativeError = 1e-6;
 
 /// Where nothing tells how far distances are worth something.
 constexpr double kReachOfNearest = 100;

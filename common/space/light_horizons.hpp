@@ -4,6 +4,7 @@
 // also hold the distance beyond which no light arrives at all (light_depths.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -101,9 +102,15 @@ class LightHorizons {
   bool has_depths(std::size_t light) const { return light < block_of_.size() && !block_of_[light].empty(); }
   /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.
   void distances_at(std::size_t light, std::span<const std::uint32_t> texels, std::span<float> distances) const {
-    const bool has_map = light < maps_.size() && !maps_[light].empty();
+    if (light >= maps_.size() || maps_[light].empty()) {
+      std::fill_n(distances.begin(), texels.size(), 0.0f);
+      return;
+    }
+    const HorizonMap& map = maps_[light];
+    const auto unit = static_cast<float>(map.unit);
     for (std::size_t i = 0; i < texels.size(); ++i) {
-      distances[i] = has_map ? static_cast<float>(maps_[light].at(texels[i])) : 0;
+      const std::uint16_t units = map.units[texels[i]];
+      distances[i] = units == HorizonMap::kNever ? std::numeric_limits<float>::infinity() : unit * static_cast<float>(units);
     }
   }
 

@@ -160,6 +160,26 @@ TEST_CASE("texels of many directions are those of each, with any instruction set
   REQUIRE(choose_simd("best"));
 }
 
+TEST_CASE("distances of many texels, as floats, are no longer than what they are of") {
+  Dice dice(3);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<float> distances(LightHorizons::kTexels);
+    const double reach = dice.between(0.01, 1000);
+    for (float& d : distances) d = static_cast<float>(dice.one_in(9) ? INFINITY : dice.between(0, 1.2 * reach));
+    const LightHorizons horizons({HorizonMap::of(distances, reach)});
+    std::array<std::uint32_t, 64> texels;
+    for (std::uint32_t& t : texels) t = static_cast<std::uint32_t>(dice.below(LightHorizons::kTexels));
+    std::array<float, 64> found;
+    horizons.distances_at(0, texels, found);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      REQUIRE(found[i] <= distances[texels[i]]);
+      REQUIRE(found[i] >= std::min<double>(distances[texels[i]], reach) * (1 - 1e-5) - reach / 60'000);
+    }
+    horizons.distances_at(1, texels, found);
+    REQUIRE(found == std::array<float, 64>{});
+  }
+}
+
 TEST_CASE("a map's distances are a little shorter, or cut off at its reach") {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   std::vector<float> distances{0, 1, 99.5f, 100, 1e9f, kInf};
