@@ -18,6 +18,8 @@ constexpr std::uint32_t kMostCells = 32;
 /// What a ray that comes in costs a node, in primitives that it tests. Its evaluators hardly notice (what they do for
 /// it counts by itself); its mailroom decodes and stores it.
 constexpr double kCrossingCost = 3;
+/// Enough to tell the work of a macro-region from that of the next, and what its shadow rays ask for.
+constexpr std::uint32_t kCoarsePixelsPerNode = 512;
 /// The pre-render subdivides the whole scene: where nothing is asked for, there must be this many primary rays to
 /// each primitive.
 constexpr std::uint64_t kPrimaryRaysPerPrimitive = 2;
@@ -41,7 +43,8 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
     return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0, {}};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, shadows, kCrossingCost / fine);
+  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, shadows, kCrossingCost / fine,
+                                std::uint64_t{kCoarsePixelsPerNode} * cube.nodes());
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);

@@ -171,13 +171,13 @@ std::uint32_t spreading_step(std::uint32_t count) {
 }  // namespace
 
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
-                       ShadowTracing shadows, double crossing_cost) {
+                       ShadowTracing shadows, double crossing_cost, std::uint64_t most_pixels) {
   CoarseTrace trace(whole, grid, std::move(horizons), shadows, crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;
   const double wanted =
       std::clamp(kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
-                 static_cast<double>(kMostCoarsePixels));
+                 static_cast<double>(std::clamp(most_pixels, kLeastCoarsePixels, kMostCoarsePixels)));
   const double step = std::sqrt(kBlockWidth * kBlockHeight * pixels / wanted);
   // As many blocks in each region as in any other.
   const auto blocks = [step](std::uint32_t side, std::uint32_t regions, std::uint32_t block) {

@@ -7,7 +7,7 @@
 
 namespace graycube {
 
-/// Pixels that are traced: about this share of the picture, within these bounds.
+/// Pixels that are traced: about this share of the picture, within these bounds, and no more than the caller asks for.
 inline constexpr double kCoarseShare = 0.0078;
 inline constexpr std::uint64_t kLeastCoarsePixels = 1024;
 inline constexpr std::uint64_t kMostCoarsePixels = 16384;
@@ -41,6 +41,6 @@ enum class ShadowTracing : std::uint8_t { kWhereItGoes, kWhereItBegins };
 
 /// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
-                       ShadowTracing shadows, double crossing_cost);
+                       ShadowTracing shadows, double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
 
 }  // namespace graycube
