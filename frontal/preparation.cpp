@@ -154,7 +154,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     out.slices.push_back(encode_model(model));
     return;
   }
-  out.slice_room = slice_room(encoded_model_bytes(model), work.cube.nodes());
+  out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
   out.slices = slices_of(model, work.cube, cut, ways.occluders, horizons);
 }
 

@@ -44,8 +44,8 @@ struct PreparedScene {
   std::uint64_t primitives = 0, objects = 0;
   /// By rank, light horizons behind; one for all where every node holds the whole model.
   std::vector<SharedBytes> slices;
-  /// What slices may take on each node, in bytes.
-  std::uint64_t slice_room = 0;
+  /// What slices may take on each node, with copies of neighbours', in bytes.
+  std::uint64_t copy_room = 0;
   /// Of light horizons, in each slice.
   std::uint64_t horizon_bytes = 0;
   /// In `macro`: every node holds the whole model.

@@ -65,7 +65,7 @@ const SharedBytes* RenderJob::slice_to_lend(std::uint32_t rank) const {
 }
 
 bool RenderJob::has_room(Rank helper, Rank owner) const {
-  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= scene_.slice_room;
+  return held_bytes_[helper.value] + slice_bytes_[owner.value] <= scene_.copy_room;
 }
 
 bool RenderJob::may_be_copied(Rank owner) const {

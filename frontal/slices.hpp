@@ -13,14 +13,18 @@
 
 namespace graycube {
 
-/// Bytes of slices that a node may hold, its own with occluders, and copies of neighbours': so many times an equal share of
-/// the whole scene, or so many bytes where that is more.
+/// Bytes that a node may hold: so many times an equal share of the whole scene, or so many bytes where that is more, for its own
+/// slice with occluders, and for slices with copies of neighbours'.
 inline constexpr std::uint64_t kMostShares = 2;
 inline constexpr std::uint64_t kSmallSlices = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t kSmallCopies = std::uint64_t{256} << 10;
 
-/// Room for slices on each of `nodes`, of a model that takes so many bytes.
+/// On each of `nodes`, of a model that takes so many bytes.
 constexpr std::uint64_t slice_room(std::uint64_t model_bytes, std::uint32_t nodes) {
   return std::max(kMostShares * model_bytes / nodes, kSmallSlices);
+}
+constexpr std::uint64_t copy_room(std::uint64_t model_bytes, std::uint32_t nodes) {
+  return std::max(kMostShares * model_bytes / nodes, kSmallCopies);
 }
 
 /// By rank. Where `occluders` is empty, nodes get nothing but what their macro-regions need; otherwise also what the partition's

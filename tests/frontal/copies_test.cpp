@@ -18,7 +18,7 @@ const Hypercube kCube = *Hypercube::of_size(4);
 RenderJob job_with_slices(const std::vector<std::size_t>& bytes) {
   PreparedScene cut = prepared(corner_scene(), {});
   for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i] = Bytes(bytes[i]);
-  cut.slice_room = slice_room(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}), kCube.nodes());
+  cut.copy_room = copy_room(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}), kCube.nodes());
   return RenderJob(1, std::move(cut), kCube, 1);
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("a slice is there to be copied when its node has got it") {
 }
 
 TEST_CASE("no copy is made beyond a node's room for slices") {
-  const std::size_t small = kSmallSlices / 3, large = 4 * kSmallSlices;
+  const std::size_t small = kSmallCopies / 3, large = 4 * kSmallCopies;
   const Rank helper = kCube.neighbour(kOwner, 0), third = kCube.neighbour(helper, 1);
   SECTION("small ones fit, however many") {
     RenderJob job = job_with_slices({small, small, small, small});

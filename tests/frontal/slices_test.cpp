@@ -114,4 +114,6 @@ TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
 TEST_CASE("room for slices is twice an equal share, or a little for small scenes") {
   CHECK(slice_room(1000, 16) == kSmallSlices);
   CHECK(slice_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);
+  CHECK(copy_room(1000, 16) == kSmallCopies);
+  CHECK(copy_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);
 }
