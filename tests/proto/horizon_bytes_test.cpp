@@ -86,6 +86,27 @@ TEST_CASE("bytes that are no horizons are refused") {
   CHECK_FALSE(decode_horizons(broken, 3));
 }
 
+TEST_CASE("horizons with random bytes changed are refused, or are horizons") {
+  const auto good = encode_horizons(some_horizons());
+  std::size_t refused = 0, read = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    auto bytes = good;
+    // Mostly near the beginning, where lengths are.
+    for (std::uint64_t i = 0; i <= random.below(3); ++i) {
+      bytes[random.below(random.below(2) == 0 ? 64 : bytes.size())] = std::byte(random.below(256));
+    }
+    if (random.below(4) == 0) bytes.resize(random.below(bytes.size()));
+    const auto received = decode_horizons(bytes, 3);
+    ++(received ? read : refused);
+    // What is read can be written, and read again.
+    if (received) REQUIRE(decode_horizons(encode_horizons(*received), 3));
+  }
+  CHECK(refused > 50);
+  CHECK(read > 50);
+}
+
 TEST_CASE("a map in which nothing ever comes takes few bytes") {
   const HorizonMap empty{1, std::vector<std::uint16_t>(LightHorizons::kTexels, HorizonMap::kNever)};
   const LightHorizons sent({empty});

@@ -180,6 +180,17 @@ MacroGrid uneven_grid(const CameraFrame& frame, Dice& dice) {
   return {frame, std::move(columns), std::move(rows)};
 }
 
+/// Half of them have lights outside of everything, which see most.
+Model model_with_lights(std::uint64_t seed) {
+  RandomOptions options;
+  options.unbounded = seed % 2 == 0;
+  Scene scene = RandomModel(seed, options).scene();
+  if (!options.unbounded) {
+    for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
+  }
+  return compile_scene(scene);
+}
+
 struct Size {
   std::uint32_t columns, rows;
 };
@@ -215,14 +226,7 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
   constexpr std::uint64_t kDepthTexels = 40'000;
   std::uint64_t skipped = 0, skipped_with_depth = 0, without = 0, with = 0, with_depth = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    // Half of the scenes have lights outside of everything, which see most.
-    RandomOptions options;
-    options.unbounded = seed % 2 == 0;
-    Scene scene = RandomModel(seed, options).scene();
-    if (!options.unbounded) {
-      for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
-    }
-    const Model model = compile_scene(scene);
+    const Model model = model_with_lights(seed);
     const Harvest whole = trace_whole(model);
     const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     const auto horizons = std::make_shared<const LightHorizons>(LightHorizons::of(model));
@@ -256,13 +260,7 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
 TEST_CASE("nodes that hold some occluders give the picture of the whole, and hand over less") {
   std::uint64_t without = 0, with = 0, parts = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    RandomOptions options;
-    options.unbounded = seed % 2 == 0;
-    Scene scene = RandomModel(seed, options).scene();
-    if (!options.unbounded) {
-      for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
-    }
-    const Model model = compile_scene(scene);
+    const Model model = model_with_lights(seed);
     const Harvest whole = trace_whole(model);
     const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     Dice dice(seed);
