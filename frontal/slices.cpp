@@ -1,7 +1,6 @@
 #include "frontal/slices.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "proto/horizon_bytes.hpp"
@@ -15,13 +14,15 @@ namespace {
 /// Of the scene on one node, with occluders: space is shared out however small the scene is.
 constexpr double kMostPart = 0.45;
 
-/// The texels of the square of 2 × 2 that a texel is in: the pre-render looks at few pixels, and what one surface asks for
-/// in a texel the next may ask for beside it.
-std::array<std::uint32_t, 4> square_of(std::uint32_t texel) {
+/// Calls f(texel) for a texel and those around it on its face: the pre-render looks at few pixels, and what one surface
+/// asks for in a texel the next may ask for beside it.
+template <typename F>
+void for_each_around(std::uint32_t texel, F&& f) {
   constexpr std::uint32_t kSide = LightHorizons::kSide;
-  static_assert(kSide % 2 == 0);
-  const std::uint32_t first = texel / kSide / 2 * 2 * kSide + texel % kSide / 2 * 2;
-  return {first, first + 1, first + kSide, first + kSide + 1};
+  const std::uint32_t u = texel % kSide, v = texel / kSide % kSide;
+  for (std::uint32_t y = v > 0 ? v - 1 : v; y <= std::min(v + 1, kSide - 1); ++y) {
+    for (std::uint32_t x = u > 0 ? u - 1 : u; x <= std::min(u + 1, kSide - 1); ++x) f(texel - v * kSide - u + y * kSide + x);
+  }
 }
 
 /// By rank: what shadow rays ask for that leave their node.
@@ -36,7 +37,7 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     if (!exit || exit->t >= task.t_max) continue;
     const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
     const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    for (const std::uint32_t t : square_of(texel)) queries[rank.value].push_back({task.light, t, distance});
+    for_each_around(texel, [&](std::uint32_t t) { queries[rank.value].push_back({task.light, t, distance}); });
   }
   return queries;
 }
