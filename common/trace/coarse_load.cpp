@@ -101,6 +101,8 @@ class CoarseTrace {
   /// Shadow rays that are traced where they began, on their further way.
   void trace_staying(std::vector<RayTask>& rays) {
     if (rays.empty()) return;
+    // They have left their region once.
+    crossings_ += rays.size();
     waiting_count_ -= rays.size();
     trace(rays.front().region, open_evaluator_, [&] { open_evaluator_.trace_rays(rays, step_); });
     rays.clear();

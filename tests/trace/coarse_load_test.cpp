@@ -108,6 +108,10 @@ TEST_CASE("between mirrors the coarse render ends early, and has looked everywhe
   const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
   const LoadMap load = coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 0).map;
   const double crossings = total(coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 1).map) - total(load);
+  // What is noted for occluders is bounded as well, whoever finishes shadow rays.
+  const auto begins = coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItBegins, 0);
+  CHECK(begins.left_by_light.size() > 1000);
+  CHECK(begins.left_by_light.size() < 250'000);
   CHECK(crossings > kLeastCoarseCrossings);
   // Rays that wait when the limit is reached come on top; all blocks would take over a million.
   CHECK(crossings < 6 * kLeastCoarseCrossings);
