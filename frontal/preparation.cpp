@@ -8,13 +8,11 @@
 #include "frontal/slices.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
-#include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "space/light_depths.hpp"
 #include "space/macro_grid.hpp"
-#include "space/restrict.hpp"
 
 namespace graycube {
 namespace {
