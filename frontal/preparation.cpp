@@ -28,6 +28,9 @@ constexpr std::uint32_t kAutoScatter = 1;
 constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
+/// Foreign bounds: there must be this many primary rays to each primitive, since they are taken from the whole scene's tree.
+constexpr std::uint64_t kRaysPerPrimitiveForBounds = 2;
+
 /// Up to this size of the model most nodes have room for all that their shadow rays ask for.
 constexpr std::uint64_t kFinishedModelBytes = 2 * kSmallSlices;
 
@@ -116,6 +119,13 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   return ways;
 }
 
+/// Whether nodes finish rays that have left their macro-regions: unless a report's mode is asked for, or the whole scene would be
+/// subdivided only for that.
+bool finishes_rays(const PreparationWork& work, const WholeScene& whole) {
+  return work.options.shadows == ShadowMode::kHorizon && work.options.flow == FlowMode::kCredit && work.cube.nodes() > 1 &&
+         whole.has_primary_rays(kRaysPerPrimitiveForBounds);
+}
+
 /// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
 PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
   const bool is_open = work.options.partition == PartitionMode::kAuto;
@@ -153,7 +163,8 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     return;
   }
   out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
-  out.slices = slices_of(model, work.cube, cut, ways.occluders, horizons);
+  const SurfaceTree* tree = finishes_rays(work, whole) ? &*whole.territory()->tree : nullptr;
+  out.slices = slices_of(model, work.cube, cut, tree, ways.occluders, horizons);
 }
 
 }  // namespace

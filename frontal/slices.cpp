@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "proto/bounds_bytes.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
+#include "space/foreign_bounds.hpp"
 #include "space/restrict.hpp"
 
 namespace graycube {
@@ -42,11 +44,12 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
   return queries;
 }
 
-/// What nodes hold, with occluders.
+/// What nodes hold beside what their macro-regions need.
 class Contents {
  public:
-  Contents(const Model& model, const Hypercube& cube, const Partition& cut, const Occluders& occluders)
-      : model_(model), cube_(cube), cut_(cut), occluders_(occluders), queries_(queries_of(model, cube, cut)) {
+  Contents(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree, const Occluders& occluders)
+      : model_(model), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
+    if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
     for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
     const std::uint64_t all = encoded_model_bytes(model);
     room_ = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
@@ -57,16 +60,29 @@ class Contents {
     std::uint64_t held = 0;
     for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
     for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
+    std::size_t room = room_ - std::min(room_, held);
     std::vector<bool> whole = contents.is_whole;
-    choose_occluders(occluders_, queries_[rank.value], bytes_, room_ - std::min(room_, held), whole);
+    if (tree_ != nullptr) add_unbounded(room, whole);
+    choose_occluders(occluders_, queries_[rank.value], bytes_, room, whole);
     contents.hold_whole(whole);
     return contents;
   }
 
  private:
+  /// They are few, mostly floors, and where one is foreign nothing can be said of any ray.
+  void add_unbounded(std::size_t& room, std::vector<bool>& whole) const {
+    for (const std::uint32_t item : tree_->unbounded_items()) {
+      const std::uint32_t object = tree_->items()[item].object;
+      if (whole[object] || bytes_[object] > room) continue;
+      whole[object] = true;
+      room -= bytes_[object];
+    }
+  }
+
   const Model& model_;
   const Hypercube& cube_;
   const Partition& cut_;
+  const SurfaceTree* tree_;
   const Occluders& occluders_;
   std::vector<std::vector<OccluderQuery>> queries_;
   /// By object.
@@ -76,28 +92,36 @@ class Contents {
 
 }  // namespace
 
-std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
                                    const Occluders& occluders, std::span<const std::byte> horizons) {
   std::vector<SharedBytes> slices;
-  const auto add = [&](const Bytes& slice, std::span<const std::byte> foreign) {
+  const auto add = [&](const Bytes& slice, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
     Bytes all;
-    all.reserve(slice.size() + foreign.size() + horizons.size());
-    for (const auto part : {std::span<const std::byte>(slice), foreign, horizons}) {
+    all.reserve(slice.size() + bounds.size() + foreign.size() + horizons.size());
+    for (const auto part : {std::span<const std::byte>(slice), bounds, foreign, horizons}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     slices.push_back(std::move(all));
   };
-  if (occluders.is_empty()) {
+  if (occluders.is_empty() && tree == nullptr) {
     for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-      add(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))), {});
+      add(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))), {}, {});
     }
     return slices;
   }
-  const Contents all_contents(model, cube, cut, occluders);
+  const Contents all_contents(model, cube, cut, tree, occluders);
+  std::optional<ForeignBoundsMaker> maker;
+  if (tree != nullptr) maker.emplace(*tree);
+  const std::size_t most_bounds = bounds_room(encoded_model_bytes(model), cube.nodes());
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     const ModelContents contents = all_contents.of(Rank{rank});
     const Model slice = extract(model, contents);
-    add(encode_model(slice), encode_horizons(occluders.foreign_horizons(contents, slice)));
+    Bytes foreign, foreign_bounds;
+    if (maker) {
+      if (const auto bounds = maker->bounds(contents, most_bounds)) foreign_bounds = encode_bounds(*bounds);
+    }
+    if (!occluders.is_empty()) foreign = encode_horizons(occluders.foreign_horizons(contents, slice));
+    add(encode_model(slice), foreign_bounds, foreign);
   }
   return slices;
 }

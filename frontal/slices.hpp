@@ -9,6 +9,7 @@
 
 #include "frontal/partition.hpp"
 #include "space/occluders.hpp"
+#include "space/surface_tree.hpp"
 #include "transport/message.hpp"
 
 namespace graycube {
@@ -19,17 +20,25 @@ inline constexpr std::uint64_t kMostShares = 2;
 inline constexpr std::uint64_t kSmallSlices = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t kSmallCopies = std::uint64_t{256} << 10;
 
+/// Of an equal share of the scene, or so many bytes where that is more: foreign bounds on a node.
+inline constexpr double kBoundsPart = 0.25;
+inline constexpr std::uint64_t kSmallBounds = std::uint64_t{128} << 10;
+
 /// On each of `nodes`, of a model that takes so many bytes.
 constexpr std::uint64_t slice_room(std::uint64_t model_bytes, std::uint32_t nodes) {
   return std::max(kMostShares * model_bytes / nodes, kSmallSlices);
+}
+constexpr std::uint64_t bounds_room(std::uint64_t model_bytes, std::uint32_t nodes) {
+  return std::max(static_cast<std::uint64_t>(kBoundsPart * static_cast<double>(model_bytes) / nodes), kSmallBounds);
 }
 constexpr std::uint64_t copy_room(std::uint64_t model_bytes, std::uint32_t nodes) {
   return std::max(kMostShares * model_bytes / nodes, kSmallCopies);
 }
 
-/// By rank. Where `occluders` is empty, nodes get nothing but what their macro-regions need; otherwise also what the partition's
-/// pre-render asks for, as far as there is room, and foreign horizons behind the model. `horizons`, encoded, come last.
-std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+/// By rank: the model that the node's macro-regions need. With `tree`, of the whole model, also objects without bounds, and foreign
+/// bounds; with occluders, unless they are empty, also what the partition's pre-render asks for, as far as there is room, and
+/// foreign horizons. `horizons`, encoded, come last.
+std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
                                    const Occluders& occluders, std::span<const std::byte> horizons);
 
 }  // namespace graycube

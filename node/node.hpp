@@ -113,6 +113,8 @@ class Node {
   void drop(const char* what, std::string_view why);
 
   std::uint32_t bit_of(Rank peer) const;
+  /// Across which rays in another node's region go.
+  std::uint32_t bit_towards(const RegionIndex& region) const { return cube_->first_bit(id_.rank, owner_of(region)); }
   void send_control(const ControlMessage& message);
   bool choose_work(Work& work);
   void adopt_domain(WorkResult& result);

@@ -63,7 +63,7 @@ bool Node::take_class_rays(Work& work) {
     if (domain_->holds(held.ray.region)) {
       batch.rays.push_back(held.ray);
     } else {
-      leave(full ? of_class : std::nullopt, bit_of(owner_of(held.ray.region)), ray);
+      leave(full ? of_class : std::nullopt, bit_towards(held.ray.region), ray);
     }
   }
   for (std::uint32_t bit = 0; bit < taken.size(); ++bit) give_back_classes(links_[bit], taken[bit]);
@@ -168,10 +168,10 @@ void Node::on_class_credit(Link& link, std::span<const std::byte> batch) {
   send_rays(link, all_evaluators_wait());
 }
 
-/// Rays between two neighbours.
+/// Rays on their way through this node.
 void Node::pass_on(std::uint32_t from_bit, std::span<const RayTask> rays) {
   take_from(from_bit, rays.size());
-  forward_across(bit_of(owner_of(rays.front().region)), rays);
+  forward_across(bit_towards(rays.front().region), rays);
 }
 
 void Node::pass_on_what_waits() {

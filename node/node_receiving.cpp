@@ -110,9 +110,10 @@ void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> bat
   grant_credit(link, half_credit());
 }
 
-/// A ray for a region of this node, or on its way from a helper to a neighbour of this node.
+/// A ray for a region of this node; or on its way through it, from a helper to a neighbour of this node or, where rays are
+/// finished that have left their macro-regions, from these to what they meet.
 bool Node::is_due_here(const RegionIndex& region) const {
-  return domain_->holds(region) || (load_.makes_copies && bit_of(owner_of(region)) < links_.size());
+  return domain_->holds(region) || domain_->has_foreign_bounds() || (load_.makes_copies && bit_of(owner_of(region)) < links_.size());
 }
 
 void Node::note_queue() {

@@ -42,13 +42,13 @@ void Node::adopt_copy(WorkResult& result) {
   links_[bit].has_offered = false;
 }
 
-/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region. They cross the bit that it would have
-/// crossed from there: who is beyond is a neighbour of the node that it goes to, and sends it on. So the owner,
-/// which is busy, has no part in it.
+/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region. If that is a neighbour's of the owner, they
+/// cross the bit that they would have crossed from there: who is beyond is a neighbour of the node that they go to, and sends
+/// them on. So the owner, which is busy, has no part in it.
 void Node::leave_copy(std::span<const RayTask> rays, Rank owner) {
   const Rank next = owner_of(rays.front().region);
   if (next == id_.rank) return own_rays_.add(rays, kNoLink);
-  forward_across(cube_->link_between(owner, next).value_or(kNoLink), rays);
+  forward_across(cube_->first_bit(id_.rank, next, bit_of(owner)), rays);
 }
 
 /// Tells the neighbours that there is nothing to do here, each once until it has sent something.

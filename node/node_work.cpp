@@ -193,7 +193,7 @@ void Node::absorb_rays(WorkResult& result) {
   if (result.on_class) release_room_after(*result.on_class);
   for_each_region(step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
     if (result.helped) return leave_copy(rays, *result.helped);
-    const std::uint32_t bit = bit_of(owner_of(region));
+    const std::uint32_t bit = bit_towards(region);
     if (load_.shadows != ShadowMode::kLocal) return leave(result.on_class, bit, rays);
     for (const RayTask& ray : rays) {
       if (ray.kind == RayKind::kShadow && waits_for_model(owner_of(region), ray)) continue;

@@ -4,16 +4,23 @@
 #include <chrono>
 #include <span>
 
+#include "proto/bounds_bytes.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 
 namespace graycube {
 namespace {
 
-/// A node's slice: its model, and its foreign horizons where it has any.
+/// A node's slice: its model, and where it has any, its foreign bounds and foreign horizons.
 struct Slice {
   Model model;
+  std::shared_ptr<const ForeignBounds> foreign_bounds;
   std::shared_ptr<const LightHorizons> foreign_horizons;
+
+  void set_foreign(Domain& domain) {
+    domain.set_foreign_bounds(std::move(foreign_bounds));
+    domain.set_foreign_horizons(std::move(foreign_horizons));
+  }
 };
 
 std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes, const Model& model,
@@ -36,7 +43,15 @@ std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t
     result.error = "the macro-region received is broken: " + error->where + ": " + error->why;
     return std::nullopt;
   }
-  Slice slice{std::get<Model>(std::move(decoded)), nullptr};
+  Slice slice{std::get<Model>(std::move(decoded)), nullptr, nullptr};
+  if (begins_with_bounds(bytes)) {
+    auto bounds = take_bounds(bytes);
+    if (!bounds) {
+      result.error = "the foreign bounds received are broken";
+      return std::nullopt;
+    }
+    slice.foreign_bounds = std::make_shared<const ForeignBounds>(*std::move(bounds));
+  }
   if (bytes.empty()) return slice;
   slice.foreign_horizons = decoded_horizons(bytes, slice.model, result);
   if (!slice.foreign_horizons) return std::nullopt;
@@ -63,7 +78,7 @@ void build(BuildWork work, WorkResult& result) {
     domain = std::make_shared<Domain>(std::move(slice->model));
   }
   domain->set_horizons(std::move(horizons));
-  domain->set_foreign_horizons(std::move(slice->foreign_horizons));
+  slice->set_foreign(*domain);
   if (work.is_replica) domain->set_replica();
   result.domain = std::move(domain);
   result.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -101,8 +116,9 @@ WorkResult Workbench::run(Work work) {
   if (auto* c = std::get_if<CopyWork>(&work.what)) {
     result.copied_from = c->from;
     if (auto slice = decoded_slice(c->slice.bytes(), c->horizon_bytes, result)) {
-      result.domain =
-          work.domain->of_neighbour(c->share, std::move(slice->model), std::move(slice->foreign_horizons));
+      const auto domain = work.domain->of_neighbour(c->share, std::move(slice->model));
+      slice->set_foreign(*domain);
+      result.domain = domain;
     }
     return result;
   }

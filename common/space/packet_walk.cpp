@@ -101,7 +101,7 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
     p.update_last_of_all();
   };
   const auto walk = [&](std::uint32_t node, std::size_t i) {
-    each_item_below<Order::kNearestFirst>(tree, node, p.ray(i), p.first[i], [&] { return found[i].t; }, scratch,
+    each_item_below<Order::kNearestFirst>(tree.nodes(), node, p.ray(i), p.first[i], [&] { return found[i].t; }, scratch,
                     [&](std::uint32_t index) {
                       take_single(index, i);
                       return true;
@@ -176,7 +176,7 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
     in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
   };
   const auto walk = [&](std::uint32_t node, std::size_t i) {
-    each_item_below<Order::kAny>(tree, node, p.ray(i), p.first[i], [&] { return packet.t1[i]; },
+    each_item_below<Order::kAny>(tree.nodes(), node, p.ray(i), p.first[i], [&] { return packet.t1[i]; },
                                  scratch, [&](std::uint32_t index) {
                                    take_single(index, i);
                                    return (active >> i & 1) != 0;

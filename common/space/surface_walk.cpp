@@ -21,7 +21,7 @@ bool each_item(const SurfaceTree& tree, const Ray& ray, double t0, End&& t1, Tre
     if (!visit(item)) return false;
   }
   if (tree.nodes().empty()) return true;
-  return each_item_below<order>(tree, 0, CullingRay(ray), float_down(t0), t1, scratch, visit);
+  return each_item_below<order>(tree.nodes(), 0, CullingRay(ray), float_down(t0), t1, scratch, visit);
 }
 
 bool FirstCrossing(const SurfaceTree& tree, const Ray& ray, double t0, double t1,

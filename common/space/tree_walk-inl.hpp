@@ -51,7 +51,7 @@ HWY_INLINE std::size_t make_place(Entry* stack, std::size_t base, std::size_t to
 /// Calls visit(item index) for the items below `root` whose boxes the ray may meet in [t0, t1()], until it
 /// returns false.
 template <Order order, typename End, typename Visit>
-bool each_item_below(const SurfaceTree& tree, std::uint32_t root, const CullingRay& ray, float t0,
+bool each_item_below(const std::vector<WideNode>& nodes, std::uint32_t root, const CullingRay& ray, float t0,
                      End&& t1, TreeScratch& scratch, Visit&& visit) {
   struct StackEntry {
     std::uint32_t child;
@@ -69,7 +69,7 @@ bool each_item_below(const SurfaceTree& tree, std::uint32_t root, const CullingR
       continue;
     }
     ++scratch.counts.cells_visited;
-    const WideNode& node = tree.nodes()[top.child];
+    const WideNode& node = nodes[top.child];
     HWY_ALIGN float near[WideNode::kWidth];
     std::uint32_t mask = meet(node, ray, t0, last, near);
     const std::size_t base = size;

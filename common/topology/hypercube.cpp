@@ -52,6 +52,13 @@ Rank Hypercube::ring_step(Rank rank, std::uint32_t steps) const {
   return rank_of({gray_code(position & (nodes() - 1))});
 }
 
+std::uint32_t Hypercube::first_bit(Rank from, Rank to, std::optional<std::uint32_t> but) const {
+  const std::uint32_t differing = label_of(from).value ^ label_of(to).value;
+  GRAYCUBE_CHECK(differing != 0, "node %u is where it is", from.value);
+  const std::uint32_t others = but ? differing & ~(1u << *but) : differing;
+  return static_cast<std::uint32_t>(std::countr_zero(others != 0 ? others : differing));
+}
+
 Rank Hypercube::ring_next(Rank rank) const { return ring_step(rank, 1); }
 Rank Hypercube::ring_previous(Rank rank) const { return ring_step(rank, nodes() - 1); }
 

@@ -78,6 +78,7 @@ std::size_t Domain::cell_count() const {
 std::size_t Domain::memory_bytes() const {
   std::size_t bytes = territory_->memory_bytes();
   for (const auto& b : borrowed_) bytes += b ? b->memory_bytes() : 0;
+  if (foreign_bounds_) bytes += foreign_bounds_->memory_bytes();
   return bytes;
 }
 
@@ -91,13 +92,22 @@ std::shared_ptr<const Domain> Domain::with_borrowed(
   return wider;
 }
 
-std::shared_ptr<const Domain> Domain::of_neighbour(const RegionShare& share, Model model,
-                                                   std::shared_ptr<const LightHorizons> foreign_horizons) const {
+RegionIndex Domain::region_at(const RayTask& task, double t) const {
+  RegionIndex region = task.region;
+  if (!grid_) return region;
+  for (auto exit = grid_->exit(region, task.ray, task.t); exit && exit->t <= t; exit = grid_->exit(region, task.ray, exit->t)) {
+    region = exit->next;
+  }
+  return region;
+}
+
+std::shared_ptr<Domain> Domain::of_neighbour(const RegionShare& share, Model model) const {
   GRAYCUBE_CHECK(grid_.has_value(), "without boundaries there are no neighbours");
   auto theirs = std::make_shared<Domain>(*this);
   theirs->share_ = share;
   theirs->territory_ = Territory::of(std::move(model));
-  theirs->foreign_horizons_ = std::move(foreign_horizons);
+  theirs->foreign_horizons_ = nullptr;
+  theirs->foreign_bounds_ = nullptr;
   return theirs;
 }
 

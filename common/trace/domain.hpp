@@ -11,6 +11,7 @@
 #include "csg/model.hpp"
 #include "space/bsp.hpp"
 #include "space/camera.hpp"
+#include "space/foreign_bounds.hpp"
 #include "space/light_horizons.hpp"
 #include "space/macro_grid.hpp"
 #include "space/ray_packet.hpp"
@@ -49,11 +50,13 @@ struct CrossingScratch {
   Mailbox mailbox;
   /// For borrowed territories: what a scratch remembers belongs to one tree.
   std::vector<TreeScratch> borrowed;
+  TreeScratch foreign;
 
   WalkCounts counts() const {
     WalkCounts sum = tree.counts;
     sum.add(mailbox.counts);
     for (const TreeScratch& b : borrowed) sum.add(b.counts);
+    sum.add(foreign.counts);
     return sum;
   }
 };
@@ -89,6 +92,8 @@ class Domain {
   void set_foreign_horizons(std::shared_ptr<const LightHorizons> horizons) {
     foreign_horizons_ = std::move(horizons);
   }
+  /// Around what this domain does not hold; rays need not leave it where they meet none of that.
+  void set_foreign_bounds(std::shared_ptr<const ForeignBounds> bounds) { foreign_bounds_ = std::move(bounds); }
   /// The model is a replica of the whole scene, not only what the domain's regions need: no ray stops at their
   /// boundaries.
   void set_replica() { is_replica_ = true; }
@@ -96,9 +101,8 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
-  /// A neighbour's regions, with its foreign horizons, seen as this domain sees its own.
-  std::shared_ptr<const Domain> of_neighbour(const RegionShare& share, Model model,
-                                             std::shared_ptr<const LightHorizons> foreign_horizons = nullptr) const;
+  /// A neighbour's regions, seen as this domain sees its own; what is foreign to it is to be set.
+  std::shared_ptr<Domain> of_neighbour(const RegionShare& share, Model model) const;
   /// What this domain holds, seen as the regions of a share.
   Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
     Domain domain = *this;
@@ -120,6 +124,11 @@ class Domain {
   bool holds_way_to_light(const RayTask& task, double t) const {
     const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
     return is_beyond(task.ray.origin, length(to_light) - t, foreign_horizons_->distance(task.light, -task.ray.direction));
+  }
+  bool has_foreign_bounds() const { return foreign_bounds_ != nullptr; }
+  /// Bit i: the domain may lack something that ray i of the packet meets at t0 ≤ t ≤ t1; has_foreign_bounds() only.
+  RayPacket::Mask may_meet_foreign(const RayPacket& packet, CrossingScratch& scratch) const {
+    return foreign_bounds_->may_meet(packet, scratch.foreign);
   }
   bool borrows() const { return !borrowed_.empty(); }
   bool has_horizons() const { return horizons_ != nullptr; }
@@ -165,6 +174,8 @@ class Domain {
     if (!grid_ || is_replica_) return 0;
     return grid_->shorten_to_exits(region, packet, exits);
   }
+  /// The macro-region in which a ray is at `t`, task.t or later.
+  RegionIndex region_at(const RayTask& task, double t) const;
   /// Primary rays stay in their pixel's macro-region, unless they are on its boundary.
   bool primary_rays_may_leave() const {
     const auto is_inside = [](double at) { return at > 0 && at < 1; };
@@ -183,6 +194,7 @@ class Domain {
   /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_, foreign_horizons_;
+  std::shared_ptr<const ForeignBounds> foreign_bounds_;
 };
 
 }  // namespace graycube

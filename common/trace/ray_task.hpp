@@ -1,6 +1,7 @@
 // A ray under way: what an evaluator consumes, what crosses a macro-region's boundary, what goes on the wire.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -50,10 +51,12 @@ static_assert(kMaxLights <= kLightMask + 1);
 
 inline constexpr std::uint32_t kMaxHops = 0xFFFF;
 
-/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region, each further
-/// generation passes each boundary once, and what a neighbour traces for its owner crosses two links for one.
+/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region; each further
+/// generation is sent to where it begins, over as many links as the hypercube has dimensions at most, and passes each boundary
+/// once; and what a neighbour traces for its owner crosses two links for one.
 constexpr std::uint64_t most_hops(std::uint32_t max_depth, std::uint32_t columns, std::uint32_t rows) {
-  return std::uint64_t{2} * (max_depth + 1) * (columns + rows);
+  const auto dimension = static_cast<std::uint32_t>(std::bit_width(columns) + std::bit_width(rows));
+  return std::uint64_t{2} * (max_depth + 1) * (columns + rows + dimension);
 }
 
 inline void cross_link(RayTask& ray) {

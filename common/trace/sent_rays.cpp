@@ -47,7 +47,7 @@ class CreditSplit {
 
 /// A ray from `origin` that inherits pixel and generation.
 /// Written in place, number by number: a copy made on the way would wait for its parts to reach the cache.
-void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& direction,
+void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const Vec3& origin, const Vec3& direction,
            const Rgb& weight, RayTask& r) {
   r.ray.origin = origin;
   r.ray.direction = direction;
@@ -57,13 +57,14 @@ void spawn(const RayTask& parent, RayKind kind, const Vec3& origin, const Vec3& 
   r.pixel = parent.pixel;
   r.kind = kind;
   r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
-  r.region = parent.region;
+  r.region = region;
   r.hops = parent.hops;
 }
 
 }  // namespace
 
-void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
+/// `is_beyond`: the ray had left its macro-region.
+void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step) {
   const RayTask& task = ray.task;
   const Model& model = domain_.model();
   const Primitive& solid = model.primitives[hit.primitive];
@@ -80,10 +81,15 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, Step& step) {
     point_[a][index] = p[static_cast<int>(a)];
     normal_[a][index] = n[static_cast<int>(a)];
   }
-  SurfacePoint& at = surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n)});
+  SurfacePoint& at = surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
   if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
   const Rgb ambient = (m.ambient * (1 - m.transmit)) * (m.color * model.settings.ambient);
   contribute(ray, task.weight * ambient, step);
+}
+
+/// Where the surface is: its ray need not have been traced through the regions between.
+RegionIndex Evaluator::region_of(const SurfacePoint& at) const {
+  return at.is_beyond ? domain_.region_at(at.ray->task, at.t) : at.ray->task.region;
 }
 
 void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
@@ -97,7 +103,7 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
     ++step.rays.created[static_cast<std::size_t>(kind)];
     ++at.secondary_rays;
     OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
-    spawn(task, kind, p, normalized(direction), weight, sent.task);
+    spawn(task, kind, region_of(at), p, normalized(direction), weight, sent.task);
     sent.slot = at.ray->slot;
     sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
   };
@@ -169,10 +175,10 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
     }
   }
   OpenRay& sent = shadow_[light].emplace_back();
-  spawn(task, RayKind::kShadow, p, l, weight, sent.task);
+  sent.stays = domain_.has_foreign_horizons() && Domain::is_beyond(p, distance, all_held_[surface]);
+  spawn(task, RayKind::kShadow, sent.stays ? task.region : region_of(at), p, l, weight, sent.task);
   sent.slot = at.ray->slot;
   sent.surface = static_cast<std::uint32_t>(surface);
-  sent.stays = domain_.has_foreign_horizons() && Domain::is_beyond(p, distance, all_held_[surface]);
   sent.task.t_max = way.t_max;
   sent.task.light = static_cast<std::uint16_t>(light & kLightMask);
   sent.task.ends_at_horizon = way.ends_at_horizon;

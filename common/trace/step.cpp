@@ -17,9 +17,7 @@ static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Whether two rays may be traced in one wave.
-bool are_alike(const RayTask& a, const RayTask& b) {
-  return a.kind == b.kind && a.depth == b.depth && a.region == b.region;
-}
+bool are_alike(const RayTask& a, const RayTask& b) { return a.kind == b.kind && a.depth == b.depth; }
 
 }  // namespace
 
@@ -103,16 +101,16 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
       return;
     }
     wave_.clear();
+    const bool are_held = domain_.holds(rays.front().region);
     for (const RayTask& task : rays.first(std::min(rays.size(), kWaveRays))) {
-      if (!are_alike(task, rays.front())) break;
+      if (!are_alike(task, rays.front()) || domain_.holds(task.region) != are_held) break;
       OpenRay& ray = wave_.emplace_back();
       ray.task = task;
       ray.slot = static_cast<std::uint32_t>(open_.size());
       open_pixel(task.pixel);
     }
-    const bool are_held = domain_.holds(rays.front().region);
     rays = rays.subspan(wave_.size());
-    if (are_held) {
+    if (are_held || domain_.has_foreign_bounds()) {
       trace_wave(step);
       trace_all(step);
     } else {
@@ -162,7 +160,7 @@ void Evaluator::in_packets(std::span<const OpenRay> rays, Trace&& trace) {
   }
 }
 
-/// Takes rays of one kind, generation and region from the top of a stack, kWaveRays at most.
+/// Takes rays of one kind and generation from the top of a stack, kWaveRays at most.
 void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   const RayTask& top = stack.back().task;
   std::size_t first = stack.size() - 1;
@@ -241,22 +239,81 @@ void Evaluator::light_arrives(const OpenRay& ray, const Rgb& light, Step& step) 
   open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
-/// As Domain::shorten_to_exits, but for those rays that can be finished here: they go on to their light.
-RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
-                                              std::span<RegionExit, RayPacket::kSize> exits) const {
-  if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
-  RayPacket::Mask leaving = domain_.shorten_to_exits(rays.front().task.region, packet, exits);
-  if (!domain_.has_foreign_horizons()) return leaving;
-  for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    if (!rays[i].stays && !domain_.holds_way_to_light(rays[i].task, exits[i].t)) continue;
-    packet.t1[i] = rays[i].task.t_max;
-    leaving &= ~(RayPacket::Mask{1} << i);
+/// As Domain::shorten_to_exits, also for rays in several regions, and in those of others, which they leave where they are.
+RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
+                                            std::span<RegionExit, RayPacket::kSize> exits) const {
+  if (domain_.grid() == nullptr || domain_.is_replica()) return 0;
+  const RegionIndex first = rays.front().task.region;
+  const auto is_there = [first](const OpenRay& ray) { return ray.task.region == first; };
+  if (domain_.holds(first) && std::all_of(rays.begin(), rays.end(), is_there)) {
+    return domain_.shorten_to_exits(first, packet, exits);
+  }
+  RayPacket::Mask leaving = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const RayTask& task = rays[i].task;
+    const auto exit = domain_.holds(task.region) ? domain_.exit(task) : RegionExit{task.t, task.region};
+    if (!exit || !(exit->t < packet.t1[i])) continue;
+    leaving |= RayPacket::Mask{1} << i;
+    packet.t1[i] = exit->t;
+    exits[i] = *exit;
   }
   return leaving;
 }
 
-/// `rays` are in one region, a packet at most.
+/// As shorten_to_exits, but for those rays that can be finished here: they go on to their light.
+RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
+                                              std::span<RegionExit, RayPacket::kSize> exits) {
+  if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
+  const RayPacket::Mask leaving = shorten_to_exits(rays, packet, exits);
+  const bool has_horizons = domain_.has_foreign_horizons(), has_bounds = domain_.has_foreign_bounds();
+  RayPacket beyond;
+  std::array<std::size_t, RayPacket::kSize> numbers;
+  RayPacket::Mask finished = 0;
+  for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const RayTask& task = rays[i].task;
+    if (rays[i].stays || (has_horizons && domain_.holds_way_to_light(task, exits[i].t))) {
+      finished |= RayPacket::Mask{1} << i;
+    } else if (has_bounds) {
+      numbers[beyond.count] = i;
+      beyond.add(task.ray, exits[i].t, task.t_max);
+    }
+  }
+  if (beyond.count > 0) {
+    const RayPacket::Mask met = domain_.may_meet_foreign(beyond, scratch_);
+    for (std::size_t k = 0; k < beyond.count; ++k) {
+      if ((met >> k & 1) == 0) finished |= RayPacket::Mask{1} << numbers[k];
+    }
+  }
+  for (RayPacket::Mask left = finished; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    packet.t1[i] = rays[i].task.t_max;
+  }
+  return leaving & ~finished;
+}
+
+/// Of the rays that leave, those that can't be finished here: what they meet of what the domain holds (`hits`, `found`, wherever
+/// it is) is beyond where they leave, and something foreign may be before it.
+RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& packet,
+                                      std::span<const RegionExit, RayPacket::kSize> exits, RayPacket::Mask hits,
+                                      std::span<const Crossing, RayPacket::kSize> found) {
+  RayPacket beyond;
+  std::array<std::size_t, RayPacket::kSize> numbers;
+  for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const bool is_hit = (hits >> i & 1) != 0;
+    if (is_hit && found[i].t < exits[i].t) continue;
+    numbers[beyond.count] = i;
+    beyond.add(packet.ray(i), exits[i].t, is_hit ? found[i].t : kInf);
+  }
+  RayPacket::Mask must = 0;
+  for (RayPacket::Mask met = domain_.may_meet_foreign(beyond, scratch_); met != 0; met &= met - 1) {
+    must |= RayPacket::Mask{1} << numbers[static_cast<std::size_t>(std::countr_zero(met))];
+  }
+  return must;
+}
+
+/// A packet at most.
 void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
@@ -280,22 +337,25 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   }
 }
 
-/// `rays` are in one region, a packet at most.
+/// A packet at most.
 void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
   for (const OpenRay& ray : rays) packet.add(ray.task.ray, ray.task.t, kInf);
   const RayTask& front = rays.front().task;
   const bool may_leave = front.kind != RayKind::kPrimary || domain_.primary_rays_may_leave();
-  const RayPacket::Mask leaving = may_leave ? domain_.shorten_to_exits(front.region, packet, exits) : 0;
+  const RayPacket::Mask leaving = may_leave ? shorten_to_exits(rays, packet, exits) : 0;
+  const bool sees_on = leaving != 0 && domain_.has_foreign_bounds();
+  if (sees_on) packet.t1.fill(kInf);
   std::array<Crossing, RayPacket::kSize> found;
   RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
   hits |= entries_behind(domain_, front.kind, packet, scratch_, found);
+  const RayPacket::Mask gone = sees_on ? must_leave(leaving, packet, exits, hits, found) : leaving & ~hits;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if ((hits >> i & 1) != 0) {
-      shade(rays[i], found[i], step);
-    } else if ((leaving >> i & 1) != 0) {
+    if ((gone >> i & 1) != 0) {
       go_on(rays[i], exits[i], step);
+    } else if ((hits >> i & 1) != 0) {
+      shade(rays[i], found[i], (leaving >> i & 1) != 0 && found[i].t >= exits[i].t, step);
     } else {
       contribute(rays[i], rays[i].task.weight * domain_.settings().background, step);
       open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);

@@ -94,6 +94,9 @@ class Evaluator {
     const Material* material;
     /// The ray's mirror direction.
     Vec3 mirror;
+    /// The ray's parameter, and whether it had left its macro-region by then.
+    double t;
+    bool is_beyond;
     std::uint32_t lights = 0, secondary_rays = 0;
   };
   /// A coordinate of every surface of a wave.
@@ -111,14 +114,19 @@ class Evaluator {
   static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
   void trace_sent_rays(Step& step);
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
+  RayPacket::Mask shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
+                                   std::span<RegionExit, RayPacket::kSize> exits) const;
+  RayPacket::Mask must_leave(RayPacket::Mask leaving, const RayPacket& packet, std::span<const RegionExit, RayPacket::kSize> exits,
+                             RayPacket::Mask hits, std::span<const Crossing, RayPacket::kSize> found);
   RayPacket::Mask shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
-                                     std::span<RegionExit, RayPacket::kSize> exits) const;
+                                     std::span<RegionExit, RayPacket::kSize> exits);
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
   void go_on(const OpenRay& ray, const RegionExit& exit, Step& step);
   void go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step);
   void finish_light_ray(const OpenRay& ray, Step& step);
   void light_arrives(const OpenRay& ray, const Rgb& light, Step& step);
-  void shade(const OpenRay& ray, const Crossing& hit, Step& step);
+  void shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step);
+  RegionIndex region_of(const SurfacePoint& at) const;
   void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
