@@ -32,7 +32,7 @@ std::uint16_t cell_of(std::uint16_t fine, const std::vector<std::uint32_t>& cuts
 }  // namespace
 
 Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
-                       const std::shared_ptr<const LightHorizons>& horizons, ShadowTracing shadows) {
+                       const std::shared_ptr<const LightHorizons>& horizons, Staying staying) {
   const ImageSize& image = whole.model().settings.image;
   const auto frame = CameraFrame::from(whole.model().settings.camera, image);
   const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
@@ -43,7 +43,7 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
     return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0, {}};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, shadows, kCrossingCost / fine,
+  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, staying, kCrossingCost / fine,
                                 std::uint64_t{kCoarsePixelsPerNode} * cube.nodes());
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;

@@ -28,6 +28,6 @@ struct Partition {
 /// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
 /// the picture. `horizons` may be null.
 Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
-                       const std::shared_ptr<const LightHorizons>& horizons, ShadowTracing shadows);
+                       const std::shared_ptr<const LightHorizons>& horizons, Staying staying);
 
 }  // namespace graycube

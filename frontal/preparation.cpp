@@ -97,7 +97,8 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
 struct LightWays {
   std::shared_ptr<const LightHorizons> horizons;
   Occluders occluders;
-  ShadowTracing tracing = ShadowTracing::kWhereItGoes;
+  /// Most nodes hold all that shadow rays may meet.
+  bool are_held = false;
 };
 
 /// Nothing where horizons aren't wanted or there are none: on one node no ray leaves, and lights that are walled in have
@@ -110,7 +111,7 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   LightHorizons horizons = ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons();
   if (horizons.is_empty()) return {};
   if (!ways.occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes) {
-    ways.tracing = ShadowTracing::kWhereItBegins;
+    ways.are_held = true;
   } else if (whole.has_primary_rays(kRaysPerPrimitiveForDepths)) {
     const std::uint64_t most_texels = model.settings.image.primary_rays() / kRaysPerDepthTexel;
     horizons = with_depths(std::move(horizons), *whole.territory()->tree, most_texels);
@@ -149,8 +150,9 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   } else if (out.shadows == ShadowMode::kHorizon) {
     out.shadows = ShadowMode::kForward;
   }
-  const Partition cut =
-      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons, ways.tracing);
+  const bool finishes = finishes_rays(work, whole);
+  const Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
+                                     {.shadow_rays = ways.are_held, .secondary_rays = finishes});
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
   const MacroGrid& grid = cut.grid;
@@ -163,7 +165,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     return;
   }
   out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
-  const SurfaceTree* tree = finishes_rays(work, whole) ? &*whole.territory()->tree : nullptr;
+  const SurfaceTree* tree = finishes ? &*whole.territory()->tree : nullptr;
   out.slices = slices_of(model, work.cube, cut, tree, ways.occluders, horizons);
 }
 

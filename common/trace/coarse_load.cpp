@@ -23,9 +23,9 @@ constexpr std::size_t kManyRays = 8192;
 class CoarseTrace {
  public:
   CoarseTrace(const Domain& whole, const MacroGrid& grid,
-              std::shared_ptr<const LightHorizons> horizons, ShadowTracing shadows, double crossing_cost)
+              std::shared_ptr<const LightHorizons> horizons, Staying staying, double crossing_cost)
       : grid_(grid),
-        shadows_(shadows),
+        stays_(staying),
         crossing_cost_(crossing_cost),
         map_(grid.columns(), grid.rows()),
         domain_(whole.restricted_to(grid, {grid.columns(), grid.rows(), 0, 0})),
@@ -34,7 +34,8 @@ class CoarseTrace {
         open_evaluator_(open_domain_),
         waiting_(std::size_t{grid.columns()} * grid.rows()),
         staying_(waiting_.size()) {
-    domain_.set_horizons(std::move(horizons));
+    domain_.set_horizons(horizons);
+    open_domain_.set_horizons(std::move(horizons));
   }
 
   /// Primary rays wait as all others do: those of a region are traced together.
@@ -98,13 +99,16 @@ class CoarseTrace {
     trace(at, evaluator_, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
-  /// Shadow rays that are traced where they began, on their further way.
+  /// Rays that are traced where they left, on their further way. What descends from them counts as what crosses: so much work
+  /// has an end.
   void trace_staying(std::vector<RayTask>& rays) {
     if (rays.empty()) return;
-    // They have left their region once.
     crossings_ += rays.size();
     waiting_count_ -= rays.size();
+    const auto created = [&] { return std::accumulate(created_.begin(), created_.end(), std::uint64_t{0}); };
+    const std::uint64_t before = created();
     trace(rays.front().region, open_evaluator_, [&] { open_evaluator_.trace_rays(rays, step_); });
+    crossings_ += created() - before;
     rays.clear();
   }
   std::size_t index_of(RegionIndex r) const {
@@ -131,19 +135,20 @@ class CoarseTrace {
 
   /// Hops tell shadow rays that have left their first region from those that have not.
   void take_leaving(RayTask& ray, RegionIndex from) {
-    if (ray.kind == RayKind::kShadow && ray.hops == 0) {
+    const bool is_shadow = ray.kind == RayKind::kShadow;
+    if (is_shadow && ray.hops == 0) {
       ray.hops = 1;
       left_by_light_.push_back({ray, from});
-      if (shadows_ == ShadowTracing::kWhereItBegins) {
-        ray.region = from;
-        return staying_[index_of(from)].push_back(ray);
-      }
+    }
+    if (is_shadow ? stays_.shadow_rays : stays_.secondary_rays) {
+      ray.region = from;
+      return staying_[index_of(from)].push_back(ray);
     }
     waiting_[index_of(ray.region)].push_back(ray);
   }
 
   const MacroGrid& grid_;
-  ShadowTracing shadows_;
+  Staying stays_;
   double crossing_cost_;
   LoadMap map_;
   /// The whole scene, seen as the region under way.
@@ -173,8 +178,8 @@ std::uint32_t spreading_step(std::uint32_t count) {
 }  // namespace
 
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
-                       ShadowTracing shadows, double crossing_cost, std::uint64_t most_pixels) {
-  CoarseTrace trace(whole, grid, std::move(horizons), shadows, crossing_cost);
+                       Staying staying, double crossing_cost, std::uint64_t most_pixels) {
+  CoarseTrace trace(whole, grid, std::move(horizons), staying, crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;
   const double wanted =

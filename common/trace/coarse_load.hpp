@@ -36,11 +36,13 @@ struct CoarseLoad {
   std::vector<LeavingLight> left_by_light;
 };
 
-/// Who traces a shadow ray that leaves a region.
-enum class ShadowTracing : std::uint8_t { kWhereItGoes, kWhereItBegins };
+/// Which rays that leave a region are traced there all the same, with all that descends from them.
+struct Staying {
+  bool shadow_rays = false, secondary_rays = false;
+};
 
 /// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
 CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
-                       ShadowTracing shadows, double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
+                       Staying staying, double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
 
 }  // namespace graycube

@@ -20,12 +20,12 @@ TEST_CASE("a coarse render finds the work where the solids are") {
   const Model model = compile_scene(corner_scene());
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 8, 8);
-  const LoadMap load = coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 0).map;
+  const LoadMap load = coarse_load(Domain(model), grid, nullptr, Staying{}, 0).map;
   const RegionIndex at = grid.region_of_point({0, 0, 0});
   CHECK(load.at(at.column, at.row) > 1.5 * total(load) / 64);
   // At least the primary rays.
   CHECK(total(load) > kLeastCoarsePixels / 2.0);
-  CHECK(total(coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 1).map) > total(load));
+  CHECK(total(coarse_load(Domain(model), grid, nullptr, Staying{}, 1).map) > total(load));
 }
 
 TEST_CASE("a coarse render tells how many rays descend from a pixel") {
@@ -38,7 +38,7 @@ TEST_CASE("a coarse render tells how many rays descend from a pixel") {
   REQUIRE(read.scene);
   const Model model = compile_scene(*read.scene);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  CHECK(coarse_load(Domain(model), MacroGrid::regular(frame, 4, 4), nullptr, ShadowTracing::kWhereItGoes, 0).rays_per_primary == 3);
+  CHECK(coarse_load(Domain(model), MacroGrid::regular(frame, 4, 4), nullptr, Staying{}, 0).rays_per_primary == 3);
 }
 
 TEST_CASE("shadow rays traced where they begin are work for the region of their surface") {
@@ -46,8 +46,8 @@ TEST_CASE("shadow rays traced where they begin are work for the region of their 
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 8, 8);
   const Domain whole(model);
-  const CoarseLoad goes = coarse_load(whole, grid, nullptr, ShadowTracing::kWhereItGoes, 0);
-  const CoarseLoad begins = coarse_load(whole, grid, nullptr, ShadowTracing::kWhereItBegins, 0);
+  const CoarseLoad goes = coarse_load(whole, grid, nullptr, Staying{}, 0);
+  const CoarseLoad begins = coarse_load(whole, grid, nullptr, Staying{.shadow_rays = true}, 0);
   // The same rays leave, each noted once, where it began.
   REQUIRE(goes.left_by_light.size() > 50);
   REQUIRE(begins.left_by_light.size() == goes.left_by_light.size());
@@ -70,7 +70,7 @@ TEST_CASE("shadow rays traced where they begin are work for the region of their 
 TEST_CASE("balanced boundaries are drawn together where the work is") {
   const Model model = compile_scene(corner_scene());
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  const LoadMap load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, ShadowTracing::kWhereItGoes, 0).map;
+  const LoadMap load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, Staying{}, 0).map;
   CHECK(heaviest(load, balanced_cuts(load, 4, 4)) < 0.95 * heaviest(load, even_cuts(load, 4, 4)));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a coarse render knows that tori take longer than balls") {
   const Model model = compile_scene(*read.scene);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 2, 1);
-  const LoadMap load = coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 0).map;
+  const LoadMap load = coarse_load(Domain(model), grid, nullptr, Staying{}, 0).map;
   const std::uint32_t torus = grid.region_of_point({-2, 0, 0}).column;
   CHECK(load.at(torus, 0) > 1.5 * load.at(1 - torus, 0));
 }
@@ -114,7 +114,7 @@ Model mirrors_and_lights(int count) {
 TEST_CASE("among many lights the coarse render ends early, too, where shadow rays are traced where they begin") {
   const Model model = mirrors_and_lights(64);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  const auto load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, ShadowTracing::kWhereItBegins, 0);
+  const auto load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, Staying{.shadow_rays = true}, 0);
   CHECK(load.left_by_light.size() > kLeastCoarseCrossings / 2);
   CHECK(load.left_by_light.size() < 3 * kLeastCoarseCrossings);
 }
@@ -123,8 +123,8 @@ TEST_CASE("between mirrors the coarse render ends early, and has looked everywhe
   const Model model = mirrors_and_lights(24);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
-  const LoadMap load = coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 0).map;
-  const double crossings = total(coarse_load(Domain(model), grid, nullptr, ShadowTracing::kWhereItGoes, 1).map) - total(load);
+  const LoadMap load = coarse_load(Domain(model), grid, nullptr, Staying{}, 0).map;
+  const double crossings = total(coarse_load(Domain(model), grid, nullptr, Staying{}, 1).map) - total(load);
   CHECK(crossings > kLeastCoarseCrossings);
   // Rays that wait when the limit is reached come on top; all blocks would take over a million.
   CHECK(crossings < 6 * kLeastCoarseCrossings);
