@@ -95,17 +95,13 @@ class Contents {
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
                                    const Occluders& occluders, std::span<const std::byte> horizons) {
   std::vector<SharedBytes> slices;
-  const auto add = [&](const Bytes& slice, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
-    Bytes all;
-    all.reserve(slice.size() + bounds.size() + foreign.size() + horizons.size());
-    for (const auto part : {std::span<const std::byte>(slice), bounds, foreign, horizons}) {
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    slices.push_back(std::move(all));
+  const auto add = [&](const Model& slice, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
+    const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
+    slices.push_back(encode_model(slice, tails));
   };
   if (occluders.is_empty() && tree == nullptr) {
     for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-      add(encode_model(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank}))), {}, {});
+      add(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank})), {}, {});
     }
     return slices;
   }
@@ -116,12 +112,9 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     const ModelContents contents = all_contents.of(Rank{rank});
     const Model slice = extract(model, contents);
-    Bytes foreign, foreign_bounds;
-    if (maker) {
-      if (const auto bounds = maker->bounds(contents, most_bounds)) foreign_bounds = encode_bounds(*bounds);
-    }
-    if (!occluders.is_empty()) foreign = encode_horizons(occluders.foreign_horizons(contents, slice));
-    add(encode_model(slice), foreign_bounds, foreign);
+    const auto bounds = maker ? maker->bounds(contents, most_bounds) : std::nullopt;
+    const Bytes horizons_of_foreign = occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents, slice));
+    add(slice, bounds ? encode_bounds(*bounds) : Bytes{}, horizons_of_foreign);
   }
   return slices;
 }

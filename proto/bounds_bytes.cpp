@@ -65,7 +65,7 @@ std::optional<ForeignBounds> take_bounds(std::span<const std::byte>& bytes) {
   ByteReader r(bytes);
   const auto magic = r.get<std::uint32_t>(), count = r.get<std::uint32_t>();
   // A node takes a byte at least.
-  if (magic != kBoundsMagic || count > kMaxBoundsNodes || count > r.remaining()) return std::nullopt;
+  if (!r.ok() || magic != kBoundsMagic || count > kMaxBoundsNodes || count > r.remaining()) return std::nullopt;
   std::vector<WideNode> nodes(count);
   std::vector<std::uint8_t> levels(count);
   for (std::size_t number = 0; number < count; ++number) {

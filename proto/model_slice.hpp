@@ -47,8 +47,8 @@ std::size_t encoded_object_bytes(const Model& model, const Object& object);
 bool fits_model_limits(const Model& model);
 
 /// The model must keep to its own rules (those that decode_model checks) and fit the limits; a
-/// broken one is a bug that the receiver reports.
-std::vector<std::byte> encode_model(const Model& model);
+/// broken one is a bug that the receiver reports. `tails` follow it.
+std::vector<std::byte> encode_model(const Model& model, std::span<const std::span<const std::byte>> tails = {});
 
 /// Whether bytes begin as encode_model's do; no text of a scene does.
 bool is_encoded_model(std::span<const std::byte> bytes);

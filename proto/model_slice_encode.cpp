@@ -153,22 +153,25 @@ bool meshes_fit(const Model& model) {
   return model.meshes.size() <= kMaxModelMeshes && points <= kMaxModelPoints && triangles <= kMaxMeshTriangles;
 }
 
-}  // namespace
-
-bool fits_model_limits(const Model& model) {
+bool fits_limits(const Model& model, std::size_t bytes) {
   return model.settings.lights.size() <= kMaxLights &&
          model.materials.size() <= kMaxModelMaterials &&
          model.primitives.size() <= kMaxModelPrimitives && model.planes.size() <= kMaxModelPlanes &&
          meshes_fit(model) && model.nodes.size() <= kMaxModelNodes && model.objects.size() <= kMaxModelObjects &&
-         depth_of(model.nodes) <= kMaxModelTreeDepth &&
-         encoded_model_bytes(model) <= kMaxModelBytes;
+         depth_of(model.nodes) <= kMaxModelTreeDepth && bytes <= kMaxModelBytes;
 }
 
-std::vector<std::byte> encode_model(const Model& model) {
+}  // namespace
+
+bool fits_model_limits(const Model& model) { return fits_limits(model, encoded_model_bytes(model)); }
+
+std::vector<std::byte> encode_model(const Model& model, std::span<const std::span<const std::byte>> tails) {
   const std::size_t size = encoded_model_bytes(model);
-  GRAYCUBE_CHECK(fits_model_limits(model), "a model of %zu bytes, %zu primitives, %zu nodes", size,
-                 model.primitives.size(), model.nodes.size());
-  ByteWriter w(size);
+  GRAYCUBE_CHECK(fits_limits(model, size), "a model of %zu bytes, %zu primitives, %zu nodes", size, model.primitives.size(),
+                 model.nodes.size());
+  std::size_t all = size;
+  for (const auto tail : tails) all += tail.size();
+  ByteWriter w(all);
   w.put(kModelMagic);
   w.put(kModelVersion);
   w.put(std::uint16_t{0});
@@ -188,6 +191,7 @@ std::vector<std::byte> encode_model(const Model& model) {
   for (const Primitive& primitive : model.primitives) put_primitive(w, primitive);
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);
+  for (const auto tail : tails) std::copy(tail.begin(), tail.end(), w.room(tail.size()));
   return std::move(w).take();
 }
 

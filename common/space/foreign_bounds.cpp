@@ -16,8 +16,9 @@ constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBoxesPerNode = 5;
 
 struct FloatBox {
-  std::array<float, 3> lo{kFloatInf, kFloatInf, kFloatInf}, hi{-kFloatInf, -kFloatInf, -kFloatInf};
+  std::array<float, 3> lo, hi;
 
+  static constexpr FloatBox nothing() { return {{kFloatInf, kFloatInf, kFloatInf}, {-kFloatInf, -kFloatInf, -kFloatInf}}; }
   void include(const FloatBox& o) {
     for (std::size_t a = 0; a < 3; ++a) {
       lo[a] = std::min(lo[a], o.lo[a]);
@@ -27,7 +28,7 @@ struct FloatBox {
 };
 
 FloatBox box_around(const Aabb& box) {
-  FloatBox around;
+  FloatBox around = FloatBox::nothing();
   for (std::size_t a = 0; a < 3; ++a) {
     around.lo[a] = float_below(box.lo[static_cast<int>(a)]);
     around.hi[a] = float_above(box.hi[static_cast<int>(a)]);
@@ -38,17 +39,18 @@ FloatBox box_around(const Aabb& box) {
 /// What goes into one place of a node.
 struct Branch {
   FloatBox box;
-  std::uint32_t child = WideNode::kItemFlag;
+  std::uint32_t child;
 };
 
 /// The branches of a node.
 struct Branches {
-  std::array<Branch, WideNode::kWidth> list;
   std::size_t count = 0;
+  // Left as it is until it is used: there are many.
+  std::array<Branch, WideNode::kWidth> list;
 
   void add(const Branch& b) { list[count++] = b; }
   FloatBox box() const {
-    FloatBox all;
+    FloatBox all = FloatBox::nothing();
     for (std::size_t i = 0; i < count; ++i) all.include(list[i].box);
     return all;
   }
@@ -85,7 +87,7 @@ class Pruning {
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
       if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
       Branches& b = below[count];
-      b = {};
+      b.count = 0;
       if (is_item(node, i)) {
         if (is_foreign(node, i)) b.add(item_branch(node, i));
       } else if (items_[node.child[i]] > most_together_) {
@@ -121,11 +123,11 @@ class Pruning {
   Branch item_branch(const WideNode& node, std::size_t place) const {
     const std::uint32_t object = object_of(node, place);
     if (!is_part_[object]) return place_branch(node, place);
-    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta))};
+    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)), WideNode::kItemFlag};
   }
 
   static Branch place_branch(const WideNode& node, std::size_t place) {
-    Branch b;
+    Branch b{FloatBox::nothing(), WideNode::kItemFlag};
     for (std::size_t a = 0; a < 3; ++a) {
       b.box.lo[a] = node.planes[0][a][place];
       b.box.hi[a] = node.planes[1][a][place];
@@ -159,7 +161,7 @@ class Pruning {
     WideNode& node = nodes_.emplace_back();
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
       const bool is_used = i < branches.count;
-      const FloatBox box = is_used ? branches.list[i].box : FloatBox{};
+      const FloatBox box = is_used ? branches.list[i].box : FloatBox::nothing();
       for (std::size_t a = 0; a < 3; ++a) {
         node.planes[0][a][i] = box.lo[a];
         node.planes[1][a][i] = box.hi[a];

@@ -28,6 +28,13 @@ class ModelExtract {
     to_.objects.push_back({object.id, first, static_cast<std::uint32_t>(tree.size()), object.bounds});
   }
 
+  /// For so many objects, with so many nodes in all.
+  void reserve(std::size_t objects, std::size_t nodes) {
+    to_.objects.reserve(objects);
+    to_.nodes.reserve(nodes);
+    to_.primitives.reserve(nodes);
+  }
+
   Model take() { return std::move(to_); }
 
  private:
@@ -127,6 +134,14 @@ std::vector<std::uint32_t> places_of_parts(const ModelContents& contents) {
 
 Model extract(const Model& model, const ModelContents& contents) {
   ModelExtract extract(model);
+  std::size_t objects = contents.parts.size(), nodes = 0;
+  for (const ModelContents::Part& p : contents.parts) nodes += p.tree.size();
+  for (std::size_t i = 0; i < model.objects.size(); ++i) {
+    if (!contents.is_whole[i]) continue;
+    ++objects;
+    nodes += model.objects[i].node_count;
+  }
+  extract.reserve(objects, nodes);
   auto part = contents.parts.begin();
   for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
     const Object& object = model.objects[i];

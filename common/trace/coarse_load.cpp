@@ -17,7 +17,10 @@ namespace {
 constexpr std::uint32_t kBlockWidth = 2, kBlockHeight = 1;
 /// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
 /// block comes on top.
-constexpr std::size_t kManyRays = 8192;
+constexpr std::size_t kManyRays = 32768;
+/// Once so many blocks have shown that all take only this part of what they may, the rest is traced in one go.
+constexpr std::uint32_t kTellingBlocks = 64;
+constexpr double kSmallPart = 0.25;
 
 /// All regions of the grid, seen one at a time: what leaves one goes on in the next.
 class CoarseTrace {
@@ -199,11 +202,16 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_p
   const std::uint64_t most_crossings =
       std::max(kLeastCoarseCrossings, kCoarseCrossingsPerPixel * image.width * image.height);
   const std::uint32_t stride = spreading_step(count);
+  bool is_cheap = false;
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
     const std::uint32_t x = middle(at % across, across, image.width), y = middle(at / across, count / across, image.height);
     trace.add_block({x, y, std::min(x + kBlockWidth, image.width), std::min(y + kBlockHeight, image.height)});
     // Also when the blocks have doubled: what they take to the end is known before it is too much.
-    if (trace.has_many_waiting() || std::has_single_bit(i + 1)) trace.finish();
+    const std::uint32_t done = i + 1;
+    if (trace.has_many_waiting() || (std::has_single_bit(done) && !is_cheap)) {
+      trace.finish();
+      is_cheap = done >= kTellingBlocks && static_cast<double>(trace.crossings()) * count / done < kSmallPart * static_cast<double>(most_crossings);
+    }
     at = (at + stride) % count;
   }
   trace.finish();

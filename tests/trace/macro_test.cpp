@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "csg/random_model.hpp"
+#include "space/foreign_bounds.hpp"
 #include "space/light_depths.hpp"
 #include "space/occluders.hpp"
 #include "space/restrict.hpp"
@@ -24,7 +25,7 @@ struct Harvest {
   std::vector<Credit> credit;
   RayCounts rays;
   RoundingCounts rounding;
-  std::uint64_t handed_over = 0;
+  std::uint64_t handed_over = 0, handed_over_viewing = 0;
 
   explicit Harvest(const ImageSize& image)
       : light(std::size_t{image.width} * image.height), credit(light.size()) {}
@@ -77,10 +78,16 @@ class Machine {
     }
   }
 
-  /// The same, where nodes also hold whole what dice say of the objects, as occluders, and know what they don't hold.
-  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, const Occluders& occluders,
-          Dice& dice)
+  /// How nodes know of what they don't hold.
+  struct Knowledge {
+    bool has_horizons = false, has_bounds = false;
+  };
+  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't hold.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice)
       : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+    const Occluders occluders = Occluders::of(model);
+    const SurfaceTree whole = SurfaceTree::build(model);
+    const ForeignBoundsMaker maker(whole);
     for (std::uint32_t row = 0; row < rows; ++row) {
       for (std::uint32_t column = 0; column < columns; ++column) {
         const RegionShare share{columns, rows, column, row};
@@ -92,13 +99,20 @@ class Machine {
         parts += contents.parts.size();
         const Model slice = extract(model, contents);
         domains_.push_back(std::make_unique<Domain>(grid, share, slice));
-        domains_.back()->set_foreign_horizons(
-            std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, slice)));
+        if (knows.has_horizons) {
+          domains_.back()->set_foreign_horizons(
+              std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, slice)));
+        }
+        auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
+        if (knows.has_bounds && bounds) {
+          domains_.back()->set_foreign_bounds(std::make_shared<const ForeignBounds>(*std::move(bounds)));
+        }
         evaluators_.emplace_back(*domains_.back());
       }
     }
   }
 
+  static constexpr std::size_t kMuchRoom = std::size_t{1} << 20;
   /// Objects of which nodes hold a part.
   std::size_t parts = 0;
 
@@ -114,6 +128,7 @@ class Machine {
       for (const RayTask& task : step.leaving) {
         REQUIRE(number(task.region) != at);
         waiting.push_back(task);
+        if (task.kind != RayKind::kShadow) ++harvest.handed_over_viewing;
       }
       harvest.handed_over += step.leaving.size();
       step.clear();
@@ -178,6 +193,12 @@ MacroGrid uneven_grid(const CameraFrame& frame, Dice& dice) {
   auto columns = edges(frame.image.width);
   auto rows = edges(frame.image.height);
   return {frame, std::move(columns), std::move(rows)};
+}
+
+RandomOptions bounded() {
+  RandomOptions options;
+  options.unbounded = false;
+  return options;
 }
 
 /// Half of them have lights outside of everything, which see most.
@@ -269,7 +290,7 @@ TEST_CASE("nodes that hold some occluders give the picture of the whole, and han
     const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
     const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
     INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
-    Machine machine(model, grid, columns, rows, Occluders::of(model), dice);
+    Machine machine(model, grid, columns, rows, {.has_horizons = true}, dice);
     const Harvest held = machine.trace(dice);
     check_equal(whole, held, model.settings.image);
     with += held.handed_over;
@@ -278,6 +299,67 @@ TEST_CASE("nodes that hold some occluders give the picture of the whole, and han
   }
   CHECK(10 * with < 9 * without);
   CHECK(parts > 200);
+}
+
+TEST_CASE("nodes that know where foreign objects may be give the picture of the whole, and hand over few viewing rays") {
+  std::uint64_t without = 0, with = 0, shadow_without = 0, shadow_with = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    // Without bounds nothing would be known of all others.
+    Scene scene = RandomModel(seed, bounded()).scene();
+    if (seed % 3 == 0) {
+      for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
+    }
+    // More generations: what a ray sends out that has left its macro-region begins there.
+    scene.settings.max_depth = 4;
+    const Model model = compile_scene(scene);
+    const Harvest whole = trace_whole(model);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    Dice dice(seed);
+    const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
+    const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
+    const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
+    Dice same = dice;
+    const Harvest blind = Machine(model, grid, columns, rows, {}, same).trace(dice);
+    check_equal(whole, blind, model.settings.image);
+    Machine knowing(model, grid, columns, rows, {.has_horizons = dice.one_in(2), .has_bounds = true}, dice);
+    const Harvest seen = knowing.trace(dice);
+    check_equal(whole, seen, model.settings.image);
+    without += blind.handed_over_viewing;
+    with += seen.handed_over_viewing;
+    shadow_without += blind.handed_over - blind.handed_over_viewing;
+    shadow_with += seen.handed_over - seen.handed_over_viewing;
+  }
+  CHECK(without > 10'000);
+  CHECK(10 * with < 9 * without);
+  CHECK(shadow_with < shadow_without);
+}
+
+TEST_CASE("a node that holds all objects finishes all rays, and needs no region for what they send out") {
+  std::uint64_t handed_over = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = RandomModel(seed).scene();
+    scene.settings.max_depth = 4;
+    const Model model = compile_scene(scene);
+    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
+    const RegionShare share{4, 2, 1, 1};
+    ModelContents contents = contents_of_share(model, grid, share);
+    contents.hold_whole(std::vector<bool>(model.objects.size(), true));
+    Domain domain(grid, share, model);
+    const SurfaceTree whole = SurfaceTree::build(model);
+    domain.set_foreign_bounds(std::make_shared<const ForeignBounds>(*ForeignBoundsMaker(whole).bounds(contents, 1 << 20)));
+    const Domain without(grid, share, model);
+    const TilePlan plan(model.settings.image, {5, 3}, grid);
+    Step step;
+    for (const std::uint32_t tile : plan.tiles_of(share)) Evaluator(domain).trace_pixels(plan.rect(tile), step);
+    REQUIRE(step.leaving.empty());
+    step.clear();
+    for (const std::uint32_t tile : plan.tiles_of(share)) Evaluator(without).trace_pixels(plan.rect(tile), step);
+    handed_over += step.leaving.size();
+  }
+  CHECK(handed_over > 500);
 }
 
 TEST_CASE("a node that holds all objects finishes all shadow rays") {
