@@ -2,10 +2,12 @@
 #include "frontal/slices.hpp"
 
 #include <catch2/catch.hpp>
+#include <optional>
 #include <variant>
 
 #include "csg/random_model.hpp"
 #include "frontal/prepared.hpp"
+#include "proto/bounds_bytes.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
@@ -34,6 +36,7 @@ Scene many_balls() {
 
 struct Slice {
   Model model;
+  std::optional<ForeignBounds> foreign_bounds;
   bool has_foreign_horizons;
 };
 
@@ -43,7 +46,12 @@ std::vector<Slice> slices(const PreparedScene& prepared) {
     std::span<const std::byte> rest = bytes.bytes().first(bytes.size() - prepared.horizon_bytes);
     auto model = take_model(rest);
     REQUIRE(model.index() == 0);
-    all.push_back({std::get<Model>(std::move(model)), !rest.empty()});
+    std::optional<ForeignBounds> bounds;
+    if (begins_with_bounds(rest)) {
+      bounds = take_bounds(rest);
+      REQUIRE(bounds);
+    }
+    all.push_back({std::get<Model>(std::move(model)), std::move(bounds), !rest.empty()});
     if (!rest.empty()) REQUIRE(decode_horizons(rest, all.back().model.settings.lights.size()));
   }
   return all;
@@ -63,6 +71,9 @@ TEST_CASE("with light horizons nodes get occluders too, but less than half of a 
     CHECK(more[rank].has_foreign_horizons);
     CHECK_FALSE(own[rank].has_foreign_horizons);
     CHECK_FALSE(as_in_1987[rank].has_foreign_horizons);
+    CHECK(more[rank].foreign_bounds);
+    CHECK_FALSE(own[rank].foreign_bounds);
+    CHECK_FALSE(as_in_1987[rank].foreign_bounds);
     CHECK(more[rank].model.objects.size() < 750);
     more_in_all += more[rank].model.objects.size();
     own_in_all += own[rank].model.objects.size();
@@ -70,6 +81,38 @@ TEST_CASE("with light horizons nodes get occluders too, but less than half of a 
   // Partitions differ, their sum hardly does.
   CHECK(own_in_all < 2400);
   CHECK(more_in_all > own_in_all + 700);
+}
+
+TEST_CASE("nodes know where all is that they do not hold, and all hold a floor without bounds") {
+  Scene scene = many_balls();
+  scene.objects.push_back(scene_of({node_of(HalfSpaceShape{{0, 1, 0}, -12})}).objects.front());
+  const Model model = compile_scene(scene);
+  const auto floor = static_cast<std::uint32_t>(model.objects.size() - 1);
+  TreeScratch scratch;
+  const auto all = slices(prepared(scene, {}, 16));
+  for (std::size_t rank = 0; rank < 16; ++rank) {
+    INFO("rank " << rank);
+    const auto& held = all[rank].model.objects;
+    REQUIRE(std::ranges::any_of(held, [&](const Object& o) { return o.id == model.objects[floor].id; }));
+    REQUIRE(all[rank].foreign_bounds);
+    CHECK(all[rank].foreign_bounds->memory_bytes() <= kSmallBounds);
+    // Rays through the middle of each ball, from just before it to just behind.
+    std::size_t met = 0, foreign = 0;
+    for (std::uint32_t i = 0; i < floor; ++i) {
+      const Aabb& box = model.objects[i].bounds;
+      const double radius = 0.5 * (box.hi.x - box.lo.x);
+      RayPacket packet;
+      packet.add({box.center() - Vec3{2, 0, 0}, {1, 0, 0}}, 2 - radius, 2 + radius);
+      const bool is_held = std::ranges::any_of(held, [&](const Object& o) { return o.id == model.objects[i].id; });
+      const bool may_meet = all[rank].foreign_bounds->may_meet(packet, scratch) != 0;
+      if (!is_held) REQUIRE(may_meet);
+      met += may_meet ? 1 : 0;
+      foreign += is_held ? 0 : 1;
+    }
+    CHECK(foreign > 750);
+    // Others' boxes reach into it.
+    CHECK(met < foreign + (floor - foreign) / 2);
+  }
 }
 
 TEST_CASE("what a node gets beside its own part is what its shadow rays ask for") {
@@ -113,6 +156,8 @@ TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
 
 TEST_CASE("room for slices is twice an equal share, or a little for small scenes") {
   CHECK(slice_room(1000, 16) == kSmallSlices);
+  CHECK(bounds_room(1000, 16) == kSmallBounds);
+  CHECK(bounds_room(std::uint64_t{160} << 20, 16) == std::uint64_t{5} << 19);
   CHECK(slice_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);
   CHECK(copy_room(1000, 16) == kSmallCopies);
   CHECK(copy_room(std::uint64_t{160} << 20, 16) == std::uint64_t{20} << 20);

@@ -55,6 +55,8 @@ class NodeAtWork {
   void assign(const std::vector<std::uint32_t>& tiles) {
     node.on_frontal(Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, assigned_++}, tiles)));
   }
+  NodeAtWork(NodeAtWork&&) = default;
+
   /// One piece of work; false when there is none.
   bool work_once() {
     auto piece = node.take_work();

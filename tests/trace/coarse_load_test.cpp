@@ -1,5 +1,6 @@
 #include "trace/coarse_load.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <string>
@@ -67,6 +68,35 @@ TEST_CASE("shadow rays traced where they begin are work for the region of their 
   CHECK(total(begins.map) != total(goes.map));
 }
 
+TEST_CASE("what secondary rays lead to is work for the region of their pixel, where they stay") {
+  // A mirror ball on the left shows a wall beyond the right edge of the picture, whose right half is empty.
+  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64}, "max_depth": 3,
+    "camera": {"type": "perspective", "eye": [0,0,0], "look_at": [0,0,9], "up": [0,1,0], "fov": 60},
+    "lights": [{"type": "point", "position": [0,20,0], "color": [1,1,1]}],
+    "materials": {"mirror": {"reflect": 1}, "m": {}},
+    "objects": [{"material": "mirror", "csg": {"type": "sphere", "center": [-5.5,0,12], "radius": 5}},
+                {"material": "m", "csg": {"type": "box", "min": [60,-90,-90], "max": [61,90,90]}}]})");
+  REQUIRE(read.scene);
+  const Model model = compile_scene(*read.scene);
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid = MacroGrid::regular(frame, 8, 4);
+  const auto share_of_halves = [&](Staying staying) {
+    const CoarseLoad load = coarse_load(Domain(model), grid, nullptr, staying, 1);
+    std::array<double, 2> halves{};
+    for (std::uint32_t r = 0; r < 4; ++r) {
+      for (std::uint32_t c = 0; c < 8; ++c) halves[c / 4] += load.map.at(c, r);
+    }
+    return std::pair(halves, load.rays_per_primary);
+  };
+  const std::uint32_t mirror = grid.region_of_point({-5, 0, 12}).column / 4;
+  const auto [gone, rays] = share_of_halves({});
+  const auto [stayed, same_rays] = share_of_halves({.shadow_rays = true, .secondary_rays = true});
+  CHECK(rays == same_rays);
+  CHECK(rays > 1.1);
+  CHECK(stayed[1 - mirror] < 0.9 * gone[1 - mirror]);
+  CHECK(stayed[mirror] > gone[mirror]);
+}
+
 TEST_CASE("balanced boundaries are drawn together where the work is") {
   const Model model = compile_scene(corner_scene());
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
@@ -110,6 +140,18 @@ Model mirrors_and_lights(int count) {
 }
 
 }  // namespace
+
+TEST_CASE("between mirrors the coarse render ends early where secondary rays stay") {
+  const Model model = mirrors_and_lights(24);
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
+  const LoadMap load =
+      coarse_load(Domain(model), grid, nullptr, {.shadow_rays = true, .secondary_rays = true}, 0).map;
+  const double all = total(load);
+  CHECK(all > static_cast<double>(kLeastCoarseCrossings));
+  // A pixel takes thousands of rays, and of 1024 that there were without an end each would be traced.
+  CHECK(all < 40.0 * static_cast<double>(kLeastCoarseCrossings));
+}
 
 TEST_CASE("among many lights the coarse render ends early, too, where shadow rays are traced where they begin") {
   const Model model = mirrors_and_lights(64);
