@@ -1,7 +1,6 @@
 #include "node/merge_buffer.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace graycube {
 namespace {
@@ -13,47 +12,52 @@ bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
 
 }  // namespace
 
-std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
+/// That of the key, or the free one where it goes.
+MergeBuffer::Index::Slot& MergeBuffer::Index::slot_of(std::uint32_t key) {
   // Fibonacci hashing of short rows of pixels: those of one lie side by side, as they are looked for.
   constexpr std::uint32_t kGolden = 2654435769u, kRow = 16;
-  if (slots_.empty()) slots_.resize(2 * keys_);
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t i = (key / kRow * kGolden * kRow + key % kRow) & mask;; i = (i + 1) & mask) {
-    Slot& slot = slots_[i];
-    if (slot.generation != generation_) {
-      slot = {key, next, generation_};
-      return slot.place;
-    }
-    if (slot.key == key) return slot.place;
+  std::size_t i = (key / kRow * kGolden * kRow + key % kRow) & mask;
+  while (slots_[i].generation == generation_ && slots_[i].key != key) i = (i + 1) & mask;
+  return slots_[i];
+}
+
+std::uint32_t& MergeBuffer::Index::place_of(std::uint32_t key, std::uint32_t next) {
+  if (2 * (count_ + 1) > slots_.size()) grow();
+  Slot& slot = slot_of(key);
+  if (slot.generation != generation_) {
+    slot = {key, next, generation_};
+    ++count_;
+  }
+  return slot.place;
+}
+
+void MergeBuffer::Index::grow() {
+  std::vector<Slot> before(std::max(kFewSlots, 2 * slots_.size()));
+  before.swap(slots_);
+  for (const Slot& slot : before) {
+    if (slot.generation == generation_) slot_of(slot.key) = slot;
   }
 }
 
 void MergeBuffer::Index::clear() {
+  count_ = 0;
   if (++generation_ != 0) return;
   std::fill(slots_.begin(), slots_.end(), Slot{});
-  generation_ = 1;
-}
-
-void MergeBuffer::Index::resize(std::size_t keys) {
-  keys_ = keys;
-  slots_ = {};
   generation_ = 1;
 }
 
 MergeBuffer::MergeBuffer() { clear(); }
 
 void MergeBuffer::expect_others(bool others) {
-  const std::size_t most = others ? kMostPixels : kFullPixels;
+  most_ = others ? kMostPixels : kFullPixels;
   full_ = others ? kFullOfOthers : kFullPixels;
-  if (most != std::exchange(most_, most)) {
-    pixels_.resize(most);
-    tiles_.resize(most);
-  }
   clear();
 }
 
 void MergeBuffer::clear() {
-  merged_ = {};
+  merged_.credits.clear();
+  merged_.contributions.clear();
   merged_.contributions.reserve(kFullPixels);
   pixels_.clear();
   tiles_.clear();
@@ -118,12 +122,6 @@ void MergeBuffer::add_light(std::uint32_t pixel, const FixedRgb& light) {
   } else {
     all[place].light.add(light);
   }
-}
-
-MergeBuffer::Merged MergeBuffer::take() {
-  Merged taken = std::move(merged_);
-  clear();
-  return taken;
 }
 
 }  // namespace graycube

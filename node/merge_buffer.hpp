@@ -40,14 +40,14 @@ class MergeBuffer {
   bool is_full() const {
     return merged_.contributions.size() >= full_ || merged_.credits.size() >= full_;
   }
-  void clear();
-
   struct Merged {
     std::vector<TileCredit> credits;
     std::vector<Contribution> contributions;
   };
-  /// Takes all; credits are exactly those of the light beside them.
-  Merged take();
+  /// All that is here; credits are exactly those of the light beside them.
+  const Merged& gathered() const { return merged_; }
+  /// Forgets it; its memory serves what comes next.
+  void clear();
 
  private:
   /// Where a pixel or tile stands among those gathered; open addressing, at most half full.
@@ -57,16 +57,18 @@ class MergeBuffer {
     std::uint32_t& place_of(std::uint32_t key, std::uint32_t next);
     void clear();
 
-    /// Forgets all; for so many keys at most, a power of two.
-    void resize(std::size_t keys);
-
    private:
     struct Slot {
       std::uint32_t key = 0, place = 0, generation = 0;
     };
-    std::size_t keys_ = kFullPixels;
-    /// Empty until there is a key: where tiles come whole, pixels are never looked up.
+    /// At first, a power of two. Most nodes look few pixels up: where tiles come whole, none.
+    static constexpr std::size_t kFewSlots = 512;
+
+    Slot& slot_of(std::uint32_t key);
+    void grow();
+
     std::vector<Slot> slots_;
+    std::size_t count_ = 0;
     std::uint32_t generation_ = 1;
   };
 

@@ -85,11 +85,11 @@ void Node::grant_credit(Link& link, std::uint64_t least) {
 /// To the frontal, or to the parent in the tree of sums: then the token counts them as it counts rays.
 void Node::flush_contributions() {
   if (merge_.is_empty()) return;
-  const MergeBuffer::Merged merged = merge_.take();
   holds_others_light_ = false;
   std::uint64_t& sequence =
       parent_ ? links_[bit_of(*parent_)].next_sequence : contribution_sequence_;
-  Bytes batch = encode_contributions(stamp(sequence++), merged.credits, merged.contributions);
+  Bytes batch = encode_contributions(stamp(sequence++), merge_.gathered().credits, merge_.gathered().contributions);
+  merge_.clear();
   if (parent_) {
     ring_.message_sent();
     ++stats_.sum_batches;

@@ -36,10 +36,16 @@ PixelReturn some_return(std::mt19937_64& random, std::uint32_t pixels) {
   return r;
 }
 
+MergeBuffer::Merged taken(MergeBuffer& buffer) {
+  MergeBuffer::Merged all = buffer.gathered();
+  buffer.clear();
+  return all;
+}
+
 void feed(MergeBuffer& buffer, std::span<const PixelReturn> returns, Totals& sent) {
   while (!returns.empty()) {
     returns = returns.subspan(buffer.add(returns, kPlan));
-    if (buffer.is_full()) sent.add(buffer.take());
+    if (buffer.is_full()) sent.add(taken(buffer));
   }
 }
 
@@ -57,7 +63,7 @@ TEST_CASE("what is merged sums up to what came in, through many fillings") {
       for (const PixelReturn& r : returns) came.add(r);
       feed(buffer, returns, sent);
     }
-    sent.add(buffer.take());
+    sent.add(taken(buffer));
     CHECK(buffer.is_empty());
     CHECK(sent == came);
   }
@@ -76,7 +82,7 @@ TEST_CASE("a pixel that comes again is one contribution, until a record can't ho
     } else {
       REQUIRE(buffer.add(std::span(returns).first(2), kPlan) == 2);
     }
-    const MergeBuffer::Merged merged = buffer.take();
+    const MergeBuffer::Merged merged = taken(buffer);
     REQUIRE(merged.contributions.size() == 3);
     CHECK(merged.contributions[0].light == FixedRgb{2, 4, kMaxMergedLight});
     CHECK(merged.contributions[2].light == half.light);
@@ -93,10 +99,10 @@ TEST_CASE("what children have gathered is added to what is here, exactly") {
     Totals came, sent;
     const auto pass_on = [&](const MergeBuffer::Merged& m) {
       if (!parent.add_gathered(m.credits, m.contributions)) {
-        sent.add(parent.take());
+        sent.add(taken(parent));
         REQUIRE(parent.add_gathered(m.credits, m.contributions));
       }
-      if (parent.is_full()) sent.add(parent.take());
+      if (parent.is_full()) sent.add(taken(parent));
     };
     for (int step = 0; step < 60; ++step) {
       std::vector<PixelReturn> returns;
@@ -110,11 +116,11 @@ TEST_CASE("what children have gathered is added to what is here, exactly") {
       std::span<const PixelReturn> rest = returns;
       while (!rest.empty()) {
         rest = rest.subspan(child.add(rest, kPlan));
-        if (child.is_full()) pass_on(child.take());
+        if (child.is_full()) pass_on(taken(child));
       }
     }
-    for (MergeBuffer& child : children) pass_on(child.take());
-    const MergeBuffer::Merged last = parent.take();
+    for (MergeBuffer& child : children) pass_on(taken(child));
+    const MergeBuffer::Merged last = taken(parent);
     if (pixels < 5000) CHECK(last.contributions.size() <= pixels);
     sent.add(last);
     CHECK(sent == came);
@@ -129,7 +135,7 @@ TEST_CASE("gathered light that doesn't fit is left, and what is here stays as it
   REQUIRE(buffer.add_gathered({}, many));
   CHECK(buffer.is_full());
   CHECK_FALSE(buffer.add_gathered({}, std::vector{Contribution{7, {1, 1, 1}}}));
-  CHECK(buffer.take().contributions == many);
+  CHECK(taken(buffer).contributions == many);
   buffer.expect_others(false);
   CHECK_FALSE(buffer.add_gathered({}, many));
   CHECK(buffer.is_empty());
@@ -152,12 +158,12 @@ TEST_CASE("a tile's light comes with exactly its credit, also when the buffer fi
     while (!rest.empty()) {
       rest = rest.subspan(buffer.add_tile(rest, 5, kPlan));
       if (!buffer.is_full()) continue;
-      const MergeBuffer::Merged merged = buffer.take();
+      const MergeBuffer::Merged merged = taken(buffer);
       CHECK(merged.contributions.size() <= MergeBuffer::kFullPixels);
       CHECK(merged.credits.size() == 1);
       sent.add(merged);
     }
   }
-  sent.add(buffer.take());
+  sent.add(taken(buffer));
   CHECK(sent == came);
 }
