@@ -40,7 +40,8 @@ class Mailroom {
   Mailroom(const NodeArguments& a, std::size_t number)
       : inbox_(context_, inbox_of(a, number)),
         frontal_(context_, a.frontal),
-        node_({Rank{a.ranks[number]}, a.incarnations[number], static_cast<std::uint64_t>(::getpid()),
+        rank_{a.ranks[number]},
+        node_({rank_, a.incarnations[number], static_cast<std::uint64_t>(::getpid()),
                inbox_.endpoint(), a.threads, kVersion}),
         pool_(node_, wakeup_) {
     frontal_.send(node_.hello());
@@ -48,12 +49,17 @@ class Mailroom {
 
   void run() {
     for (;;) {
-      Readable* const sockets[] = {&inbox_, &frontal_};
       const int descriptors[] = {wakeup_.descriptor()};
-      wait_readable(sockets, descriptors, std::chrono::seconds(1));
+      wait_readable(sockets_, descriptors, std::chrono::seconds(1));
       wakeup_.clear();
       const bool ended = pool_.with_node([&] {
-        while (auto m = inbox_.receive()) node_.on_neighbour(m->message.frame);
+        while (auto m = inbox_.receive()) {
+          note_peer(*m);
+          node_.on_neighbour(m->message.frame);
+        }
+        for (auto& [to, link] : links_) {
+          while (const auto m = link.receive_view()) node_.on_neighbour(m->frame);
+        }
         while (auto m = frontal_.receive()) node_.on_frontal(*m);
         outgoing_ = node_.take_outgoing();
         return node_.is_shut_down();
@@ -67,18 +73,36 @@ class Mailroom {
  private:
   void send(Node::Outgoing& o) {
     if (!o.to) return frontal_.send(std::move(o.message));
+    if (!connects_to(rank_, *o.to)) {
+      // Whoever has not greeted yet has not begun any job either.
+      const auto peer = peers_.find(*o.to);
+      if (peer != peers_.end()) inbox_.send(peer->second, std::move(o.message));
+      return;
+    }
     auto link = links_.find(*o.to);
     if (link == links_.end()) {
       link = links_.emplace(*o.to, Connection(context_, node_.endpoints()[o.to->value])).first;
+      sockets_.push_back(&link->second);
     }
     link->second.send(std::move(o.message));
+  }
+
+  /// Neighbours that connect greet first: a new process by its new connection.
+  void note_peer(const Inbox::Received& m) {
+    const auto header = peek_header(m.message.frame);
+    const auto* h = std::get_if<BatchHeader>(&header);
+    if (h != nullptr && h->type == BatchType::kGreeting) peers_[Rank{h->stamp.sender}] = m.peer;
   }
 
   ZmqContext context_;
   Wakeup wakeup_;
   Inbox inbox_;
   Connection frontal_;
+  /// To neighbours that this node connects to; and by which peer of the inbox the others are reached.
   std::map<Rank, Connection> links_;
+  std::map<Rank, std::string> peers_;
+  std::vector<Readable*> sockets_{&inbox_, &frontal_};
+  Rank rank_;
   Node node_;
   EvaluatorPool pool_;
   std::vector<Node::Outgoing> outgoing_;

@@ -76,8 +76,8 @@ void Node::on_welcome(const control::Welcome& m) {
   links_.resize(cube->dimension());
   for (std::uint32_t bit = 0; bit < cube->dimension(); ++bit) {
     links_[bit].peer = cube->neighbour(id_.rank, bit);
-    links_[bit].is_greeted = false;
-    if (endpoints_[links_[bit].peer.value].empty()) continue;
+    // Also those that know this node: there is a new welcome because some node is new.
+    if (!connects_to(id_.rank, links_[bit].peer) || endpoints_[links_[bit].peer.value].empty()) continue;
     outgoing_.push_back(
         {links_[bit].peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreeting))});
   }

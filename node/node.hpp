@@ -49,6 +49,9 @@ inline constexpr std::size_t kMaxRaysPerWork = 256;
 /// Once this part of what the outboxes may hold has left in a piece of work, the rest of it is set aside.
 inline constexpr std::uint64_t kWorksPerOutboxes = 16;
 
+/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes the nodes.
+inline bool connects_to(Rank from, Rank to) { return from < to; }
+
 class Node {
  public:
   struct Outgoing {

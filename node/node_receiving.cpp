@@ -152,7 +152,6 @@ void Node::on_signal(Link& link, const BatchHeader& header) {
   if (header.type == BatchType::kGreeting) {
     outgoing_.push_back(
         {link.peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreetingAck))});
-    return;
   }
   link.is_greeted = true;
   send_ready_when_complete();

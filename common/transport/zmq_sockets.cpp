@@ -125,6 +125,8 @@ void Wakeup::clear() {
 struct Connection::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::dealer) {}
   zmq::socket_t socket;
+  /// What was received last.
+  std::vector<zmq::message_t> frames;
 };
 
 Connection::Connection(ZmqContext& context, const std::string& endpoint)
@@ -146,15 +148,19 @@ void Connection::send(Message message) {
 }
 
 std::optional<Message> Connection::receive() {
-  if (is_drained_) return std::nullopt;
-  std::vector<zmq::message_t> frames;
-  receive_frames(impl_->socket, frames);
-  is_drained_ = frames.empty();
-  const auto view = message_of(frames, 0);
+  const auto view = receive_view();
   if (!view) return std::nullopt;
   Message message{copy_of(view->frame), {}};
-  if (!view->payload.empty()) message.payload = shared(std::move(frames.back()));
+  if (!view->payload.empty()) message.payload = shared(std::move(impl_->frames.back()));
   return message;
+}
+
+std::optional<MessageView> Connection::receive_view() {
+  if (is_drained_) return std::nullopt;
+  std::vector<zmq::message_t>& frames = impl_->frames;
+  receive_frames(impl_->socket, frames);
+  is_drained_ = frames.empty();
+  return message_of(frames, 0);
 }
 
 std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {

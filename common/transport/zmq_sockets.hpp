@@ -89,6 +89,8 @@ class Connection : public Readable {
   void send(Message message);
   /// Nothing when no message is waiting.
   std::optional<Message> receive();
+  /// As receive, without a copy: until the next call.
+  std::optional<MessageView> receive_view();
   /// As receive, waiting for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
 
