@@ -117,8 +117,6 @@ int run_node(const NodeArguments& a, std::size_t number) {
   // A terminal's Ctrl-C is for the command, which stops its nodes in order.
   ::signal(SIGINT, SIG_IGN);
   keep_freed_memory(a.threads);
-  const sched_param normal{};
-  ::sched_setscheduler(0, SCHED_BATCH, &normal);
   try {
     Mailroom(a, number).run();
   } catch (const TransportError& e) {
