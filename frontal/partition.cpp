@@ -10,11 +10,11 @@
 namespace graycube {
 namespace {
 
-/// Cells of the coarse pre-render along each side of a macro-region, and along each side of the grid at most. (With
-/// 16 nodes 4, 8 and 16 cells balance csg10k to 0.80, 0.88 and 0.87, and the cost grows with the cells.)
+/// Cells of the coarse pre-render along each side of a macro-region, and along each side of the grid at most: fewer where each
+/// is traced by itself. (With 16 nodes 4, 8 and 16 cells balance csg10k to 0.80, 0.88 and 0.87.)
 constexpr std::uint32_t kFineCells = 8;
 constexpr std::uint32_t kLeastFineCells = 2;
-constexpr std::uint32_t kMostCells = 32;
+constexpr std::uint32_t kMostCells = 64, kMostCellsApart = 32;
 /// What a ray that comes in costs a node, in primitives that it tests. Its evaluators hardly notice (what they do for
 /// it counts by itself); its mailroom decodes and stores it.
 constexpr double kCrossingCost = 3;
@@ -36,7 +36,8 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
   const ImageSize& image = whole.model().settings.image;
   const auto frame = CameraFrame::from(whole.model().settings.camera, image);
   const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
-  const std::uint32_t fine = std::clamp(kMostCells / std::max(columns, rows), kLeastFineCells, kFineCells);
+  const std::uint32_t most = staying.all() ? kMostCells : kMostCellsApart;
+  const std::uint32_t fine = std::clamp(most / std::max(columns, rows), kLeastFineCells, kFineCells);
   const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
   const bool too_costly = wanted == PartitionMode::kAuto && !whole.has_primary_rays(kPrimaryRaysPerPrimitive);
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {

@@ -27,6 +27,25 @@ void for_each_around(std::uint32_t texel, F&& f) {
   }
 }
 
+/// One query for each texel that is asked for, as far as any ray asks for it.
+std::vector<OccluderQuery> together(std::vector<OccluderQuery> queries) {
+  std::sort(queries.begin(), queries.end(), [](const OccluderQuery& a, const OccluderQuery& b) {
+    return a.light != b.light ? a.light < b.light : a.texel < b.texel;
+  });
+  std::size_t count = 0;
+  for (const OccluderQuery& q : queries) {
+    OccluderQuery* const last = count > 0 ? &queries[count - 1] : nullptr;
+    if (last != nullptr && last->light == q.light && last->texel == q.texel) {
+      last->distance = std::max(last->distance, q.distance);
+      last->rays += q.rays;
+    } else {
+      queries[count++] = q;
+    }
+  }
+  queries.resize(count);
+  return queries;
+}
+
 /// By rank: what shadow rays ask for that leave their node.
 std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
@@ -39,7 +58,16 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     if (!exit || exit->t >= task.t_max) continue;
     const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
     const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    for_each_around(texel, [&](std::uint32_t t) { queries[rank.value].push_back({task.light, t, distance}); });
+    queries[rank.value].push_back({task.light, texel, distance, 1});
+  }
+  for (std::vector<OccluderQuery>& q : queries) {
+    q = together(std::move(q));
+    std::vector<OccluderQuery> around;
+    around.reserve(9 * q.size());
+    for (const OccluderQuery& at : q) {
+      for_each_around(at.texel, [&](std::uint32_t t) { around.push_back({at.light, t, at.distance, at.rays}); });
+    }
+    q = together(std::move(around));
   }
   return queries;
 }
@@ -95,13 +123,14 @@ class Contents {
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
                                    const Occluders& occluders, std::span<const std::byte> horizons) {
   std::vector<SharedBytes> slices;
-  const auto add = [&](const Model& slice, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
+  const SliceEncoder encoder(model);
+  const auto add = [&](const ModelContents& contents, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
     const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
-    slices.push_back(encode_model(slice, tails));
+    slices.push_back(encoder.encode(contents, tails));
   };
   if (occluders.is_empty() && tree == nullptr) {
     for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-      add(restrict_to_share(model, cut.grid, share_of(cube, Rank{rank})), {}, {});
+      add(contents_of_share(model, cut.grid, share_of(cube, Rank{rank})), {}, {});
     }
     return slices;
   }
@@ -111,10 +140,9 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
   const std::size_t most_bounds = bounds_room(encoded_model_bytes(model), cube.nodes());
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     const ModelContents contents = all_contents.of(Rank{rank});
-    const Model slice = extract(model, contents);
     const auto bounds = maker ? maker->bounds(contents, most_bounds) : std::nullopt;
-    const Bytes horizons_of_foreign = occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents, slice));
-    add(slice, bounds ? encode_bounds(*bounds) : Bytes{}, horizons_of_foreign);
+    add(contents, bounds ? encode_bounds(*bounds) : Bytes{},
+        occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents, model)));
   }
   return slices;
 }

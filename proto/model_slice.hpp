@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "csg/model.hpp"
+#include "space/restrict.hpp"
 
 namespace graycube {
 
@@ -49,6 +50,21 @@ bool fits_model_limits(const Model& model);
 /// The model must keep to its own rules (those that decode_model checks) and fit the limits; a
 /// broken one is a bug that the receiver reports. `tails` follow it.
 std::vector<std::byte> encode_model(const Model& model, std::span<const std::span<const std::byte>> tails = {});
+
+/// Slices of one model, which must outlive it.
+class SliceEncoder {
+ public:
+  explicit SliceEncoder(const Model& model);
+  /// encode_model(extract(model, contents), tails), without the copy between.
+  std::vector<std::byte> encode(const ModelContents& contents, std::span<const std::span<const std::byte>> tails = {}) const;
+
+ private:
+  struct Kept;
+
+  const Model& model_;
+  /// By primitive: what of it is written, its mesh aside.
+  std::vector<std::uint16_t> flags_;
+};
 
 /// Whether bytes begin as encode_model's do; no text of a scene does.
 bool is_encoded_model(std::span<const std::byte> bytes);

@@ -63,8 +63,7 @@ void put_material(ByteWriter& w, const Material& m) {
   w.put(static_cast<std::uint8_t>(m.model));
 }
 
-void put_primitive(ByteWriter& w, const Primitive& p) {
-  const unsigned flags = flags_of(p);
+void put_primitive(ByteWriter& w, const Primitive& p, unsigned flags) {
   w.put(static_cast<std::uint8_t>(p.kind));
   w.put(static_cast<std::uint16_t>(flags));
   w.put(p.material);
@@ -108,6 +107,33 @@ void put_object(ByteWriter& w, const Object& o) {
   put_box(w, o.bounds);
 }
 
+void put_plane(ByteWriter& w, const Plane& plane) {
+  put_vec(w, plane.normal);
+  w.put(plane.offset);
+}
+
+struct Counts {
+  std::size_t planes = 0, primitives = 0, nodes = 0, objects = 0, meshes = 0;
+};
+
+std::size_t beginning_bytes(const Model& model) {
+  return kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes + model.materials.size() * kMaterialBytes;
+}
+
+/// Header, settings, lights and materials.
+void put_beginning(ByteWriter& w, const Model& model, const Counts& counts) {
+  w.put(kModelMagic);
+  w.put(kModelVersion);
+  w.put(std::uint16_t{0});
+  for (const std::size_t count : {model.settings.lights.size(), model.materials.size(), counts.planes, counts.primitives,
+                                  counts.nodes, counts.objects, counts.meshes}) {
+    w.put(static_cast<std::uint32_t>(count));
+  }
+  put_settings(w, model.settings, model.delta);
+  for (const PointLight& light : model.settings.lights) put_light(w, light);
+  for (const Material& material : model.materials) put_material(w, material);
+}
+
 /// The deepest nesting of a preorder list of trees whose sizes are trusted.
 std::size_t depth_of(const std::vector<TreeNode>& nodes) {
   std::vector<std::size_t> ends;
@@ -123,9 +149,8 @@ std::size_t depth_of(const std::vector<TreeNode>& nodes) {
 }  // namespace
 
 std::size_t encoded_model_bytes(const Model& model) {
-  std::size_t bytes = kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
-                      model.materials.size() * kMaterialBytes + model.planes.size() * kPlaneBytes +
-                      model.nodes.size() * kNodeBytes + model.objects.size() * kObjectBytes;
+  std::size_t bytes = beginning_bytes(model) + model.planes.size() * kPlaneBytes + model.nodes.size() * kNodeBytes +
+                      model.objects.size() * kObjectBytes;
   for (const Mesh& m : model.meshes) bytes += mesh_bytes(m.surface());
   for (const Primitive& p : model.primitives) bytes += primitive_bytes(flags_of(p));
   return bytes;
@@ -172,25 +197,111 @@ std::vector<std::byte> encode_model(const Model& model, std::span<const std::spa
   std::size_t all = size;
   for (const auto tail : tails) all += tail.size();
   ByteWriter w(all);
-  w.put(kModelMagic);
-  w.put(kModelVersion);
-  w.put(std::uint16_t{0});
-  for (const std::size_t count :
-       {model.settings.lights.size(), model.materials.size(), model.planes.size(),
-        model.primitives.size(), model.nodes.size(), model.objects.size(), model.meshes.size()}) {
-    w.put(static_cast<std::uint32_t>(count));
-  }
-  put_settings(w, model.settings, model.delta);
-  for (const PointLight& light : model.settings.lights) put_light(w, light);
-  for (const Material& material : model.materials) put_material(w, material);
-  for (const Plane& plane : model.planes) {
-    put_vec(w, plane.normal);
-    w.put(plane.offset);
-  }
+  put_beginning(w, model, {model.planes.size(), model.primitives.size(), model.nodes.size(), model.objects.size(), model.meshes.size()});
+  for (const Plane& plane : model.planes) put_plane(w, plane);
   for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
-  for (const Primitive& primitive : model.primitives) put_primitive(w, primitive);
+  for (const Primitive& p : model.primitives) put_primitive(w, p, flags_of(p));
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);
+  for (const auto tail : tails) std::copy(tail.begin(), tail.end(), w.room(tail.size()));
+  return std::move(w).take();
+}
+
+/// What of a model goes into a slice.
+struct SliceEncoder::Kept {
+  struct Tree {
+    const Object* object;
+    std::span<const TreeNode> nodes;
+  };
+  std::vector<Tree> trees;
+  Counts counts;
+
+  Kept(const Model& model, const ModelContents& contents) {
+    auto part = contents.parts.begin();
+    for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
+      if (contents.is_whole[i]) {
+        trees.push_back({&model.objects[i], model.tree(model.objects[i])});
+      } else if (part != contents.parts.end() && part->object == i) {
+        trees.push_back({&model.objects[i], part->tree});
+        ++part;
+      }
+    }
+    counts.objects = trees.size();
+    for (const Tree& t : trees) counts.nodes += t.nodes.size();
+  }
+
+  /// Calls f(index of a primitive) for all of them, in the order in which they are renumbered.
+  template <typename F>
+  void for_each_primitive(F&& f) const {
+    for (const Tree& t : trees) {
+      for (const TreeNode& n : t.nodes) {
+        if (!is_inner(n.kind)) f(n.primitive);
+      }
+    }
+  }
+};
+
+SliceEncoder::SliceEncoder(const Model& model) : model_(model) {
+  flags_.reserve(model.primitives.size());
+  for (const Primitive& p : model.primitives) {
+    const unsigned flags = flags_of(p) & ~(kHasMesh | kHasPlanes);
+    flags_.push_back(static_cast<std::uint16_t>(flags | (p.plane_count > 0 ? kHasPlanes : 0)));
+  }
+}
+
+std::vector<std::byte> SliceEncoder::encode(const ModelContents& contents,
+                                            std::span<const std::span<const std::byte>> tails) const {
+  Kept kept(model_, contents);
+  Counts& counts = kept.counts;
+  std::size_t bytes = beginning_bytes(model_) + counts.nodes * kNodeBytes + counts.objects * kObjectBytes;
+  // The first mesh of a slice is number 0, which is not written.
+  const auto flags = [&](const Primitive& p, unsigned of_whole) {
+    return p.kind == PrimitiveKind::kMesh && counts.meshes > 0 ? of_whole | kHasMesh : of_whole;
+  };
+  kept.for_each_primitive([&](std::uint32_t index) {
+    const Primitive& p = model_.primitives[index];
+    bytes += primitive_bytes(flags(p, flags_[index])) + p.plane_count * kPlaneBytes;
+    ++counts.primitives;
+    counts.planes += p.plane_count;
+    if (p.kind != PrimitiveKind::kMesh) return;
+    bytes += mesh_bytes(model_.meshes[p.mesh].surface());
+    ++counts.meshes;
+  });
+  for (const auto tail : tails) bytes += tail.size();
+  ByteWriter w(bytes);
+  put_beginning(w, model_, counts);
+  kept.for_each_primitive([&](std::uint32_t index) {
+    const Primitive& p = model_.primitives[index];
+    for (std::uint32_t i = 0; i < p.plane_count; ++i) put_plane(w, model_.planes[p.first_plane + i]);
+  });
+  kept.for_each_primitive([&](std::uint32_t index) {
+    const Primitive& p = model_.primitives[index];
+    if (p.kind == PrimitiveKind::kMesh) put_mesh(w, model_.meshes[p.mesh].surface());
+  });
+  counts.planes = counts.meshes = 0;
+  kept.for_each_primitive([&](std::uint32_t index) {
+    const Primitive& p = model_.primitives[index];
+    const unsigned written = flags(p, flags_[index]);
+    if (p.plane_count == 0 && p.kind != PrimitiveKind::kMesh) return put_primitive(w, p, written);
+    Primitive renumbered = p;
+    renumbered.first_plane = static_cast<std::uint32_t>(counts.planes);
+    counts.planes += p.plane_count;
+    renumbered.mesh = static_cast<std::uint32_t>(counts.meshes);
+    counts.meshes += p.kind == PrimitiveKind::kMesh ? 1 : 0;
+    put_primitive(w, renumbered, written);
+  });
+  std::uint32_t primitives = 0, nodes = 0;
+  for (const Kept::Tree& t : kept.trees) {
+    for (TreeNode n : t.nodes) {
+      if (!is_inner(n.kind)) n.primitive = primitives++;
+      put_node(w, n);
+    }
+  }
+  for (const Kept::Tree& t : kept.trees) {
+    const auto count = static_cast<std::uint32_t>(t.nodes.size());
+    put_object(w, {t.object->id, nodes, count, t.object->bounds});
+    nodes += count;
+  }
   for (const auto tail : tails) std::copy(tail.begin(), tail.end(), w.room(tail.size()));
   return std::move(w).take();
 }

@@ -70,16 +70,17 @@ LightHorizons Occluders::horizons() const {
   return LightHorizons(std::move(maps));
 }
 
-LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const Model& slice) const {
+LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const Model& model) const {
   auto distances = foreign_distances(contents.is_whole);
+  const Model parts = extract(model, {std::vector<bool>(objects_), contents.parts});
   std::vector<HorizonMap> maps;
   std::vector<Sight> seen;
   for (std::size_t light = 0; light < lights_.size(); ++light) {
-    const LightView view(slice, slice.settings.lights[light].position);
-    for (const std::uint32_t part : places_of_parts(contents)) {
+    const LightView view(parts, model.settings.lights[light].position);
+    for (const Object& part : parts.objects) {
       seen.clear();
       // A pruned tree lies within the object's bounds: what goes from a conjunction is the complement of something.
-      view.look_at(slice.objects[part], seen);
+      view.look_at(part, seen);
       for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
     }
     maps.push_back(HorizonMap::of(distances[light], lights_[light].reach));
@@ -100,7 +101,7 @@ void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery>
     }
     for (const std::uint32_t object : missing) {
       if (worth[object] == 0) wanted.push_back(object);
-      worth[object] += 1 / static_cast<double>(missing.size());
+      worth[object] += q.rays / static_cast<double>(missing.size());
     }
   }
   for (const std::uint32_t object : wanted) worth[object] /= static_cast<double>(bytes[object]);

@@ -14,12 +14,14 @@
 
 namespace graycube {
 
-/// A shadow ray asks for all objects of a texel that begin nearer to the light than where it leaves the macro-regions
-/// of its node.
+/// Shadow rays ask for all objects of a texel that begin nearer to the light than where they leave the macro-regions
+/// of their node.
 struct OccluderQuery {
   std::uint32_t light = 0;
   std::uint32_t texel = 0;
   double distance = 0;
+  /// So many ask for it.
+  std::uint32_t rays = 1;
 };
 
 class Occluders {
@@ -44,8 +46,8 @@ class Occluders {
   /// Those of all objects, as LightHorizons::of has them.
   LightHorizons horizons() const;
   /// Of what a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its macro-regions than
-  /// the objects that they are of. `slice` is what is extracted of the model by the contents.
-  LightHorizons foreign_horizons(const ModelContents& contents, const Model& slice) const;
+  /// the objects that they are of. `model` is the whole one.
+  LightHorizons foreign_horizons(const ModelContents& contents, const Model& model) const;
 
  private:
   /// By light and texel, where the nearest of the objects that are not held (by index) begins.

@@ -122,16 +122,6 @@ void ModelContents::hold_whole(const std::vector<bool>& objects) {
   std::erase_if(parts, [&](const Part& part) { return is_whole[part.object]; });
 }
 
-std::vector<std::uint32_t> places_of_parts(const ModelContents& contents) {
-  std::vector<std::uint32_t> places;
-  std::uint32_t before = 0, object = 0;
-  for (const ModelContents::Part& part : contents.parts) {
-    for (; object < part.object; ++object) before += contents.is_whole[object] ? 1 : 0;
-    places.push_back(before++);
-  }
-  return places;
-}
-
 Model extract(const Model& model, const ModelContents& contents) {
   ModelExtract extract(model);
   std::size_t objects = contents.parts.size(), nodes = 0;

@@ -30,9 +30,6 @@ ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const
 /// Only that is kept, renumbered; objects keep their order and id. Settings and materials stay.
 Model extract(const Model& model, const ModelContents& contents);
 
-/// Where the parts are among the objects of what is extracted.
-std::vector<std::uint32_t> places_of_parts(const ModelContents& contents);
-
 /// Inside each region of the share the result looks like the whole.
 inline Model restrict_to_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
   return extract(model, contents_of_share(model, grid, share));

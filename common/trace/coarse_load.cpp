@@ -21,21 +21,33 @@ constexpr std::size_t kManyRays = 32768;
 /// Once so many blocks have shown that all take only this part of what they may, the rest is traced in one go.
 constexpr std::uint32_t kTellingBlocks = 64;
 constexpr double kSmallPart = 0.25;
+/// Where all rays stay, so many cells along each side are traced together, or more where there would be too many regions: the
+/// more, the fuller are packets.
+constexpr std::uint32_t kCellsTogether = 4;
+constexpr std::uint32_t kMostRegions = 16;
 
-/// All regions of the grid, seen one at a time: what leaves one goes on in the next.
+/// What is traced together: cells, or where all rays stay, some of them, since pixels tell what work is whose.
+MacroGrid regions_of(const CameraFrame& frame, const MacroGrid& cells, Staying staying) {
+  if (!staying.all()) return cells;
+  const auto together = [](std::uint32_t side) { return std::clamp(side / kCellsTogether, 1u, kMostRegions); };
+  return MacroGrid::regular(frame, together(cells.columns()), together(cells.rows()));
+}
+
+/// All regions of a grid, seen one at a time: what leaves one goes on in the next.
 class CoarseTrace {
  public:
-  CoarseTrace(const Domain& whole, const MacroGrid& grid,
+  CoarseTrace(const Domain& whole, const MacroGrid& cells,
               std::shared_ptr<const LightHorizons> horizons, Staying staying, double crossing_cost)
-      : grid_(grid),
+      : cells_(cells),
+        grid_(regions_of(whole.frame(), cells, staying)),
         stays_(staying),
         crossing_cost_(crossing_cost),
-        map_(grid.columns(), grid.rows()),
-        domain_(whole.restricted_to(grid, {grid.columns(), grid.rows(), 0, 0})),
+        map_(cells.columns(), cells.rows()),
+        domain_(whole.restricted_to(grid_, {grid_.columns(), grid_.rows(), 0, 0})),
         evaluator_(domain_),
         open_domain_(whole),
         open_evaluator_(open_domain_),
-        waiting_(std::size_t{grid.columns()} * grid.rows()),
+        waiting_(std::size_t{grid_.columns()} * grid_.rows()),
         staying_(waiting_.size()) {
     domain_.set_horizons(horizons);
     open_domain_.set_horizons(std::move(horizons));
@@ -97,9 +109,8 @@ class CoarseTrace {
         std::count_if(taken_.begin(), taken_.end(), [](const RayTask& r) { return r.kind == RayKind::kPrimary; }));
     const std::size_t came = taken_.size() - began;
     crossings_ += came;
-    map_.at(at.column, at.row) +=
-        crossing_cost_ * static_cast<double>(came) + kCreatedCost * static_cast<double>(began);
-    trace(at, evaluator_, [&] { evaluator_.trace_rays(taken_, step_); });
+    const double beside = crossing_cost_ * static_cast<double>(came) + kCreatedCost * static_cast<double>(began);
+    trace(at, evaluator_, beside, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
   /// Rays that are traced where they left, on their further way. What descends from them counts as what crosses: so much work
@@ -110,7 +121,7 @@ class CoarseTrace {
     waiting_count_ -= rays.size();
     const auto created = [&] { return std::accumulate(created_.begin(), created_.end(), std::uint64_t{0}); };
     const std::uint64_t before = created();
-    trace(rays.front().region, open_evaluator_, [&] { open_evaluator_.trace_rays(rays, step_); });
+    trace(rays.front().region, open_evaluator_, 0, [&] { open_evaluator_.trace_rays(rays, step_); });
     crossings_ += created() - before;
     rays.clear();
   }
@@ -118,8 +129,9 @@ class CoarseTrace {
     return std::size_t{r.row} * grid_.columns() + r.column;
   }
 
+  /// `beside`: what it costs beside what is counted.
   template <typename Trace>
-  void trace(RegionIndex at, const Evaluator& evaluator, Trace&& work) {
+  void trace(RegionIndex at, const Evaluator& evaluator, double beside, Trace&& work) {
     domain_.confine_to({grid_.columns(), grid_.rows(), at.column, at.row});
     const WalkCounts before = evaluator.walk_counts();
     work();
@@ -127,13 +139,35 @@ class CoarseTrace {
     const auto& created = step_.rays.created;
     const auto rays = std::accumulate(created.begin(), created.end(), std::uint64_t{0});
     for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
-    map_.at(at.column, at.row) += kCreatedCost * static_cast<double>(rays) +
-                                  kCellCost * static_cast<double>(walk.cells_visited) +
-                                  kQuarticCost * static_cast<double>(walk.quartics_solved) +
-                                  static_cast<double>(walk.primitives_tested);
+    add_cost(at, beside + kCreatedCost * static_cast<double>(rays) + kCellCost * static_cast<double>(walk.cells_visited) +
+                     kQuarticCost * static_cast<double>(walk.quartics_solved) + static_cast<double>(walk.primitives_tested));
     for (RayTask& ray : step_.leaving) take_leaving(ray, at);
     waiting_count_ += step_.leaving.size();
     step_.clear();
+  }
+
+  RegionIndex cell_of(std::uint32_t pixel) const {
+    const std::uint32_t width = domain_.frame().image.width;
+    return cells_.region_of_pixel(pixel % width, pixel / width);
+  }
+
+  /// Of a step: to the cells of its pixels, by the light that came of each, or to the region's own.
+  void add_cost(RegionIndex at, double cost) {
+    if (!stays_.all()) {
+      map_.at(at.column, at.row) += cost;
+      return;
+    }
+    const ImageSize& image = domain_.frame().image;
+    const auto weight = [&](const PixelReturn& r) {
+      return r.pixel < std::uint64_t{image.width} * image.height ? 1.0 + r.merged : 0.0;
+    };
+    double all = 0;
+    for (const PixelReturn& r : step_.returns) all += weight(r);
+    for (const PixelReturn& r : step_.returns) {
+      if (weight(r) == 0) continue;
+      const RegionIndex cell = cell_of(r.pixel);
+      map_.at(cell.column, cell.row) += cost * weight(r) / all;
+    }
   }
 
   /// Hops tell shadow rays that have left their first region from those that have not.
@@ -141,7 +175,7 @@ class CoarseTrace {
     const bool is_shadow = ray.kind == RayKind::kShadow;
     if (is_shadow && ray.hops == 0) {
       ray.hops = 1;
-      left_by_light_.push_back({ray, from});
+      left_by_light_.push_back({ray, stays_.all() ? cell_of(ray.pixel) : from});
     }
     if (is_shadow ? stays_.shadow_rays : stays_.secondary_rays) {
       ray.region = from;
@@ -150,7 +184,9 @@ class CoarseTrace {
     waiting_[index_of(ray.region)].push_back(ray);
   }
 
-  const MacroGrid& grid_;
+  const MacroGrid& cells_;
+  /// What is traced together.
+  MacroGrid grid_;
   Staying stays_;
   double crossing_cost_;
   LoadMap map_;
@@ -180,9 +216,9 @@ std::uint32_t spreading_step(std::uint32_t count) {
 
 }  // namespace
 
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_ptr<const LightHorizons> horizons,
                        Staying staying, double crossing_cost, std::uint64_t most_pixels) {
-  CoarseTrace trace(whole, grid, std::move(horizons), staying, crossing_cost);
+  CoarseTrace trace(whole, cells, std::move(horizons), staying, crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;
   const double wanted =
@@ -194,8 +230,8 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_p
     const auto each = static_cast<std::uint32_t>(std::lround(side / (regions * step)));
     return std::min(regions * std::max(1u, each), std::max(1u, side / block));
   };
-  const std::uint32_t across = blocks(image.width, grid.columns(), kBlockWidth);
-  const std::uint32_t count = across * blocks(image.height, grid.rows(), kBlockHeight);
+  const std::uint32_t across = blocks(image.width, cells.columns(), kBlockWidth);
+  const std::uint32_t count = across * blocks(image.height, cells.rows(), kBlockHeight);
   const auto middle = [](std::uint32_t i, std::uint32_t of, std::uint32_t side) {
     return static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * side / (2 * std::uint64_t{of}));
   };

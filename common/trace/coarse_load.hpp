@@ -22,14 +22,15 @@ inline constexpr double kCreatedCost = 6;
 inline constexpr double kCellCost = 2;
 inline constexpr double kQuarticCost = 20;
 
-/// A shadow ray that left the region in which it began, with where it goes on.
+/// A shadow ray that left what is traced together, with where it goes on.
 struct LeavingLight {
   RayTask ray;
+  /// The cell from which it left; where all rays stay, its pixel's.
   RegionIndex from;
 };
 
 struct CoarseLoad {
-  /// By region, what tracing a few evenly spread pixels took there, in tests of primitives.
+  /// By cell, what tracing a few evenly spread pixels took there, in tests of primitives.
   LoadMap map;
   /// The rays that descend from a primary ray, itself included, on average.
   double rays_per_primary;
@@ -39,10 +40,12 @@ struct CoarseLoad {
 /// Which rays that leave a region are traced there all the same, with all that descends from them.
 struct Staying {
   bool shadow_rays = false, secondary_rays = false;
+
+  bool all() const { return shadow_rays && secondary_rays; }
 };
 
-/// By region of `grid`, with `crossing_cost` for each ray that came in from the region beside. `whole` has no boundaries.
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& grid, std::shared_ptr<const LightHorizons> horizons,
+/// By cell, with `crossing_cost` for each ray that came in from the cell beside. `whole` has no boundaries.
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_ptr<const LightHorizons> horizons,
                        Staying staying, double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
 
 }  // namespace graycube

@@ -138,6 +138,33 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
   CHECK(2 * std::max(beside_lower_right, beside_upper_left) > 3 * std::min(beside_lower_right, beside_upper_left));
 }
 
+TEST_CASE("a slice is the bytes of what is extracted") {
+  std::size_t planes = 0, meshes = 0, parts = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    INFO("seed " << seed);
+    const Model model = compile_scene(RandomModel(seed).scene());
+    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 4);
+    const SliceEncoder encoder(model);
+    Dice dice(seed);
+    for (std::uint32_t column = 0; column < 4; ++column) {
+      ModelContents contents = contents_of_share(model, grid, {4, 4, column, 2});
+      std::vector<bool> chosen(model.objects.size());
+      for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(4);
+      contents.hold_whole(chosen);
+      const Model slice = extract(model, contents);
+      const Bytes tail(dice.below(3), std::byte{9});
+      const std::span<const std::byte> tails[] = {tail};
+      REQUIRE(encoder.encode(contents, tails) == encode_model(slice, tails));
+      planes += slice.planes.size();
+      meshes += slice.meshes.size();
+      parts += contents.parts.size();
+    }
+  }
+  CHECK(planes > 100);
+  CHECK(meshes > 100);
+  CHECK(parts > 100);
+}
+
 TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     INFO("seed " << seed);

@@ -101,7 +101,7 @@ class Machine {
         domains_.push_back(std::make_unique<Domain>(grid, share, slice));
         if (knows.has_horizons) {
           domains_.back()->set_foreign_horizons(
-              std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, slice)));
+              std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, model)));
         }
         auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
         if (knows.has_bounds && bounds) {
@@ -377,7 +377,7 @@ TEST_CASE("a node that holds all objects finishes all shadow rays") {
     REQUIRE(slice == model);
     Domain domain(grid, share, slice);
     domain.set_foreign_horizons(
-        std::make_shared<const LightHorizons>(Occluders::of(model).foreign_horizons(contents, slice)));
+        std::make_shared<const LightHorizons>(Occluders::of(model).foreign_horizons(contents, model)));
     Step step;
     const TilePlan plan(model.settings.image, {5, 3}, grid);
     for (const std::uint32_t tile : plan.tiles_of(share)) Evaluator(domain).trace_pixels(plan.rect(tile), step);
