@@ -11,8 +11,8 @@
 
 namespace graycube {
 
-/// "GCB1", read as a little-endian integer.
-inline constexpr std::uint32_t kBoundsMagic = 0x31424347;
+/// "GCF1", read as a little-endian integer.
+inline constexpr std::uint32_t kBoundsMagic = 0x31464347;
 inline constexpr std::uint32_t kMaxBoundsNodes = 1u << 22;
 
 std::vector<std::byte> encode_bounds(const ForeignBounds& bounds);
