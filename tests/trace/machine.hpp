@@ -1,0 +1,192 @@
+// A machine of nodes without wires: domains that share out a grid's macro-regions, and rays handed from one to the other.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "csg/random_model.hpp"
+#include "space/foreign_bounds.hpp"
+#include "space/occluders.hpp"
+#include "space/restrict.hpp"
+#include "trace/step.hpp"
+#include "trace/tile_plan.hpp"
+
+namespace graycube::testing {
+
+/// What came back from all rays of a picture.
+struct Harvest {
+  std::vector<FixedRgb> light;
+  std::vector<Credit> credit;
+  RayCounts rays;
+  RoundingCounts rounding;
+  std::uint64_t handed_over = 0, handed_over_viewing = 0;
+
+  explicit Harvest(const ImageSize& image)
+      : light(std::size_t{image.width} * image.height), credit(light.size()) {}
+
+  void take(const Step& step) {
+    for (const PixelReturn& r : step.returns) {
+      REQUIRE(r.merged <= kMaxMergedContributions);
+      // A tile may be whole by now: for it any return is one too many.
+      REQUIRE((r.merged > 0 || !r.credit.is_zero()));
+      light[r.pixel].add(r.light);
+      credit[r.pixel].add(r.credit);
+    }
+    rays.add(step.rays);
+    rounding.add(step.rounding);
+  }
+};
+
+inline Harvest trace_whole(const Model& model, Subdivision subdivision = Subdivision::kSurfaceTree) {
+  const ImageSize& image = model.settings.image;
+  Harvest harvest(image);
+  const Domain domain(model, subdivision);
+  Evaluator evaluator(domain);
+  Step step;
+  evaluator.trace_pixels({0, 0, image.width, image.height}, step);
+  REQUIRE(step.leaving.empty());
+  harvest.take(step);
+  return harvest;
+}
+
+/// Nodes that share out the regions of a grid, each with its own restricted model and evaluator.
+class Machine {
+ public:
+  /// A node for each region.
+  Machine(const Model& model, const MacroGrid& grid,
+          Subdivision subdivision = Subdivision::kSurfaceTree)
+      : Machine(model, grid, grid.columns(), grid.rows(), subdivision) {}
+  /// Columns × rows of nodes, regions scattered over them.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows,
+          Subdivision subdivision = Subdivision::kSurfaceTree,
+          std::shared_ptr<const LightHorizons> horizons = nullptr)
+      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        const RegionShare share{columns, rows, column, row};
+        domains_.push_back(std::make_unique<Domain>(
+            grid, share, restrict_to_share(model, grid, share), subdivision));
+        domains_.back()->set_horizons(horizons);
+        evaluators_.emplace_back(*domains_.back());
+      }
+    }
+  }
+
+  /// How nodes know of what they don't hold.
+  struct Knowledge {
+    bool has_horizons = false, has_bounds = false;
+  };
+  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't hold.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice)
+      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+    const Occluders occluders = Occluders::of(model);
+    const SurfaceTree whole = SurfaceTree::build(model);
+    const ForeignBoundsMaker maker(whole);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) {
+        const RegionShare share{columns, rows, column, row};
+        ModelContents contents = contents_of_share(model, grid, share);
+        const std::uint64_t one_in = 1 + dice.below(4);
+        std::vector<bool> chosen(model.objects.size());
+        for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
+        contents.hold_whole(chosen);
+        parts += contents.parts.size();
+        const Model slice = extract(model, contents);
+        domains_.push_back(std::make_unique<Domain>(grid, share, slice));
+        if (knows.has_horizons) {
+          domains_.back()->set_foreign_horizons(
+              std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, model)));
+        }
+        auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
+        if (knows.has_bounds && bounds) {
+          domains_.back()->set_foreign_bounds(std::make_shared<const ForeignBounds>(*std::move(bounds)));
+        }
+        evaluators_.emplace_back(*domains_.back());
+      }
+    }
+  }
+
+  static constexpr std::size_t kMuchRoom = std::size_t{1} << 20;
+  /// Objects of which nodes hold a part.
+  std::size_t parts = 0;
+
+  /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken together,
+  /// as many as come.
+  Harvest trace(Dice& dice) {
+    Harvest harvest(image_);
+    const TilePlan plan(image_, {5, 3}, grid_);
+    std::deque<RayTask> waiting;
+    Step step;
+    const auto finish = [&](std::size_t at) {
+      harvest.take(step);
+      for (const RayTask& task : step.leaving) {
+        REQUIRE(number(task.region) != at);
+        waiting.push_back(task);
+        if (task.kind != RayKind::kShadow) ++harvest.handed_over_viewing;
+      }
+      harvest.handed_over += step.leaving.size();
+      step.clear();
+    };
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      for (std::uint32_t column = 0; column < columns_; ++column) {
+        for (const std::uint32_t tile : plan.tiles_of({columns_, rows_, column, row})) {
+          evaluators_[row * columns_ + column].trace_pixels(plan.rect(tile), step);
+          finish(row * columns_ + column);
+        }
+      }
+    }
+    while (!waiting.empty()) {
+      const bool front = dice.one_in(2);
+      const std::size_t at = number((front ? waiting.front() : waiting.back()).region);
+      const std::size_t most = dice.one_in(2) ? 1 : 1 + dice.below(300);
+      std::vector<RayTask> batch;
+      std::deque<RayTask> others;
+      for (const RayTask& task : waiting) {
+        const bool taken = batch.size() < most && number(task.region) == at;
+        (taken ? static_cast<void>(batch.push_back(task)) : others.push_back(task));
+      }
+      waiting.swap(others);
+      evaluators_[at].trace_rays(batch, step);
+      finish(at);
+    }
+    return harvest;
+  }
+
+ private:
+  std::size_t number(RegionIndex r) const { return r.row % rows_ * columns_ + r.column % columns_; }
+
+  ImageSize image_;
+  const MacroGrid& grid_;
+  std::uint32_t columns_, rows_;
+  std::vector<std::unique_ptr<Domain>> domains_;
+  std::deque<Evaluator> evaluators_;
+};
+
+inline void check_equal(const Harvest& whole, const Harvest& parts, const ImageSize& image) {
+  const std::uint64_t primary = std::uint64_t{image.samples} * image.samples;
+  for (std::size_t pixel = 0; pixel < whole.light.size(); ++pixel) {
+    INFO("pixel " << pixel % image.width << ", " << pixel / image.width);
+    REQUIRE(parts.light[pixel] == whole.light[pixel]);
+    REQUIRE(whole.credit[pixel].is_exactly(primary));
+    REQUIRE(parts.credit[pixel].is_exactly(primary));
+  }
+  CHECK(parts.rays.created == whole.rays.created);
+  CHECK(parts.rounding.clamped == whole.rounding.clamped);
+  CHECK(parts.rounding.non_finite == whole.rounding.non_finite);
+}
+
+/// Half of them have lights outside of everything, which see most.
+inline Model model_with_lights(std::uint64_t seed) {
+  RandomOptions options;
+  options.unbounded = seed % 2 == 0;
+  Scene scene = RandomModel(seed, options).scene();
+  if (!options.unbounded) {
+    for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
+  }
+  return compile_scene(scene);
+}
+
+}  // namespace graycube::testing
