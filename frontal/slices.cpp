@@ -118,6 +118,19 @@ class Contents {
   std::uint64_t room_ = 0;
 };
 
+/// By rank, encoded; for nobody where not for all, since nodes with bounds send on what is on its way to others.
+std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const SurfaceTree* tree, std::size_t most_bytes) {
+  std::vector<Bytes> all(contents.size());
+  if (tree == nullptr) return all;
+  const ForeignBoundsMaker maker(*tree);
+  for (std::size_t rank = 0; rank < contents.size(); ++rank) {
+    const auto bounds = maker.bounds(contents[rank], most_bytes);
+    if (!bounds) return std::vector<Bytes>(contents.size());
+    all[rank] = encode_bounds(*bounds);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
@@ -134,15 +147,13 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     }
     return slices;
   }
-  const Contents all_contents(model, cube, cut, tree, occluders);
-  std::optional<ForeignBoundsMaker> maker;
-  if (tree != nullptr) maker.emplace(*tree);
-  const std::size_t most_bounds = bounds_room(encoded_model_bytes(model), cube.nodes());
+  const Contents contents_of(model, cube, cut, tree, occluders);
+  std::vector<ModelContents> contents;
+  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) contents.push_back(contents_of.of(Rank{rank}));
+  const std::vector<Bytes> bounds = bounds_of(contents, tree, bounds_room(encoded_model_bytes(model), cube.nodes()));
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-    const ModelContents contents = all_contents.of(Rank{rank});
-    const auto bounds = maker ? maker->bounds(contents, most_bounds) : std::nullopt;
-    add(contents, bounds ? encode_bounds(*bounds) : Bytes{},
-        occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents, model)));
+    add(contents[rank], bounds[rank],
+        occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents[rank], model)));
   }
   return slices;
 }
