@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "csg/random_model.hpp"
+#include "geometry/simd.hpp"
 #include "space/camera.hpp"
 #include "space/macro_grid.hpp"
 
@@ -55,10 +56,13 @@ RayPacket some_rays(Dice& dice) {
 
 }  // namespace
 
-TEST_CASE("a way that foreign bounds call free is crossed by nothing foreign, nor by the parts that are held") {
+TEST_CASE("a way that foreign bounds call free is crossed by nothing foreign, nor by the parts that are held, with vectors of any width") {
+  const std::vector<std::string> widths = simd_names();
   std::uint64_t free = 0, met = 0, crossed = 0, crossed_parts = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    INFO("seed " << seed);
+    const std::string& width = widths[seed % widths.size()];
+    INFO("seed " << seed << ", " << width);
+    REQUIRE(choose_simd(width));
     Dice dice(seed);
     const Model model = bounded_model(seed);
     // Few literals make an object of cells, of which there are then several items.
@@ -87,6 +91,7 @@ TEST_CASE("a way that foreign bounds call free is crossed by nothing foreign, no
       REQUIRE((mask & ~packet.all()) == 0);
     }
   }
+  REQUIRE(choose_simd("best"));
   CHECK(free > met / 4);
   CHECK(crossed > 5000);
   CHECK(crossed_parts > 100);
