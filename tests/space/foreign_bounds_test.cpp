@@ -97,6 +97,35 @@ TEST_CASE("a way that foreign bounds call free is crossed by nothing foreign, no
   CHECK(crossed_parts > 100);
 }
 
+TEST_CASE("of an object held in part all within its bounds is foreign, wherever its surfaces are") {
+  std::uint64_t parts = 0, empty_corners = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    const Model model = bounded_model(seed);
+    const SurfaceTree whole = SurfaceTree::build(model, {.whole_object_literals = 0});
+    const ForeignBoundsMaker maker(whole);
+    TreeScratch scratch;
+    const ModelContents contents = some_contents(model, dice);
+    const auto with = maker.bounds(contents, dice.one_in(2) ? std::size_t{1} << 20 : 0), without = maker.bounds({contents.is_whole, {}}, 1 << 20);
+    REQUIRE((with && without));
+    for (const ModelContents::Part& part : contents.parts) {
+      const Aabb& box = model.objects[part.object].bounds;
+      for (int corner = 0; corner < 8; ++corner) {
+        Vec3 p;
+        for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? box.hi[a] : box.lo[a];
+        RayPacket at_corner;
+        at_corner.add({p - Vec3{1, 0, 0}, {1, 0, 0}}, 1, 1);
+        REQUIRE(with->may_meet(at_corner, scratch) == 1);
+        empty_corners += without->may_meet(at_corner, scratch) == 0 ? 1 : 0;
+      }
+      ++parts;
+    }
+  }
+  CHECK(parts > 60);
+  CHECK(empty_corners > 20);
+}
+
 TEST_CASE("who holds everything has nothing foreign") {
   const Model model = bounded_model(3);
   const SurfaceTree whole = SurfaceTree::build(model);
