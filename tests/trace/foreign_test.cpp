@@ -15,6 +15,20 @@ RandomOptions bounded() {
   return options;
 }
 
+/// Columns × rows of nodes, and macro-regions scattered over them.
+struct Nodes {
+  std::uint32_t columns, rows;
+  MacroGrid grid;
+};
+
+Nodes some_nodes(const Model& model, Dice& dice) {
+  const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
+  const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
+  const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
+  const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  return {columns, rows, MacroGrid::regular(frame, columns * k, rows * k)};
+}
+
 /// Rays that leave a node's macro-regions of its own primary rays.
 std::size_t leaving(const Domain& domain, const MacroGrid& grid, const RegionShare& share) {
   Step step;
@@ -31,13 +45,9 @@ TEST_CASE("nodes that hold some occluders give the picture of the whole, and han
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Model model = model_with_lights(seed);
     const Harvest whole = trace_whole(model);
-    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     Dice dice(seed);
-    const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
-    const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
-    const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
-    const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
-    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
+    const auto [columns, rows, grid] = some_nodes(model, dice);
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, " << grid.columns() << " x " << grid.rows() << " regions");
     Machine machine(model, grid, columns, rows, {.has_horizons = true}, dice);
     const Harvest held = machine.trace(dice);
     check_equal(whole, held, model.settings.image);
@@ -61,13 +71,9 @@ TEST_CASE("nodes that know where foreign objects may be give the picture of the 
     scene.settings.max_depth = 4;
     const Model model = compile_scene(scene);
     const Harvest whole = trace_whole(model);
-    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     Dice dice(seed);
-    const auto columns = static_cast<std::uint32_t>(1 + dice.below(4));
-    const auto rows = static_cast<std::uint32_t>(1 + dice.below(4));
-    const auto k = static_cast<std::uint32_t>(1 + dice.below(3));
-    const MacroGrid grid = MacroGrid::regular(frame, columns * k, rows * k);
-    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, scatter " << k);
+    const auto [columns, rows, grid] = some_nodes(model, dice);
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes, " << grid.columns() << " x " << grid.rows() << " regions");
     Dice same = dice;
     const Harvest blind = Machine(model, grid, columns, rows, {}, same).trace(dice);
     check_equal(whole, blind, model.settings.image);
