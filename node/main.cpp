@@ -120,7 +120,7 @@ int run_node(const NodeArguments& a, std::size_t number) {
   try {
     Mailroom mailroom(a, number);
     mailroom.run();
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     // The system takes back what a process has, threads and sockets above all, for less than it takes to give it up. Should the
     // last goodbye not have left, the frontal sees the process end.
     ::_exit(0);
