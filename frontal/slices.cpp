@@ -75,12 +75,12 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 /// What nodes hold beside what their macro-regions need.
 class Contents {
  public:
-  Contents(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree, const Occluders& occluders)
+  Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
+           const Occluders& occluders)
       : model_(model), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
     if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
     for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
-    const std::uint64_t all = encoded_model_bytes(model);
-    room_ = std::min(slice_room(all, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(all)));
+    room_ = std::min(slice_room(model_bytes, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
   }
 
   ModelContents of(Rank rank) const {
@@ -141,16 +141,11 @@ std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, co
     const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
     slices.push_back(encoder.encode(contents, tails));
   };
-  if (occluders.is_empty() && tree == nullptr) {
-    for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
-      add(contents_of_share(model, cut.grid, share_of(cube, Rank{rank})), {}, {});
-    }
-    return slices;
-  }
-  const Contents contents_of(model, cube, cut, tree, occluders);
+  const std::uint64_t model_bytes = encoded_model_bytes(model);
+  const Contents contents_of(model, model_bytes, cube, cut, tree, occluders);
   std::vector<ModelContents> contents;
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) contents.push_back(contents_of.of(Rank{rank}));
-  const std::vector<Bytes> bounds = bounds_of(contents, tree, bounds_room(encoded_model_bytes(model), cube.nodes()));
+  const std::vector<Bytes> bounds = bounds_of(contents, tree, bounds_room(model_bytes, cube.nodes()));
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     add(contents[rank], bounds[rank],
         occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents[rank], model)));

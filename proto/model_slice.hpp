@@ -48,15 +48,15 @@ std::size_t encoded_object_bytes(const Model& model, const Object& object);
 bool fits_model_limits(const Model& model);
 
 /// The model must keep to its own rules (those that decode_model checks) and fit the limits; a
-/// broken one is a bug that the receiver reports. `tails` follow it.
-std::vector<std::byte> encode_model(const Model& model, std::span<const std::span<const std::byte>> tails = {});
+/// broken one is a bug that the receiver reports.
+std::vector<std::byte> encode_model(const Model& model);
 
 /// Slices of one model, which must outlive it.
 class SliceEncoder {
  public:
   explicit SliceEncoder(const Model& model);
-  /// encode_model(extract(model, contents), tails), without the copy between.
-  std::vector<std::byte> encode(const ModelContents& contents, std::span<const std::span<const std::byte>> tails = {}) const;
+  /// encode_model(extract(model, contents)), without the copy between, and behind it the tails.
+  std::vector<std::byte> encode(const ModelContents& contents, std::span<const std::span<const std::byte>> tails) const;
 
  private:
   struct Kept;

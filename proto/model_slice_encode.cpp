@@ -4,6 +4,7 @@
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
+#include "space/kept_trees.hpp"
 
 namespace graycube {
 namespace {
@@ -190,20 +191,17 @@ bool fits_limits(const Model& model, std::size_t bytes) {
 
 bool fits_model_limits(const Model& model) { return fits_limits(model, encoded_model_bytes(model)); }
 
-std::vector<std::byte> encode_model(const Model& model, std::span<const std::span<const std::byte>> tails) {
+std::vector<std::byte> encode_model(const Model& model) {
   const std::size_t size = encoded_model_bytes(model);
   GRAYCUBE_CHECK(fits_limits(model, size), "a model of %zu bytes, %zu primitives, %zu nodes", size, model.primitives.size(),
                  model.nodes.size());
-  std::size_t all = size;
-  for (const auto tail : tails) all += tail.size();
-  ByteWriter w(all);
+  ByteWriter w(size);
   put_beginning(w, model, {model.planes.size(), model.primitives.size(), model.nodes.size(), model.objects.size(), model.meshes.size()});
   for (const Plane& plane : model.planes) put_plane(w, plane);
   for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
   for (const Primitive& p : model.primitives) put_primitive(w, p, flags_of(p));
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);
-  for (const auto tail : tails) std::copy(tail.begin(), tail.end(), w.room(tail.size()));
   return std::move(w).take();
 }
 
@@ -217,17 +215,11 @@ struct SliceEncoder::Kept {
   Counts counts;
 
   Kept(const Model& model, const ModelContents& contents) {
-    auto part = contents.parts.begin();
-    for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
-      if (contents.is_whole[i]) {
-        trees.push_back({&model.objects[i], model.tree(model.objects[i])});
-      } else if (part != contents.parts.end() && part->object == i) {
-        trees.push_back({&model.objects[i], part->tree});
-        ++part;
-      }
-    }
+    for_each_kept(model, contents, [&](const Object& object, std::span<const TreeNode> nodes) {
+      trees.push_back({&object, nodes});
+      counts.nodes += nodes.size();
+    });
     counts.objects = trees.size();
-    for (const Tree& t : trees) counts.nodes += t.nodes.size();
   }
 
   /// Calls f(index of a primitive) for all of them, in the order in which they are renumbered.

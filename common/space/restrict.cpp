@@ -6,6 +6,7 @@
 
 #include "csg/bounding_sphere.hpp"
 #include "csg/tree.hpp"
+#include "space/kept_trees.hpp"
 
 namespace graycube {
 namespace {
@@ -124,24 +125,13 @@ void ModelContents::hold_whole(const std::vector<bool>& objects) {
 
 Model extract(const Model& model, const ModelContents& contents) {
   ModelExtract extract(model);
-  std::size_t objects = contents.parts.size(), nodes = 0;
-  for (const ModelContents::Part& p : contents.parts) nodes += p.tree.size();
-  for (std::size_t i = 0; i < model.objects.size(); ++i) {
-    if (!contents.is_whole[i]) continue;
+  std::size_t objects = 0, nodes = 0;
+  for_each_kept(model, contents, [&](const Object&, std::span<const TreeNode> tree) {
     ++objects;
-    nodes += model.objects[i].node_count;
-  }
+    nodes += tree.size();
+  });
   extract.reserve(objects, nodes);
-  auto part = contents.parts.begin();
-  for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
-    const Object& object = model.objects[i];
-    if (contents.is_whole[i]) {
-      extract.add(object, model.tree(object));
-    } else if (part != contents.parts.end() && part->object == i) {
-      extract.add(object, part->tree);
-      ++part;
-    }
-  }
+  for_each_kept(model, contents, [&](const Object& object, std::span<const TreeNode> tree) { extract.add(object, tree); });
   return extract.take();
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "trace/ray_selection.hpp"
+
 namespace graycube {
 namespace {
 
@@ -51,21 +53,19 @@ std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const
 RayPacket::Mask entries_behind(const Domain& domain, RayKind kind, const RayPacket& packet,
                                CrossingScratch& scratch, std::span<Crossing, RayPacket::kSize> found) {
   if (domain.settings().camera.inside != InsideView::kEntry || kind != RayKind::kPrimary) return 0;
-  RayPacket back;
-  std::array<std::size_t, RayPacket::kSize> numbers;
+  RaySelection back;
   for (std::size_t i = 0; i < packet.count; ++i) {
     if (packet.t0[i] != 0) continue;
     const Ray ray = packet.ray(i);
-    numbers[back.count] = i;
-    back.add({ray.origin, -ray.direction}, 0, Aabb::kInf);
+    back.add(i, {ray.origin, -ray.direction}, 0, Aabb::kInf);
   }
-  if (back.count == 0) return 0;
+  if (back.packet.count == 0) return 0;
   std::array<Crossing, RayPacket::kSize> first;
   RayPacket::Mask any = 0;
-  for (RayPacket::Mask met = domain.first_crossings(back, scratch, first); met != 0; met &= met - 1) {
+  for (RayPacket::Mask met = domain.first_crossings(back.packet, scratch, first); met != 0; met &= met - 1) {
     const auto place = static_cast<std::size_t>(__builtin_ctz(met));
-    const std::size_t i = numbers[place];
-    const auto entry = entry_behind(domain, packet.ray(i), back.ray(place), first[place], scratch);
+    const std::size_t i = back.numbers[place];
+    const auto entry = entry_behind(domain, packet.ray(i), back.packet.ray(place), first[place], scratch);
     if (!entry) continue;
     found[i] = *entry;
     any |= RayPacket::Mask{1} << i;

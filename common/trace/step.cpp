@@ -6,6 +6,7 @@
 #include <new>
 
 #include "trace/entry_hit.hpp"
+#include "trace/ray_selection.hpp"
 
 namespace graycube {
 namespace {
@@ -266,8 +267,7 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
   if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
   const RayPacket::Mask leaving = shorten_to_exits(rays, packet, exits);
   const bool has_horizons = domain_.has_foreign_horizons(), has_bounds = domain_.has_foreign_bounds();
-  RayPacket beyond;
-  std::array<std::size_t, RayPacket::kSize> numbers;
+  RaySelection beyond;
   RayPacket::Mask finished = 0;
   for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -275,15 +275,11 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
     if (rays[i].stays || (has_horizons && domain_.holds_way_to_light(task, exits[i].t))) {
       finished |= RayPacket::Mask{1} << i;
     } else if (has_bounds) {
-      numbers[beyond.count] = i;
-      beyond.add(task.ray, exits[i].t, task.t_max);
+      beyond.add(i, task.ray, exits[i].t, task.t_max);
     }
   }
-  if (beyond.count > 0) {
-    const RayPacket::Mask met = domain_.may_meet_foreign(beyond, scratch_);
-    for (std::size_t k = 0; k < beyond.count; ++k) {
-      if ((met >> k & 1) == 0) finished |= RayPacket::Mask{1} << numbers[k];
-    }
+  if (beyond.packet.count > 0) {
+    finished |= beyond.among_all(beyond.packet.all() & ~domain_.may_meet_foreign(beyond.packet, scratch_));
   }
   for (RayPacket::Mask left = finished; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -297,20 +293,14 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
 RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& packet,
                                       std::span<const RegionExit, RayPacket::kSize> exits, RayPacket::Mask hits,
                                       std::span<const Crossing, RayPacket::kSize> found) {
-  RayPacket beyond;
-  std::array<std::size_t, RayPacket::kSize> numbers;
+  RaySelection beyond;
   for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const bool is_hit = (hits >> i & 1) != 0;
     if (is_hit && found[i].t < exits[i].t) continue;
-    numbers[beyond.count] = i;
-    beyond.add(packet.ray(i), exits[i].t, is_hit ? found[i].t : kInf);
+    beyond.add(i, packet.ray(i), exits[i].t, is_hit ? found[i].t : kInf);
   }
-  RayPacket::Mask must = 0;
-  for (RayPacket::Mask met = domain_.may_meet_foreign(beyond, scratch_); met != 0; met &= met - 1) {
-    must |= RayPacket::Mask{1} << numbers[static_cast<std::size_t>(std::countr_zero(met))];
-  }
-  return must;
+  return beyond.among_all(domain_.may_meet_foreign(beyond.packet, scratch_));
 }
 
 /// A packet at most.

@@ -170,7 +170,9 @@ TEST_CASE("a slice is the bytes of what is extracted") {
       const Model slice = extract(model, contents);
       const Bytes tail(dice.below(3), std::byte{9});
       const std::span<const std::byte> tails[] = {tail};
-      REQUIRE(encoder.encode(contents, tails) == encode_model(slice, tails));
+      Bytes expected = encode_model(slice);
+      expected.insert(expected.end(), tail.begin(), tail.end());
+      REQUIRE(encoder.encode(contents, tails) == expected);
       planes += slice.planes.size();
       meshes += slice.meshes.size();
       parts += contents.parts.size();

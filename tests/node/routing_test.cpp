@@ -63,7 +63,7 @@ Bytes slice(bool has_ball) {
   const SurfaceTree whole = SurfaceTree::build(model);
   const Bytes bounds = encode_bounds(*ForeignBoundsMaker(whole).bounds(contents, 1 << 16));
   const std::span<const std::byte> tails[] = {bounds};
-  return encode_model(extract(model, contents), tails);
+  return SliceEncoder(model).encode(contents, tails);
 }
 
 NodeAtWork node_at(Rank rank, const Bytes& slice) {

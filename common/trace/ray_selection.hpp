@@ -1,0 +1,32 @@
+// Some rays of a packet, looked up as a packet of their own.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include "space/ray_packet.hpp"
+
+namespace graycube {
+
+struct RaySelection {
+  RayPacket packet;
+  /// Of the rays among all.
+  std::array<std::size_t, RayPacket::kSize> numbers;
+
+  /// Ray number i of all, as it is to be looked up; the selection must not be full.
+  void add(std::size_t i, const Ray& ray, double from, double to) {
+    numbers[packet.count] = i;
+    packet.add(ray, from, to);
+  }
+  /// The bits that rays of the selection have among all.
+  RayPacket::Mask among_all(RayPacket::Mask selected) const {
+    RayPacket::Mask all = 0;
+    for (; selected != 0; selected &= selected - 1) {
+      all |= RayPacket::Mask{1} << numbers[static_cast<std::size_t>(std::countr_zero(selected))];
+    }
+    return all;
+  }
+};
+
+}  // namespace graycube
