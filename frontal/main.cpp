@@ -15,7 +15,7 @@
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
-#include "transport/allocator.hpp"
+#include "memory/kept_heap.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
@@ -34,6 +34,8 @@ struct FrontalArguments {
   FlowLimits limits{};
 };
 
+/// Of the frontal's heap, what lies in large pages as it is needed: slices, the picture, light that waits.
+constexpr std::size_t kLargeHeap = std::size_t{256} << 20;
 /// Nodes that don't leave within this time after `shutdown` are ended.
 constexpr double kGrace_s = 2;
 constexpr auto kTick = std::chrono::milliseconds(50);
@@ -181,8 +183,7 @@ int run_main(int argc, char** argv) {
   }
   const int signals = signal_descriptor();
   if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  // The preparation has a heap of its own.
-  keep_freed_memory(2);
+  keep_freed_memory(1, kLargeHeap);
   try {
     const std::string error = FrontalProcess(a, signals).run();
     if (!error.empty()) return fail("farm", error, 1);

@@ -17,12 +17,15 @@
 #include "node/evaluator_pool.hpp"
 #include "node/node.hpp"
 #include "geometry/simd.hpp"
-#include "transport/allocator.hpp"
+#include "memory/kept_heap.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
 namespace graycube {
 namespace {
+
+/// Of a node's heap, what lies in large pages as it is needed: most nodes need one or two.
+constexpr std::size_t kLargeHeap = std::size_t{64} << 20;
 
 struct NodeArguments {
   std::vector<std::uint32_t> ranks, incarnations;
@@ -116,7 +119,7 @@ int fail(const std::string& what, const std::string& where, const std::string& w
 int run_node(const NodeArguments& a, std::size_t number) {
   // A terminal's Ctrl-C is for the command, which stops its nodes in order.
   ::signal(SIGINT, SIG_IGN);
-  keep_freed_memory(a.threads);
+  keep_freed_memory(a.threads, kLargeHeap);
   try {
     Mailroom mailroom(a, number);
     mailroom.run();
@@ -149,7 +152,7 @@ int become_node(const NodeArguments& a, std::size_t number, int until_closed, pi
 /// nodes are children of the frontal (a subreaper) like any others.
 int fork_nodes(const NodeArguments& a) {
   // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread.
-  { const ZmqContext first; }
+  const ZmqContext first;
   const pid_t self = ::getpid(), frontal = ::getppid();
   std::array<int, 2> alive{};
   if (::pipe2(alive.data(), O_CLOEXEC) != 0) return fail("start", "pipe", std::strerror(errno), 1);

@@ -74,14 +74,6 @@ class ShortMean {
   float scale_;
 };
 
-/// Zero pages, untouched. `count` is bounded by kMaxPicturePixels.
-template <typename T>
-T* zeroed(std::uint64_t count) {
-  auto* memory = static_cast<T*>(std::calloc(count, sizeof(T)));
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
 /// Adds to a sum's lower half; what that changes in the upper half is −1, 0 or 1.
 std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
   const auto added = static_cast<std::uint64_t>(light);
@@ -89,16 +81,24 @@ std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
   return (low < added ? 1 : 0) - (light < 0 ? 1 : 0);
 }
 
+std::uint64_t checked_pixels(std::uint32_t width, std::uint32_t height) {
+  const std::uint64_t pixels = std::uint64_t{width} * height;
+  GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 && height <= kMaxPictureSide &&
+                     pixels <= kMaxPicturePixels,
+                 "%u x %u pixels", width, height);
+  return pixels;
+}
+
 }  // namespace
 
 Film::Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs)
-    : width_(width), height_(height), rays_per_pixel_(rays_per_pixel), aovs_(aovs) {
-  GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 &&
-                     height <= kMaxPictureSide && pixel_count() <= kMaxPicturePixels &&
-                     rays_per_pixel >= 1,
-                 "%u x %u pixels, %u rays each", width, height, rays_per_pixel);
-  low_.reset(zeroed<Low>(pixel_count()));
-  high_.reset(zeroed<High>(pixel_count() + 1));
+    : width_(width),
+      height_(height),
+      rays_per_pixel_(rays_per_pixel),
+      low_(checked_pixels(width, height), ZeroPages::Use::kAllOver),
+      high_(pixel_count() + 1, ZeroPages::Use::kHereAndThere),
+      aovs_(aovs) {
+  GRAYCUBE_CHECK(rays_per_pixel >= 1, "%u rays a pixel", rays_per_pixel);
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (has_plane(aovs_, p)) planes_[p].resize(pixel_count(), aov_background(p));
   }

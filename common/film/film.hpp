@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <vector>
 
 #include "film/aov.hpp"
 #include "film/fixed_point.hpp"
+#include "memory/large_pages.hpp"
 
 namespace graycube {
 
@@ -53,9 +52,6 @@ class Film {
   struct High {
     std::int64_t r = 0, g = 0, b = 0;
   };
-  struct Release {
-    void operator()(void* memory) const { std::free(memory); }
-  };
 
   void set_aovs(std::uint32_t slot, const FixedRgb& words);
   void carry(std::uint32_t pixel, const High& change);
@@ -64,9 +60,9 @@ class Film {
   std::uint32_t width_, height_, rays_per_pixel_;
   /// Sums in two's complement, 128 bits each: high · 2^64 + low. Hardly any sum needs its upper half,
   /// so those lie apart, in zero pages that the system provides when they are first written.
-  std::unique_ptr<Low[], Release> low_;
+  ZeroedArray<Low> low_;
   /// One more than there are pixels: the last one's r is not 0 when any of the others was written.
-  std::unique_ptr<High[], Release> high_;
+  ZeroedArray<High> high_;
   AovSet aovs_;
   std::array<std::vector<AovWords>, kAovPlanes> planes_;
 };

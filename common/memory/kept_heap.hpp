@@ -1,0 +1,14 @@
+// How a process of the farm keeps memory.
+#pragma once
+
+#include <cstddef>
+
+namespace graycube {
+
+/// Freed memory is kept for what comes next, batches above all, instead of being given back to the system and
+/// touched anew. At most `arenas` heaps; the first of them, which `large` bytes of address space are set aside for, lies in large
+/// pages (large_pages.hpp): they are taken as they are needed. To be called before there are threads; does nothing where the C
+/// library isn't glibc.
+void keep_freed_memory(unsigned arenas, std::size_t large);
+
+}  // namespace graycube
