@@ -1,9 +1,11 @@
 #include "frontal/partition.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
+#include "space/jagged.hpp"
 #include "space/rectilinear.hpp"
 #include "trace/coarse_load.hpp"
 
@@ -29,6 +31,38 @@ std::uint16_t cell_of(std::uint16_t fine, const std::vector<std::uint32_t>& cuts
   return static_cast<std::uint16_t>(std::upper_bound(cuts.begin(), cuts.end(), fine) - cuts.begin());
 }
 
+/// Own parts of the picture end with the macro-region where they nearly do: narrower strips are traced in packets that aren't full.
+constexpr std::int64_t kNarrowStrip = 4;
+
+/// From 0 to the side of the picture.
+std::vector<std::int64_t> with_ends(const std::vector<std::int64_t>& inner, std::uint32_t side) {
+  std::vector<std::int64_t> all{0};
+  all.insert(all.end(), inner.begin(), inner.end());
+  all.push_back(side);
+  return all;
+}
+
+/// Whether each node's own pixels may be others than its macro-region's: their primary rays must stay in their pyramid.
+bool may_be_jagged(const Domain& whole, std::uint32_t scatter, Staying staying) {
+  return staying.all() && scatter == 1 && !whole.primary_rays_may_leave();
+}
+
+Partition jagged_partition(const MacroGrid& cells, const CameraFrame& frame, std::uint32_t columns, std::uint32_t rows,
+                           CoarseLoad load) {
+  JaggedCuts cuts = jagged_cuts(load.map, with_ends(cells.column_edges(), frame.image.width),
+                                with_ends(cells.row_edges(), frame.image.height), columns, rows);
+  const std::vector<std::int64_t> middle = mean_columns(cuts, columns);
+  for (std::size_t i = 0; i < cuts.columns.size(); ++i) {
+    const std::int64_t edge = middle[i % middle.size()];
+    if (std::abs(cuts.columns[i] - edge) <= kNarrowStrip) cuts.columns[i] = edge;
+  }
+  MacroGrid grid(frame, middle, cuts.rows);
+  for (LeavingLight& light : load.left_by_light) {
+    light.from = grid.region_of_pixel(light.ray.pixel % frame.image.width, light.ray.pixel / frame.image.width);
+  }
+  return {PartitionMode::kBalanced, std::move(grid), std::move(cuts.columns), load.rays_per_primary, std::move(load.left_by_light)};
+}
+
 }  // namespace
 
 Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
@@ -41,11 +75,13 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
   const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
   const bool too_costly = wanted == PartitionMode::kAuto && !whole.has_primary_rays(kPrimaryRaysPerPrimitive);
   if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
-    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), 0, {}};
+    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), {}, 0, {}};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
-  CoarseLoad load = coarse_load(Domain(whole.territory()), cells, horizons, staying, kCrossingCost / fine,
+  const Domain domain(whole.territory());
+  CoarseLoad load = coarse_load(domain, cells, horizons, staying, kCrossingCost / fine,
                                 std::uint64_t{kCoarsePixelsPerNode} * cube.nodes());
+  if (may_be_jagged(domain, scatter, staying)) return jagged_partition(cells, frame, columns, rows, std::move(load));
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
@@ -53,7 +89,7 @@ Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint
   for (LeavingLight& light : load.left_by_light) {
     light.from = {cell_of(light.from.column, cuts.columns), cell_of(light.from.row, cuts.rows)};
   }
-  return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges)),
+  return {PartitionMode::kBalanced, MacroGrid(frame, std::move(column_edges), std::move(row_edges)), {},
           load.rays_per_primary, std::move(load.left_by_light)};
 }
 

@@ -88,7 +88,7 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
   const ImageSize& image = model.settings.image;
   const auto frame = CameraFrame::from(model.settings.camera, image);
   const MacroGrid grid = MacroGrid::regular(frame, cube.columns(), cube.rows());
-  out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges()};
+  out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges(), {}};
   out.plan.emplace(image, tile_shape(out.grain, kTileSide, image));
   out.slices.push_back(encode_model(model));
 }
@@ -151,22 +151,25 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     out.shadows = ShadowMode::kForward;
   }
   const bool finishes = finishes_rays(work, whole);
-  const Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
+  Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
                                      {.shadow_rays = ways.are_held, .secondary_rays = finishes});
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
                      out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
-  const MacroGrid& grid = cut.grid;
   out.partition = cut.mode;
   out.rays_per_primary = cut.rays_per_primary;
-  out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges()};
-  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid);
   if (out.has_replicas) {
     out.slices.push_back(encode_model(model));
-    return;
+  } else {
+    out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
+    const SurfaceTree* tree = finishes ? &*whole.territory()->tree : nullptr;
+    Slices slices = slices_of(model, work.cube, cut, tree, ways.occluders, horizons);
+    out.slices = std::move(slices.bytes);
+    // Rays that begin beside a node's macro-region would all leave it at once.
+    if (!slices.have_bounds) cut.own_edges.clear();
   }
-  out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
-  const SurfaceTree* tree = finishes ? &*whole.territory()->tree : nullptr;
-  out.slices = slices_of(model, work.cube, cut, tree, ways.occluders, horizons);
+  const MacroGrid& grid = cut.grid;
+  out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges(), cut.own_edges};
+  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid, cut.own_edges);
 }
 
 }  // namespace

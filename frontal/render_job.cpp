@@ -188,8 +188,8 @@ std::deque<std::uint32_t>* RenderJob::tiles_to_take_over(Rank helper) {
 }
 
 Rank RenderJob::owner_of(std::uint32_t tile) const {
-  const RegionIndex region = scene_.plan->region_of_tile(tile);
-  return cube_.owner_of(region.column, region.row);
+  const RegionIndex owner = scene_.plan->owner_of_tile(tile);
+  return cube_.owner_of(owner.column, owner.row);
 }
 
 std::vector<std::uint32_t> RenderJob::take_relief() {

@@ -8,6 +8,7 @@
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
 #include "space/foreign_bounds.hpp"
+#include "space/own_pixels.hpp"
 #include "space/restrict.hpp"
 
 namespace graycube {
@@ -51,9 +52,10 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
   for (const LeavingLight& light : cut.left_by_light) {
     const RayTask& task = light.ray;
-    const Rank rank = cube.owner_of(light.from.column, light.from.row);
+    const RegionIndex owner = owner_of_pixel(task.pixel % model.settings.image.width, light.from, cut.grid, cut.own_edges);
+    const Rank rank = cube.owner_of(owner.column, owner.row);
     const RegionShare share = share_of(cube, rank);
-    auto exit = cut.grid.exit(light.from, task.ray, task.t);
+    auto exit = share.owns(light.from) ? cut.grid.exit(light.from, task.ray, task.t) : RegionExit{task.t, light.from};
     while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
     if (!exit || exit->t >= task.t_max) continue;
     const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
@@ -77,14 +79,17 @@ class Contents {
  public:
   Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
            const Occluders& occluders)
-      : model_(model), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
+      : model_(model), frame_(CameraFrame::from(model.settings.camera, model.settings.image)), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
     if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
     for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
     room_ = std::min(slice_room(model_bytes, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
   }
 
   ModelContents of(Rank rank) const {
-    ModelContents contents = contents_of_share(model_, cut_.grid, share_of(cube_, rank));
+    const RegionShare share = share_of(cube_, rank);
+    const RegionIndex region{static_cast<std::uint16_t>(share.column), static_cast<std::uint16_t>(share.row)};
+    const auto beside = part_beside(region, cut_.grid, frame_, cut_.own_edges);
+    ModelContents contents = contents_of_share(model_, cut_.grid, share, beside ? &*beside : nullptr);
     std::uint64_t held = 0;
     for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
     for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
@@ -108,6 +113,7 @@ class Contents {
   }
 
   const Model& model_;
+  CameraFrame frame_;
   const Hypercube& cube_;
   const Partition& cut_;
   const SurfaceTree* tree_;
@@ -133,19 +139,20 @@ std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const Surf
 
 }  // namespace
 
-std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
-                                   const Occluders& occluders, std::span<const std::byte> horizons) {
-  std::vector<SharedBytes> slices;
+Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
+                 const Occluders& occluders, std::span<const std::byte> horizons) {
+  Slices slices;
   const SliceEncoder encoder(model);
   const auto add = [&](const ModelContents& contents, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
     const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
-    slices.push_back(encoder.encode(contents, tails));
+    slices.bytes.push_back(encoder.encode(contents, tails));
   };
   const std::uint64_t model_bytes = encoded_model_bytes(model);
   const Contents contents_of(model, model_bytes, cube, cut, tree, occluders);
   std::vector<ModelContents> contents;
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) contents.push_back(contents_of.of(Rank{rank}));
   const std::vector<Bytes> bounds = bounds_of(contents, tree, bounds_room(model_bytes, cube.nodes()));
+  slices.have_bounds = std::ranges::none_of(bounds, &Bytes::empty);
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     add(contents[rank], bounds[rank],
         occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents[rank], model)));

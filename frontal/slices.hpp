@@ -35,10 +35,16 @@ constexpr std::uint64_t copy_room(std::uint64_t model_bytes, std::uint32_t nodes
   return std::max(kMostShares * model_bytes / nodes, kSmallCopies);
 }
 
-/// By rank: the model that the node's macro-regions need. With `tree`, of the whole model, also objects without bounds, and foreign
+struct Slices {
+  /// By rank.
+  std::vector<SharedBytes> bytes;
+  bool have_bounds = false;
+};
+
+/// The model that each node's macro-regions and own pixels need. With `tree`, of the whole model, also objects without bounds, and foreign
 /// bounds; with occluders, unless they are empty, also what the partition's pre-render asks for, as far as there is room, and
 /// foreign horizons. `horizons`, encoded, come last.
-std::vector<SharedBytes> slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
-                                   const Occluders& occluders, std::span<const std::byte> horizons);
+Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
+                 const Occluders& occluders, std::span<const std::byte> horizons);
 
 }  // namespace graycube

@@ -226,14 +226,14 @@ void Node::on_frontal_batch(std::span<const std::byte> batch) {
 
 /// In `roth` all tiles are everybody's.
 bool Node::is_own_tile(std::uint32_t tile) const {
-  return domain_->holds(plan_->region_of_tile(tile));
+  return domain_->holds(plan_->owner_of_tile(tile));
 }
 
 /// What a tile is traced in; null where nothing here is good for it.
 const std::shared_ptr<const Domain>& Node::domain_of(std::uint32_t tile) const {
   static const std::shared_ptr<const Domain> kNone;
   if (is_own_tile(tile) || domain_->is_replica()) return domain_;
-  const std::uint32_t bit = bit_of(owner_of(plan_->region_of_tile(tile)));
+  const std::uint32_t bit = bit_of(owner_of(plan_->owner_of_tile(tile)));
   return bit < copies_.size() ? copies_[bit] : kNone;
 }
 

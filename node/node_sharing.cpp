@@ -111,7 +111,7 @@ void Node::on_tiles(Link& link, std::span<const std::byte> batch) {
   std::vector<std::uint32_t> tiles;
   const auto result = decode_assignment(batch, limits_, tiles);
   const auto* error = std::get_if<BatchError>(&result);
-  const auto is_theirs = [&](std::uint32_t tile) { return owner_of(plan_->region_of_tile(tile)) == link.peer; };
+  const auto is_theirs = [&](std::uint32_t tile) { return owner_of(plan_->owner_of_tile(tile)) == link.peer; };
   if (error != nullptr || !load_.makes_copies || !copies_[bit_of(link.peer)] ||
       !std::all_of(tiles.begin(), tiles.end(), is_theirs)) {
     drop("tiles", error != nullptr ? to_string(*error) : "of regions that are not held here");

@@ -73,7 +73,7 @@ bool Node::choose_work(Work& work) {
   } else if (const auto pixels = may_start_tiles() ? next_pixels() : std::nullopt) {
     const std::uint32_t tile = plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
     work.domain = domain_of(tile);
-    if (work.domain != domain_) work.helped = owner_of(plan_->region_of_tile(tile));
+    if (work.domain != domain_) work.helped = owner_of(plan_->owner_of_tile(tile));
     work.what = TileWork{*pixels, tile};
   } else {
     return false;
@@ -131,7 +131,7 @@ void Node::adopt_domain(WorkResult& result) {
   const RenderSettings& settings = domain_->settings();
   const TileShape shape = tile_shape(load_.grain, load_.tile_size, settings.image);
   if (domain_->grid() != nullptr) {
-    plan_.emplace(settings.image, shape, *domain_->grid());
+    plan_.emplace(settings.image, shape, *domain_->grid(), load_.grid.own_edges);
   } else {
     plan_.emplace(settings.image, shape);
   }

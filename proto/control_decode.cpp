@@ -172,6 +172,17 @@ Fault fault_of_edges(const char* field, std::uint32_t cells,
   return {};
 }
 
+Fault fault_of_own_edges(const control::GridLayout& grid) {
+  constexpr const char* kField = "grid/own_edges";
+  if (grid.own_edges.empty()) return {};
+  const std::size_t each = grid.columns - 1;
+  if (grid.own_edges.size() != each * grid.rows) return ControlError{kField, "must be one fewer than the columns for each row"};
+  for (std::size_t i = 1; i < grid.own_edges.size(); ++i) {
+    if (i % each != 0 && grid.own_edges[i] <= grid.own_edges[i - 1]) return ControlError{kField, "must increase strictly in each row"};
+  }
+  return {};
+}
+
 Fault fault_of(const control::Load& m) {
   if (m.algorithm != Algorithm::kRoth && m.algorithm != Algorithm::kMacro) {
     return ControlError{"algorithm", "must be one of roth, macro"};
@@ -181,7 +192,8 @@ Fault fault_of(const control::Load& m) {
   }
   if (Fault fault = fault_of_edges("grid/column_edges", m.grid.columns, m.grid.column_edges))
     return fault;
-  return fault_of_edges("grid/row_edges", m.grid.rows, m.grid.row_edges);
+  if (Fault fault = fault_of_edges("grid/row_edges", m.grid.rows, m.grid.row_edges)) return fault;
+  return fault_of_own_edges(m.grid);
 }
 
 Fault fault_of(const control::Welcome& m) {

@@ -142,6 +142,8 @@ struct GridLayout {
   std::uint32_t columns = 1, rows = 1, scatter = 1;
   /// Inner boundaries as pixel edges, strictly increasing, one fewer than columns (rows).
   std::vector<std::int64_t> column_edges{}, row_edges{};
+  /// By row: between the pixels whose primary rays its nodes trace, one fewer than columns. Empty: those of their macro-regions.
+  std::vector<std::int64_t> own_edges{};
   friend bool operator==(const GridLayout&, const GridLayout&) = default;
 };
 

@@ -93,19 +93,23 @@ class ShareTest {
 
 }  // namespace
 
-ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
+ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share, const PicturePart* beside) {
   ModelContents contents{std::vector<bool>(model.objects.size()), {}};
-  const ShareTest test(grid, share, model.delta);
+  std::vector<ShareTest> tests{ShareTest(grid, share, model.delta)};
+  if (beside != nullptr) tests.emplace_back(beside->grid, only(beside->region, beside->grid), model.delta);
+  const auto may_touch = [&tests](const auto&... bounds) {
+    return std::ranges::any_of(tests, [&](const ShareTest& test) { return test.may_touch(bounds...); });
+  };
   const auto side = [&](std::uint32_t index) {
     const Primitive& p = model.primitives[index];
     const auto sphere = bounding_sphere(p);
-    const bool touches = sphere ? test.may_touch(p.bounds, *sphere) : test.may_touch(p.bounds);
+    const bool touches = sphere ? may_touch(p.bounds, *sphere) : may_touch(p.bounds);
     return touches ? CellSide::kCrosses : CellSide::kOutside;
   };
   std::vector<TreeNode> kept;
   for (std::uint32_t i = 0; i < model.objects.size(); ++i) {
     const Object& object = model.objects[i];
-    if (!test.may_touch(object.bounds)) continue;
+    if (!may_touch(object.bounds)) continue;
     kept.clear();
     if (prune(model.tree(object), side, kept) != Pruned::kVaries) continue;
     // Nothing is folded unless a leaf goes.

@@ -23,9 +23,16 @@ struct ModelContents {
   void hold_whole(const std::vector<bool>& objects);
 };
 
-/// What the macro-regions of a share need: primitives that certainly miss all of them, grown by the model's delta, become
-/// empty space, and the trees are simplified.
-ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share);
+/// What the primary rays of a part of the picture need: a macro-region of a grid of its own.
+struct PicturePart {
+  MacroGrid grid;
+  RegionIndex region;
+};
+
+/// What the macro-regions of a share need, and a part of the picture beside them: primitives that certainly miss all of that, grown by the
+/// model's delta, become empty space, and the trees are simplified.
+ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share,
+                                const PicturePart* beside = nullptr);
 
 /// Only that is kept, renumbered; objects keep their order and id. Settings and materials stay.
 Model extract(const Model& model, const ModelContents& contents);

@@ -109,7 +109,7 @@ class CoarseTrace {
         std::count_if(taken_.begin(), taken_.end(), [](const RayTask& r) { return r.kind == RayKind::kPrimary; }));
     const std::size_t came = taken_.size() - began;
     crossings_ += came;
-    const double beside = crossing_cost_ * static_cast<double>(came) + kCreatedCost * static_cast<double>(began);
+    const double beside = crossing_cost_ * static_cast<double>(came) + kCreatedCost[static_cast<std::size_t>(RayKind::kPrimary)] * static_cast<double>(began);
     trace(at, evaluator_, beside, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
@@ -137,9 +137,12 @@ class CoarseTrace {
     work();
     const WalkCounts walk = evaluator.walk_counts().since(before);
     const auto& created = step_.rays.created;
-    const auto rays = std::accumulate(created.begin(), created.end(), std::uint64_t{0});
-    for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
-    add_cost(at, beside + kCreatedCost * static_cast<double>(rays) + kCellCost * static_cast<double>(walk.cells_visited) +
+    double rays = 0;
+    for (std::size_t k = 0; k < created.size(); ++k) {
+      created_[k] += created[k];
+      rays += kCreatedCost[k] * static_cast<double>(created[k]);
+    }
+    add_cost(at, beside + rays + kCellCost * static_cast<double>(walk.cells_visited) +
                      kQuarticCost * static_cast<double>(walk.quartics_solved) + static_cast<double>(walk.primitives_tested));
     for (RayTask& ray : step_.leaving) take_leaving(ray, at);
     waiting_count_ += step_.leaving.size();

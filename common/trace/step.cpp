@@ -111,7 +111,7 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
       open_pixel(task.pixel);
     }
     rays = rays.subspan(wave_.size());
-    if (are_held || domain_.has_foreign_bounds()) {
+    if (are_held || !domain_.borrows()) {
       trace_wave(step);
       trace_all(step);
     } else {

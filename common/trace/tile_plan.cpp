@@ -3,37 +3,67 @@
 #include <algorithm>
 
 #include "geometry/check.hpp"
+#include "space/own_pixels.hpp"
 
 namespace graycube {
 
 TilePlan::TilePlan(const ImageSize& image, TileShape shape)
-    : image_(image), shape_(shape), column_of_x_(image.width, 0), row_of_y_(image.height, 0) {
-  add_area({0, 0, image.width, image.height});
+    : image_(image), shape_(shape), first_areas_{0}, row_of_y_(image.height, 0), place_of_x_(image.width, 0) {
+  add_area({0, 0, image.width, image.height}, {}, {});
 }
 
-TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid)
-    : image_(image), shape_(shape), columns_(grid.columns()) {
-  for (std::uint32_t x = 0; x < image.width; ++x) {
-    column_of_x_.push_back(grid.region_of_pixel(x, 0).column);
-  }
+TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid, std::span<const std::int64_t> own_edges)
+    : image_(image), shape_(shape), is_jagged_(!own_edges.empty()) {
+  GRAYCUBE_CHECK(own_edges.empty() || own_edges.size() == (grid.columns() - 1) * grid.rows(), "%zu edges", own_edges.size());
   for (std::uint32_t y = 0; y < image.height; ++y) {
     row_of_y_.push_back(grid.region_of_pixel(0, y).row);
   }
-  for (std::uint32_t row = 0; row < grid.rows(); ++row) {
-    for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-      add_area(grid.pixels_of(
-          {static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)}));
+  for (std::uint32_t x = 0; x < image.width && !is_jagged_; ++x) {
+    place_of_x_.push_back(grid.region_of_pixel(x, 0).column);
+  }
+  for (std::uint16_t row = 0; row < grid.rows(); ++row) {
+    first_areas_.push_back(static_cast<std::uint32_t>(areas_.size()));
+    if (is_jagged_) {
+      add_jagged_row(grid, row, own_edges);
+      continue;
+    }
+    for (std::uint16_t column = 0; column < grid.columns(); ++column) {
+      const RegionIndex region{column, row};
+      add_area(grid.pixels_of(region), region, region);
     }
   }
 }
 
-void TilePlan::add_area(const PixelRect& rect) {
-  Area area{rect, tile_count_, 0};
+/// Areas end where the macro-region changes or the owner does.
+void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row, std::span<const std::int64_t> own_edges) {
+  const auto region_at = [&](std::uint32_t x) { return RegionIndex{grid.region_of_pixel(x, 0).column, row}; };
+  const auto owner_at = [&](std::uint32_t x) { return owner_of_pixel(x, region_at(x), grid, own_edges); };
+  const PixelRect pixels = grid.pixels_of({0, row});
+  std::uint32_t began = 0;
+  std::uint16_t areas = 0;
+  for (std::uint32_t x = 0; x < image_.width; ++x) {
+    place_of_x_.push_back(areas);
+    const bool ends = x + 1 == image_.width || region_at(x + 1) != region_at(x) || owner_at(x + 1) != owner_at(x);
+    if (!ends) continue;
+    add_area({began, pixels.y0, x + 1, pixels.y1}, region_at(x), owner_at(x));
+    began = x + 1;
+    ++areas;
+  }
+}
+
+void TilePlan::add_area(const PixelRect& rect, RegionIndex region, RegionIndex owner) {
+  Area area{rect, region, owner, tile_count_, 0};
   if (!rect.is_empty()) {
     area.across = (rect.x1 - rect.x0 + shape_.width - 1) / shape_.width;
     tile_count_ += area.across * ((rect.y1 - rect.y0 + shape_.height - 1) / shape_.height);
   }
   areas_.push_back(area);
+}
+
+const TilePlan::Area& TilePlan::area_at(std::uint32_t x, std::uint32_t y) const {
+  const std::uint32_t row = row_of_y_[y];
+  const std::size_t first = is_jagged_ ? std::size_t{row} * image_.width : 0;
+  return areas_[first_areas_[row] + place_of_x_[first + x]];
 }
 
 std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
@@ -44,11 +74,9 @@ std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
 
 std::vector<std::uint32_t> TilePlan::tiles_of(const RegionShare& share) const {
   std::vector<std::uint32_t> tiles;
-  for (std::uint32_t row = share.row; row * columns_ < areas_.size(); row += share.rows) {
-    for (std::uint32_t column = share.column; column < columns_; column += share.columns) {
-      const std::uint32_t area = row * columns_ + column;
-      for (std::uint32_t i = 0; i < tile_count_of(area); ++i) tiles.push_back(first_tile(area) + i);
-    }
+  for (std::uint32_t area = 0; area < areas_.size(); ++area) {
+    if (!share.owns(areas_[area].owner)) continue;
+    for (std::uint32_t i = 0; i < tile_count_of(area); ++i) tiles.push_back(first_tile(area) + i);
   }
   return tiles;
 }
@@ -58,11 +86,6 @@ std::uint32_t TilePlan::area_of_tile(std::uint32_t tile) const {
   const auto after = std::upper_bound(areas_.begin(), areas_.end(), tile,
                                       [](std::uint32_t t, const Area& a) { return t < a.first_tile; });
   return static_cast<std::uint32_t>(after - areas_.begin() - 1);
-}
-
-RegionIndex TilePlan::region_of_tile(std::uint32_t tile) const {
-  const std::uint32_t area = area_of_tile(tile);
-  return {static_cast<std::uint16_t>(area % columns_), static_cast<std::uint16_t>(area / columns_)};
 }
 
 PixelRect TilePlan::rect(std::uint32_t tile) const {
@@ -77,7 +100,7 @@ PixelRect TilePlan::rect(std::uint32_t tile) const {
 std::uint32_t TilePlan::tile_of_pixel(std::uint32_t pixel) const {
   const std::uint32_t x = pixel % image_.width;
   const std::uint32_t y = pixel / image_.width;
-  const Area& area = areas_[row_of_y_[y] * columns_ + column_of_x_[x]];
+  const Area& area = area_at(x, y);
   return area.first_tile + (y - area.rect.y0) / shape_.height * area.across +
          (x - area.rect.x0) / shape_.width;
 }

@@ -1,8 +1,13 @@
 // What is picked where a command leaves the macro-regions' boundaries open.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
+#include <set>
 
 #include "frontal/prepared.hpp"
+#include "scene/compile_scene.hpp"
 #include "trace/corner_scene.hpp"
+#include "trace/domain.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -17,6 +22,35 @@ TEST_CASE("boundaries are placed by the work where nothing is asked for") {
   CHECK(regular.partition == PartitionMode::kRegular);
   CHECK(choices_text(open) == "scatter 1, horizon shadows, balanced partition, neighbours help");
   CHECK(choices_text(balanced) == "scatter 1, horizon shadows, balanced partition");
+}
+
+TEST_CASE("where work lies where pixels are, each row of nodes has its own cuts, and as much to do as the others") {
+  Scene scene = corner_scene();
+  for (int i = 0; i < 6; ++i) scene.settings.lights.push_back(scene.settings.lights.front());
+  const PreparedScene open = prepared(scene, {}, 16);
+  REQUIRE(open.grid.own_edges.size() == 12);
+  CHECK(std::set<std::int64_t>(open.grid.own_edges.begin(), open.grid.own_edges.end()).size() > 3);
+  // By node; a pixel that sees the ball sends out rays to eight lights.
+  const Domain whole(compile_scene(scene));
+  CrossingScratch scratch;
+  const auto busiest = [&](const PreparedScene& cut) {
+    std::map<std::uint32_t, std::uint32_t> work;
+    std::uint32_t most = 0, all = 0;
+    for (std::uint32_t pixel = 0; pixel < 128 * 96; ++pixel) {
+      const bool hits = whole.first_crossing(whole.frame().primary_ray(pixel % 128, pixel / 128, 0, 0), 0, 1e9, scratch).has_value();
+      const RegionIndex owner = cut.plan->owner_of_tile(cut.plan->tile_of_pixel(pixel));
+      all += hits ? 9 : 1;
+      most = std::max(most, work[owner.row * 4u + owner.column] += hits ? 9 : 1);
+    }
+    return 16.0 * most / all;
+  };
+  CHECK(busiest(open) < 1.5);
+  CHECK(busiest(prepared(scene, {.partition = PartitionMode::kRegular}, 16)) > 2);
+  // Nothing is known of rays that begin beside their node's region, or pixels' rays lie on boundaries: own pixels are the region's.
+  CHECK(prepared(scene, {.partition = PartitionMode::kRegular}, 16).grid.own_edges.empty());
+  CHECK(prepared(scene, {.shadows = ShadowMode::kForward}, 16).grid.own_edges.empty());
+  CHECK(prepared(scene, {.shadows = ShadowMode::kLocal}, 16).grid.own_edges.empty());
+  CHECK(prepared(scene, {.scatter = 2}, 16).grid.own_edges.empty());
 }
 
 TEST_CASE("no pre-render is made where it would not pay") {

@@ -8,6 +8,7 @@
 #include "proto/share_of.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
+#include "space/own_pixels.hpp"
 #include "space/restrict.hpp"
 
 using namespace graycube;
@@ -136,6 +137,30 @@ TEST_CASE("a node with tiles left has its slice copied to a neighbour that is id
   // One offer, one gift.
   CHECK(Sent(owner.node).tiles.empty());
   CHECK(owner.work() == 2);
+}
+
+TEST_CASE("a node traces its own pixels beside its macro-region, and none of it that are others'") {
+  control::Load with_own = load();
+  with_own.grid.own_edges = {kSide / 2 + 16, kSide / 2};
+  const Model model = ball();
+  const TilePlan plan(model.settings.image, {16, 16}, grid(), with_own.grid.own_edges);
+  const auto own_of = [&](Rank rank) { return plan.tiles_of(share_of(kCube, rank)); };
+  const Rank first{0}, second = kCube.owner_of(1, 0);
+  REQUIRE(own_of(first).size() == 6);
+  REQUIRE(own_of(second).size() == 2);
+  const auto beside = part_beside(region_of(first), grid(), CameraFrame::from(model.settings.camera, model.settings.image),
+                                  with_own.grid.own_edges);
+  NodeAtWork node(kCube, first, with_own,
+                  encode_model(extract(model, contents_of_share(model, grid(), share_of(kCube, first), &*beside))));
+  node.begin();
+  node.assign(own_of(first));
+  CHECK(Sent(node.node).errors.empty());
+  CHECK(node.work() >= 6);
+  const Sent sent(node.node);
+  const auto own = own_of(first);
+  CHECK(sent.tiles_with_credit == std::set<std::uint32_t>(own.begin(), own.end()));
+  node.assign({own_of(second).front()});
+  CHECK(Sent(node.node).errors.size() == 1);
 }
 
 TEST_CASE("an offer that comes before the picture begins here is not forgotten") {

@@ -68,7 +68,7 @@ Bytes slice(bool has_ball) {
 
 NodeAtWork node_at(Rank rank, const Bytes& slice) {
   const MacroGrid all = grid();
-  NodeAtWork node(kCube, rank, load_of({4, 2, 1, all.column_edges(), all.row_edges()}), slice);
+  NodeAtWork node(kCube, rank, load_of({4, 2, 1, all.column_edges(), all.row_edges(), {}}), slice);
   node.begin();
   return node;
 }

@@ -77,7 +77,7 @@ inline control::JobInfo example_job() {
 
 inline std::vector<ControlMessage> example_messages() {
   using namespace control;
-  const GridLayout grid{4, 2, 2, {-1, 16, 40}, {24}};
+  const GridLayout grid{4, 2, 2, {-1, 16, 40}, {24}, {8, 16, 40, 4, 20, 44}};
   const RawObject stats{
       R"({"graycube":"0.1.0","nodes":8,"rays":{"primary":65536},"per_node":[{"rank":0}]})"};
   return {

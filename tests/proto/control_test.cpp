@@ -144,6 +144,11 @@ TEST_CASE("fields that must fit together are checked together") {
   load.grid.column_edges = {1, 2, 3};
   load.grid.scatter = 4;
   CHECK(error_of(encode(load)).field == "grid/scatter");
+  load = example_load();
+  load.grid.own_edges.pop_back();
+  CHECK(error_of(encode(load)).field == "grid/own_edges");
+  load.grid.own_edges = {8, 16, 40, 4, 20, 20};
+  CHECK(error_of(encode(load)).field == "grid/own_edges");
   CHECK(error_of(encode(Welcome{3, "v", {"a", "b"}, 100})).field == "endpoints");
   CHECK(error_of(encode(Picture{1, 10, 10, 5, 6})).field == "rows");
   CHECK(error_of(encode(Picture{1, 16384, 4096, 0, 4096})).field == "rows");

@@ -90,6 +90,37 @@ TEST_CASE("nodes that know where foreign objects may be give the picture of the 
   CHECK(shadow_with < shadow_without);
 }
 
+TEST_CASE("nodes whose own pixels are others than their regions' give the picture of the whole") {
+  std::uint64_t strips = 0, handed_over = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Scene scene = RandomModel(seed, bounded()).scene();
+    scene.settings.max_depth = 4;
+    const Model model = compile_scene(scene);
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
+    if (Domain(model).primary_rays_may_leave()) continue;
+    Dice dice(seed);
+    const auto columns = static_cast<std::uint32_t>(2 + dice.below(3)), rows = static_cast<std::uint32_t>(1 + dice.below(4));
+    const MacroGrid grid = MacroGrid::regular(frame, columns, rows);
+    std::vector<std::int64_t> own;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      std::int64_t edge = 0;
+      for (std::uint32_t left = columns - 1; left > 0; --left) {
+        edge += 1 + static_cast<std::int64_t>(dice.below((frame.image.width - static_cast<std::size_t>(edge)) / (left + 1)));
+        own.push_back(edge);
+      }
+    }
+    INFO("seed " << seed << ", " << columns << " x " << rows << " nodes");
+    // Where nodes don't know what is foreign, what begins beside their regions leaves at once.
+    Machine machine(model, grid, columns, rows, {.has_horizons = dice.one_in(2), .has_bounds = !dice.one_in(4)}, dice, own);
+    const Harvest parts = machine.trace(dice);
+    check_equal(trace_whole(model), parts, model.settings.image);
+    handed_over += parts.handed_over;
+    strips += own.size();
+  }
+  CHECK(strips > 500);
+  CHECK(handed_over > 10'000);
+}
+
 TEST_CASE("a node that holds all objects finishes all rays, however it knows that nothing is foreign") {
   std::uint64_t handed_over = 0;
   for (std::uint64_t seed = 0; seed < 80; ++seed) {

@@ -10,6 +10,7 @@
 #include "csg/random_model.hpp"
 #include "space/foreign_bounds.hpp"
 #include "space/occluders.hpp"
+#include "space/own_pixels.hpp"
 #include "space/restrict.hpp"
 #include "trace/step.hpp"
 #include "trace/tile_plan.hpp"
@@ -79,16 +80,21 @@ class Machine {
   struct Knowledge {
     bool has_horizons = false, has_bounds = false;
   };
-  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't hold.
-  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice)
-      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
+  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't hold. With own pixels of theirs, regions
+  /// aren't scattered.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice,
+          std::vector<std::int64_t> own_edges = {})
+      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows), own_edges_(std::move(own_edges)) {
+    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     const Occluders occluders = Occluders::of(model);
     const SurfaceTree whole = SurfaceTree::build(model);
     const ForeignBoundsMaker maker(whole);
     for (std::uint32_t row = 0; row < rows; ++row) {
       for (std::uint32_t column = 0; column < columns; ++column) {
         const RegionShare share{columns, rows, column, row};
-        ModelContents contents = contents_of_share(model, grid, share);
+        const RegionIndex region{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)};
+        const auto beside = part_beside(region, grid, frame, own_edges_);
+        ModelContents contents = contents_of_share(model, grid, share, beside ? &*beside : nullptr);
         const std::uint64_t one_in = 1 + dice.below(4);
         std::vector<bool> chosen(model.objects.size());
         for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
@@ -117,7 +123,7 @@ class Machine {
   /// as many as come.
   Harvest trace(Dice& dice) {
     Harvest harvest(image_);
-    const TilePlan plan(image_, {5, 3}, grid_);
+    const TilePlan plan(image_, {5, 3}, grid_, own_edges_);
     std::deque<RayTask> waiting;
     Step step;
     const auto finish = [&](std::size_t at) {
@@ -161,6 +167,7 @@ class Machine {
   ImageSize image_;
   const MacroGrid& grid_;
   std::uint32_t columns_, rows_;
+  std::vector<std::int64_t> own_edges_;
   std::vector<std::unique_ptr<Domain>> domains_;
   std::deque<Evaluator> evaluators_;
 };

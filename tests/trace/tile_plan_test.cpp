@@ -6,6 +6,7 @@
 
 #include "csg/dice.hpp"
 #include "csg/random_model.hpp"
+#include "space/own_pixels.hpp"
 
 using namespace graycube;
 using graycube::testing::Dice;
@@ -116,6 +117,43 @@ TEST_CASE("a plan of macro-regions has every pixel in exactly one tile, of its o
       }
     }
   }
+}
+
+TEST_CASE("a plan with own pixels has every pixel in exactly one tile, of one region and one owner") {
+  std::size_t beside = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    const auto side = [&](std::size_t most) { return static_cast<std::uint32_t>(1 + dice.below(most)); };
+    const std::uint32_t columns = side(6), rows = side(6);
+    const ImageSize image{columns + side(60), side(70), 1};
+    const TileShape shape{side(20), side(20)};
+    const MacroGrid grid = random_grid(dice, image, columns, rows);
+    std::vector<std::int64_t> own;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 1; column < columns; ++column) {
+        // Between 1 and the width, one fewer than that apart.
+        own.push_back(column + static_cast<std::int64_t>(dice.below(2)) + (column == 1 ? 0 : own.back() - column + 1));
+      }
+    }
+    const TilePlan plan(image, shape, grid, own);
+    check_partition(plan, image, shape);
+    std::size_t tiles = 0;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      for (std::uint32_t column = 0; column < columns; ++column) tiles += plan.tiles_of({columns, rows, column, row}).size();
+    }
+    REQUIRE(tiles == plan.tile_count());
+    for (std::uint32_t tile = 0; tile < plan.tile_count(); ++tile) {
+      const PixelRect r = plan.rect(tile);
+      for (const auto& [x, y] : {std::pair{r.x0, r.y0}, std::pair{r.x1 - 1, r.y1 - 1}}) {
+        const RegionIndex region = grid.region_of_pixel(x, y);
+        REQUIRE(plan.region_of_tile(tile) == region);
+        REQUIRE(plan.owner_of_tile(tile) == owner_of_pixel(x, region, grid, own));
+        beside += plan.owner_of_tile(tile) == region ? 0 : 1;
+      }
+    }
+  }
+  CHECK(beside > 1000);
 }
 
 TEST_CASE("the shares of a scattered grid have every tile once, each in its owner's regions") {
