@@ -65,8 +65,9 @@ void EvaluatorPool::work(unsigned index) {
       --waiting_;
       continue;
     }
-    const bool is_build = std::holds_alternative<BuildWork>(piece->what);
     const bool is_primary = std::holds_alternative<TileWork>(piece->what);
+    const bool is_build = !is_primary && !std::holds_alternative<RayWork>(piece->what);
+    if (is_build) busy_s_ += since_last_count();
     lock.unlock();
     WorkResult result = bench.run(std::move(*piece));
     lock.lock();

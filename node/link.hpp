@@ -34,6 +34,8 @@ struct Link {
   /// What the peer was last told: that this node has nothing to do; and what it has told, until it gets something.
   bool has_offered = false;
   enum class Offer : std::uint8_t { kNone, kIdle, kIdleWithCopy } offer = Offer::kNone;
+  /// What the peer had done by then, in tests of a primitive.
+  std::uint64_t offered_after = 0;
   /// The frontal was asked to give the peer a copy of this node's slice.
   bool has_asked = false;
 

@@ -157,6 +157,8 @@ void Node::on_finish(const control::Finish& m) {
 void Node::forget_rays() {
   tiles_.clear();
   open_tile_.reset();
+  work_done_ = 0;
+  tiles_traced_ = 0;
   rays_.clear();
   own_rays_.clear();
   class_rays_.clear();

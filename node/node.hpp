@@ -176,8 +176,10 @@ class Node {
   void adopt_copy(WorkResult& result);
   void leave_copy(std::span<const RayTask> rays, Rank owner);
   void offer_help();
-  void on_offer(Link& link, Link::Offer offer);
+  void on_offer(Link& link, std::span<const std::byte> batch, Link::Offer offer);
   void share_work();
+  double work_ahead_of(const Link& link) const;
+  double work_of_a_tile() const;
   bool share_with(Link& link);
   void on_tiles(Link& link, std::span<const std::byte> batch);
   void forget_rays();
@@ -205,6 +207,9 @@ class Node {
   BatchLimits limits_;
   std::deque<std::uint32_t> tiles_;
   std::uint64_t own_tiles_ = 0;
+  /// In this epoch: what was traced, in tests of a primitive, and how many tiles of anybody's.
+  double work_done_ = 0;
+  std::uint64_t tiles_traced_ = 0;
   /// Own tiles that the frontal has not handed out yet; `macro` only.
   std::uint64_t unassigned_tiles_ = 0;
   /// Rank 0's: no ray is left anywhere.

@@ -39,8 +39,8 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   if (header.type == BatchType::kClassCredit) return on_class_credit(link, batch);
   if (header.type == BatchType::kContributions) return on_sums(link, batch);
   if (header.type == BatchType::kAssignment) return on_tiles(link, batch);
-  if (header.type == BatchType::kIdle) return on_offer(link, Link::Offer::kIdle);
-  if (header.type == BatchType::kIdleWithCopy) return on_offer(link, Link::Offer::kIdleWithCopy);
+  if (header.type == BatchType::kIdle) return on_offer(link, batch, Link::Offer::kIdle);
+  if (header.type == BatchType::kIdleWithCopy) return on_offer(link, batch, Link::Offer::kIdleWithCopy);
   if (header.type == BatchType::kLinkCredit) {
     std::uint64_t bytes = 0;
     const auto result = decode_link_credit(batch, limits_, bytes);

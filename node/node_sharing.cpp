@@ -14,10 +14,15 @@ namespace {
 /// trace, so that it takes many of them.
 constexpr std::size_t kTilesToShare = 2;
 constexpr std::size_t kRaysToShare = 1024;
-/// Before a neighbour has a copy it takes one more for so many bytes of the slice: to send and subdivide those costs
-/// about as much as to trace it.
-constexpr std::size_t kBytesPerTile = std::size_t{32} << 10;
+/// Before a neighbour has a copy it takes so many tiles, and one more for so many bytes of the slice: to send and subdivide it costs about
+/// as much as to trace them.
+constexpr std::size_t kTilesToCopy = 8;
+constexpr std::size_t kBytesPerTile = std::size_t{16} << 10;
 constexpr std::size_t kBytesPerRay = 32;
+/// Of a received ray, before it is traced, in tests of a primitive.
+constexpr double kRayWork = 50;
+/// What a tile takes is known once so many have been traced.
+constexpr std::uint64_t kTellingTiles = 4;
 /// Given away at a time: at most half of what there is.
 constexpr std::size_t kMostTilesAtATime = 16;
 constexpr std::size_t kMostRaysAtATime = 512;
@@ -60,15 +65,29 @@ void Node::offer_help() {
     Link& link = links_[bit];
     if (std::exchange(link.has_offered, true)) continue;
     const BatchType type = copies_[bit] ? BatchType::kIdleWithCopy : BatchType::kIdle;
-    outgoing_.push_back({link.peer, Message::of_batch(encode_signal(stamp(link.next_sequence++), type))});
+    const auto work = static_cast<std::uint64_t>(work_done_);
+    outgoing_.push_back({link.peer, Message::of_batch(encode_offer(stamp(link.next_sequence++), type, work))});
   }
 }
 
 /// A neighbour without tiles may begin, and be idle, before this node has heard that the picture begins: its offer
 /// waits.
-void Node::on_offer(Link& link, Link::Offer offer) {
+void Node::on_offer(Link& link, std::span<const std::byte> batch, Link::Offer offer) {
+  if (std::holds_alternative<BatchError>(decode_offer(batch, limits_, link.offered_after))) return drop("offer", "malformed");
   link.offer = offer;
   share_work();
+}
+
+double Node::work_of_a_tile() const {
+  return tiles_traced_ < kTellingTiles ? 0 : work_done_ / static_cast<double>(tiles_traced_);
+}
+
+/// What this node will have done, as far as can be told, beyond what a neighbour that is idle has: who is idle first need not have less to
+/// do, but may have been let run first. What it gets brings both to the same at half of that.
+double Node::work_ahead_of(const Link& link) const {
+  const double to_do = work_of_a_tile() * static_cast<double>(tiles_.size() + unassigned_tiles_) +
+                       kRayWork * static_cast<double>(rays_.size());
+  return work_done_ + to_do - static_cast<double>(link.offered_after);
 }
 
 /// Gives neighbours that have nothing to do something of what waits here.
@@ -77,8 +96,11 @@ void Node::share_work() {
   for (Link& link : links_) {
     if (link.offer == Link::Offer::kIdleWithCopy && share_with(link)) link.offer = Link::Offer::kNone;
     if (link.offer != Link::Offer::kIdle || link.has_asked) continue;
-    const bool pays = tiles_.size() >= kTilesToShare + slice_bytes_ / kBytesPerTile ||
-                      rays_.size() >= kRaysToShare + slice_bytes_ / kBytesPerRay;
+    const double tile = work_of_a_tile(), spare = 0.5 * work_ahead_of(link);
+    const std::size_t least_tiles = kTilesToCopy + slice_bytes_ / kBytesPerTile;
+    const std::size_t least_rays = kRaysToShare + slice_bytes_ / kBytesPerRay;
+    const bool pays = (tile > 0 && tiles_.size() >= 2 * least_tiles && spare >= tile * static_cast<double>(least_tiles)) ||
+                      (rays_.size() >= least_rays && spare >= 0.5 * kRayWork * static_cast<double>(least_rays));
     if (!pays) continue;
     link.has_asked = true;
     send_control(control::Share{job_, epoch_, link.peer.value});
@@ -88,9 +110,10 @@ void Node::share_work() {
 /// Tiles rather than rays: they are a few bytes. The last ones: this node comes from the other end.
 bool Node::share_with(Link& link) {
   const std::size_t room = static_cast<std::size_t>(link.send_credit / kRayBytes);
-  if (tiles_.size() >= kTilesToShare && is_own_tile(tiles_.back())) {
+  const double tile = work_of_a_tile(), spare = 0.5 * work_ahead_of(link);
+  if (tiles_.size() >= kTilesToShare && is_own_tile(tiles_.back()) && tile > 0 && spare >= tile) {
     std::vector<std::uint32_t> tiles;
-    const std::size_t most = std::min(tiles_.size() / 2, kMostTilesAtATime);
+    const std::size_t most = std::min({tiles_.size() / 2, kMostTilesAtATime, static_cast<std::size_t>(spare / tile)});
     while (tiles.size() < most && is_own_tile(tiles_.back())) {
       tiles.push_back(tiles_.back());
       tiles_.pop_back();
@@ -99,8 +122,9 @@ bool Node::share_with(Link& link) {
     outgoing_.push_back({link.peer, Message::of_batch(encode_assignment(stamp(link.next_sequence++), tiles))});
     return true;
   }
-  const std::size_t most = std::min({rays_.size() / 2, kMostRaysAtATime, room});
-  if (rays_.size() < kRaysToShare || most == 0) return false;
+  if (rays_.size() < kRaysToShare || spare < kRayWork) return false;
+  const std::size_t most = std::min({rays_.size() / 2, kMostRaysAtATime, room, static_cast<std::size_t>(spare / kRayWork)});
+  if (most == 0) return false;
   const std::vector<RayTask> rays = rays_.take(most, [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
   send_batch(link, rays);
   return true;

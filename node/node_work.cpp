@@ -7,6 +7,7 @@
 #include "proto/control.hpp"
 #include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
+#include "trace/work_cost.hpp"
 
 namespace graycube {
 
@@ -117,6 +118,8 @@ void Node::give_result(WorkResult result) {
     adopt_copy(result);
   } else {
     absorb(result);
+    // Of each tile more is known of what the others take.
+    if (result.tile) share_work();
   }
   pass_token();
 }
@@ -164,6 +167,8 @@ void Node::send_ready_when_complete() {
 void Node::absorb(WorkResult& result) {
   const Step& step = result.step;
   const auto& created = step.rays.created;
+  work_done_ += work_cost(created, result.walk);
+  if (result.tile) ++tiles_traced_;
   stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
   stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
   stats_.reflection += created[static_cast<std::size_t>(RayKind::kReflection)];

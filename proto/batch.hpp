@@ -144,6 +144,8 @@ std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& 
 /// At most kMaxTilesPerAssignment tiles.
 std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
                                          std::span<const std::uint32_t> tiles);
+/// Of type kIdle or kIdleWithCopy: what the sender has done so far in this epoch, in tests of a primitive (trace/work_cost.hpp).
+std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work);
 /// The types without payload: greeting, goodbye and their acknowledgements.
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
 
@@ -174,6 +176,8 @@ bool looks_like_batch(std::span<const std::byte> message);
                                                std::vector<Contribution>& contributions);
 [[nodiscard]] BatchResult decode_link_credit(std::span<const std::byte> message,
                                              const BatchLimits& limits, std::uint64_t& bytes);
+/// Of either type.
+[[nodiscard]] BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& limits, std::uint64_t& work);
 [[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message, const BatchLimits& limits,
                                               std::vector<std::uint16_t>& classes);
 [[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,

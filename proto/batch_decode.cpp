@@ -255,6 +255,17 @@ BatchResult decode_assignment(std::span<const std::byte> message, const BatchLim
   return result;
 }
 
+BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& limits, std::uint64_t& work) {
+  const BatchResult peeked = peek_header(message);
+  const auto* h = std::get_if<BatchHeader>(&peeked);
+  if (h == nullptr) return peeked;
+  if (!is_offer(h->type)) return BatchError::kBadType;
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, h->type, at);
+  if (std::holds_alternative<BatchHeader>(result)) work = load_little<std::uint64_t>(at);
+  return result;
+}
+
 BatchResult decode_signal(std::span<const std::byte> message, const BatchLimits& limits) {
   const BatchResult peeked = peek_header(message);
   const auto* h = std::get_if<BatchHeader>(&peeked);

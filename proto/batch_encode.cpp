@@ -136,6 +136,13 @@ std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t
   return std::move(w).take();
 }
 
+std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work) {
+  GRAYCUBE_CHECK(is_offer(type), "type %d", static_cast<int>(type));
+  ByteWriter w = begin(stamp, type, 1, 0);
+  w.put(work);
+  return std::move(w).take();
+}
+
 std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes) {
   ByteWriter w = begin(stamp, BatchType::kClassCredit, classes.size(), 0);
   for (const std::uint16_t c : classes) w.put(c);

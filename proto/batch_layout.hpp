@@ -61,9 +61,9 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
     case BatchType::kGreeting:
     case BatchType::kGreetingAck:
     case BatchType::kGoodbye:
-    case BatchType::kGoodbyeAck:
+    case BatchType::kGoodbyeAck: return {single && count == 0, 0};
     case BatchType::kIdle:
-    case BatchType::kIdleWithCopy: return {single && count == 0, 0};
+    case BatchType::kIdleWithCopy: return {single && count == 1, 8};
   }
   return {false, 0};
 }
@@ -77,8 +77,9 @@ constexpr std::size_t max_message_bytes(BatchType type) {
 
 constexpr bool is_signal(BatchType type) {
   return type == BatchType::kGreeting || type == BatchType::kGreetingAck ||
-         type == BatchType::kGoodbye || type == BatchType::kGoodbyeAck ||
-         type == BatchType::kIdle || type == BatchType::kIdleWithCopy;
+         type == BatchType::kGoodbye || type == BatchType::kGoodbyeAck;
 }
+
+constexpr bool is_offer(BatchType type) { return type == BatchType::kIdle || type == BatchType::kIdleWithCopy; }
 
 }  // namespace graycube::batch_layout

@@ -289,7 +289,7 @@ void Farm::end(Turn& turn) {
   Process& p = processes_[turn.rank.value];
   if (!turn.is_copying) --p.working;
   last_change_s_ = timeline_.now_s();
-  if (!turn.is_build) p.busy_s += turn.seconds;
+  if (!turn.is_build && !turn.is_copying) p.busy_s += turn.seconds;
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();
   PerUnit doings;
   doings[Unit::kReturn] = static_cast<double>(turn.result->step.returns.size());

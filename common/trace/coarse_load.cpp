@@ -9,22 +9,21 @@
 #include <utility>
 
 #include "trace/step.hpp"
+#include "trace/work_cost.hpp"
 
 namespace graycube {
 namespace {
 
-/// Blocks of pixels side by side: neighbours share most of the way.
-constexpr std::uint32_t kBlockWidth = 2, kBlockHeight = 1;
 /// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
-/// block comes on top.
+/// pixel comes on top.
 constexpr std::size_t kManyRays = 32768;
-/// Once so many blocks have shown that all take only this part of what they may, the rest is traced in one go.
-constexpr std::uint32_t kTellingBlocks = 64;
+/// Once so many pixels have shown that all take only this part of what they may, the rest is traced in one go.
+constexpr std::uint32_t kTellingPixels = 128;
 constexpr double kSmallPart = 0.25;
 /// Where all rays stay, so many cells along each side are traced together, or more where there would be too many regions: the
 /// more, the fuller are packets.
-constexpr std::uint32_t kCellsTogether = 4;
-constexpr std::uint32_t kMostRegions = 16;
+constexpr std::uint32_t kCellsTogether = 2;
+constexpr std::uint32_t kMostRegions = 32;
 
 /// What is traced together: cells, or where all rays stay, some of them, since pixels tell what work is whose.
 MacroGrid regions_of(const CameraFrame& frame, const MacroGrid& cells, Staying staying) {
@@ -54,23 +53,18 @@ class CoarseTrace {
   }
 
   /// Primary rays wait as all others do: those of a region are traced together.
-  void add_block(const PixelRect& block) {
+  void add_pixel(std::uint32_t x, std::uint32_t y) {
     const CameraFrame& frame = domain_.frame();
-    const std::uint32_t samples = frame.image.samples;
-    for (std::uint32_t y = block.y0; y < block.y1; ++y) {
-      for (std::uint32_t x = block.x0; x < block.x1; ++x) {
-        const RegionIndex at = grid_.region_of_pixel(x, y);
-        for (std::uint32_t s = 0; s < samples * samples; ++s) {
-          RayTask& ray = waiting_[index_of(at)].emplace_back();
-          ray.ray = frame.primary_ray(x, y, s % samples, s / samples);
-          ray.t_max = std::numeric_limits<double>::infinity();
-          ray.weight = {1, 1, 1};
-          ray.pixel = y * frame.image.width + x;
-          ray.region = at;
-        }
-      }
+    const std::uint32_t samples = frame.image.samples, rays = samples * samples;
+    const RegionIndex at = grid_.region_of_pixel(x, y);
+    for (std::uint32_t s = 0; s < rays; ++s) {
+      RayTask& ray = waiting_[index_of(at)].emplace_back();
+      ray.ray = frame.primary_ray(x, y, s % samples, s / samples);
+      ray.t_max = std::numeric_limits<double>::infinity();
+      ray.weight = {1, 1, 1};
+      ray.pixel = y * frame.image.width + x;
+      ray.region = at;
     }
-    const std::uint64_t rays = std::uint64_t{block.x1 - block.x0} * (block.y1 - block.y0) * samples * samples;
     waiting_count_ += rays;
     created_[static_cast<std::size_t>(RayKind::kPrimary)] += rays;
   }
@@ -137,13 +131,8 @@ class CoarseTrace {
     work();
     const WalkCounts walk = evaluator.walk_counts().since(before);
     const auto& created = step_.rays.created;
-    double rays = 0;
-    for (std::size_t k = 0; k < created.size(); ++k) {
-      created_[k] += created[k];
-      rays += kCreatedCost[k] * static_cast<double>(created[k]);
-    }
-    add_cost(at, beside + rays + kCellCost * static_cast<double>(walk.cells_visited) +
-                     kQuarticCost * static_cast<double>(walk.quartics_solved) + static_cast<double>(walk.primitives_tested));
+    for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
+    add_cost(at, beside + work_cost(created, walk));
     for (RayTask& ray : step_.leaving) take_leaving(ray, at);
     waiting_count_ += step_.leaving.size();
     step_.clear();
@@ -227,14 +216,14 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_
   const double wanted =
       std::clamp(kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
                  static_cast<double>(std::clamp(most_pixels, kLeastCoarsePixels, kMostCoarsePixels)));
-  const double step = std::sqrt(kBlockWidth * kBlockHeight * pixels / wanted);
-  // As many blocks in each region as in any other.
-  const auto blocks = [step](std::uint32_t side, std::uint32_t regions, std::uint32_t block) {
-    const auto each = static_cast<std::uint32_t>(std::lround(side / (regions * step)));
-    return std::min(regions * std::max(1u, each), std::max(1u, side / block));
+  const double step = std::sqrt(pixels / wanted);
+  // As many in each cell as in any other.
+  const auto of_side = [step](std::uint32_t side, std::uint32_t parts) {
+    const auto each = static_cast<std::uint32_t>(std::lround(side / (parts * step)));
+    return std::min(parts * std::max(1u, each), side);
   };
-  const std::uint32_t across = blocks(image.width, cells.columns(), kBlockWidth);
-  const std::uint32_t count = across * blocks(image.height, cells.rows(), kBlockHeight);
+  const std::uint32_t across = of_side(image.width, cells.columns());
+  const std::uint32_t count = across * of_side(image.height, cells.rows());
   const auto middle = [](std::uint32_t i, std::uint32_t of, std::uint32_t side) {
     return static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * side / (2 * std::uint64_t{of}));
   };
@@ -243,13 +232,12 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_
   const std::uint32_t stride = spreading_step(count);
   bool is_cheap = false;
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
-    const std::uint32_t x = middle(at % across, across, image.width), y = middle(at / across, count / across, image.height);
-    trace.add_block({x, y, std::min(x + kBlockWidth, image.width), std::min(y + kBlockHeight, image.height)});
-    // Also when the blocks have doubled: what they take to the end is known before it is too much.
+    trace.add_pixel(middle(at % across, across, image.width), middle(at / across, count / across, image.height));
+    // Also when they have doubled: what they take to the end is known before it is too much.
     const std::uint32_t done = i + 1;
     if (trace.has_many_waiting() || (std::has_single_bit(done) && !is_cheap)) {
       trace.finish();
-      is_cheap = done >= kTellingBlocks && static_cast<double>(trace.crossings()) * count / done < kSmallPart * static_cast<double>(most_crossings);
+      is_cheap = done >= kTellingPixels && static_cast<double>(trace.crossings()) * count / done < kSmallPart * static_cast<double>(most_crossings);
     }
     at = (at + stride) % count;
   }

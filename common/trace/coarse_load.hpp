@@ -1,8 +1,6 @@
 // Where the work of a picture lies, from tracing a few of its pixels.
 #pragma once
 
-#include <array>
-
 #include "space/light_horizons.hpp"
 #include "space/rectilinear.hpp"
 #include "trace/domain.hpp"
@@ -17,12 +15,6 @@ inline constexpr std::uint64_t kMostCoarsePixels = 16384;
 /// in all where that is more: between mirrors and with many lights a pixel can take thousands.
 inline constexpr std::uint64_t kCoarseCrossingsPerPixel = 1;
 inline constexpr std::uint64_t kLeastCoarseCrossings = 100'000;
-
-/// What things cost beside a test of a primitive: a ray that is created, by kind, with what is shaded for it, a cell that a packet visits,
-/// and what a test takes longer for a quartic. Fitted to the time that evaluators took on 18 farms (ARCHITECTURE.md).
-inline constexpr std::array<double, kRayKinds> kCreatedCost{6, 10, 38, 38};
-inline constexpr double kCellCost = 7;
-inline constexpr double kQuarticCost = 50;
 
 /// A shadow ray that left what is traced together, with where it goes on.
 struct LeavingLight {

@@ -24,7 +24,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
   std::vector<TileCredit> credits;
   std::vector<Contribution> contributions;
   std::vector<std::uint32_t> tiles;
-  std::uint64_t granted = 0;
+  std::uint64_t granted = 0, work = 0;
   TokenRecord token;
   const BatchResult results[] = {decode_rays(bytes, limits, rays),
                                  decode_contributions(bytes, limits, credits, contributions),
@@ -32,6 +32,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
                                  decode_token(bytes, limits, token),
                                  decode_assignment(bytes, limits, tiles),
                                  decode_signal(bytes, limits),
+                                 decode_offer(bytes, limits, work),
                                  decode_rays(bytes, limits, class_rays, BatchType::kClassRays),
                                  decode_class_credit(bytes, limits, classes)};
   const BatchHeader* header = nullptr;
@@ -53,6 +54,8 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
       again = encode_contributions(header->stamp, credits, contributions);
       break;
     case BatchType::kLinkCredit: again = encode_link_credit(header->stamp, granted); break;
+    case BatchType::kIdle:
+    case BatchType::kIdleWithCopy: again = encode_offer(header->stamp, header->type, work); break;
     case BatchType::kToken: again = encode_token(header->stamp, token); break;
     case BatchType::kAssignment: again = encode_assignment(header->stamp, tiles); break;
     default: again = encode_signal(header->stamp, header->type); break;

@@ -16,12 +16,14 @@ using namespace graycube::testing;
 
 namespace {
 
-constexpr std::uint32_t kSide = 64;
+constexpr std::uint32_t kSide = 256;
+/// Of each node.
+constexpr std::size_t kTiles = 64;
 const Hypercube kCube = *Hypercube::of_size(4);
 
-/// A mirror ball in the middle of four macro-regions of 32 × 32 pixels, each of four tiles.
+/// A mirror ball in the middle of four macro-regions of 128 × 128 pixels.
 Model ball() {
-  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 64, "height": 64},
+  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 256, "height": 256},
     "camera": {"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40},
     "background": [1,0.5,0.25], "lights": [{"type": "point", "position": [3,4,-5], "color": [1,1,1]}],
     "materials": {"m": {"reflect": 0.5}},
@@ -72,7 +74,7 @@ struct Sent {
   std::size_t class_rays = 0;
 
   explicit Sent(Node& node) {
-    const BatchLimits limits{.pixel_count = 4 * kSide * kSide, .tile_count = 16, .max_depth = 5, .lights = 1,
+    const BatchLimits limits{.pixel_count = 4 * kSide * kSide, .tile_count = 4 * kTiles, .max_depth = 5, .lights = 1,
                              .columns = 2, .rows = 2, .nodes = 4};
     for (const Node::Outgoing& o : node.take_outgoing()) {
       if (!looks_like_batch(o.message.frame)) {
@@ -113,30 +115,66 @@ RayTask ray_in(RegionIndex region) {
 
 }  // namespace
 
-TEST_CASE("a node with tiles left has its slice copied to a neighbour that is idle, and then gives it half of them") {
+TEST_CASE("a node with much left has its slice copied to a neighbour that is idle, and then gives it tiles") {
   Worker owner(Rank{0});
   const Rank helper = owner.neighbour(1);
   const auto own = tiles_of(Rank{0});
-  REQUIRE(own.size() == 4);
+  REQUIRE(own.size() == kTiles);
   owner.assign(own);
-  for (int i = 0; i < 2; ++i) {
-    owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdle));
+  owner.node.on_neighbour(encode_offer(owner.stamp_of(helper), BatchType::kIdle, 0));
+  // What a tile takes is not known yet.
+  CHECK(Sent(owner.node).wishes.empty());
+  std::vector<control::Share> wishes;
+  int traced = 0;
+  for (; traced < 8; ++traced) {
+    REQUIRE(owner.work_once());
     const Sent sent(owner.node);
-    CHECK(sent.wishes.size() == (i == 0 ? 1 : 0));
-    if (i == 0) CHECK(sent.wishes.front() == control::Share{1, 0, helper.value});
+    wishes.insert(wishes.end(), sent.wishes.begin(), sent.wishes.end());
     CHECK(sent.tiles.empty());
   }
-  owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdleWithCopy));
+  REQUIRE(wishes.size() == 1);
+  CHECK(wishes.front() == control::Share{1, 0, helper.value});
+  owner.node.on_neighbour(encode_offer(owner.stamp_of(helper), BatchType::kIdleWithCopy, 0));
   const Sent sent(owner.node);
   REQUIRE(sent.tiles.size() == 1);
   CHECK(sent.tiles.front().first == helper);
-  CHECK(sent.tiles.front().second.size() == 2);
+  CHECK(sent.tiles.front().second.size() == 16);
   for (const std::uint32_t tile : sent.tiles.front().second) {
-    CHECK(std::find(own.begin() + 2, own.end(), tile) != own.end());
+    CHECK(std::find(own.end() - 16, own.end(), tile) != own.end());
   }
   // One offer, one gift.
+  CHECK(owner.work() == static_cast<int>(kTiles) - 16 - traced);
   CHECK(Sent(owner.node).tiles.empty());
-  CHECK(owner.work() == 2);
+}
+
+TEST_CASE("who has done as much as a node will have done gets nothing of it, and who has done a little less gets little") {
+  // What the node does by itself.
+  Worker alone(Rank{0});
+  alone.assign(tiles_of(Rank{0}));
+  alone.work();
+  std::uint64_t all = 0;
+  for (const Node::Outgoing& o : alone.node.take_outgoing()) {
+    if (looks_like_batch(o.message.frame)) static_cast<void>(decode_offer(o.message.frame, {.nodes = 4}, all));
+  }
+  REQUIRE(all > 0);
+  const auto given_to = [&](std::uint64_t offered_after) {
+    Worker owner(Rank{0});
+    const Rank helper = owner.neighbour(1);
+    owner.assign(tiles_of(Rank{0}));
+    for (const BatchType type : {BatchType::kIdle, BatchType::kIdleWithCopy}) {
+      owner.node.on_neighbour(encode_offer(owner.stamp_of(helper), type, offered_after));
+    }
+    std::size_t tiles = 0;
+    while (owner.work_once()) {
+      for (const auto& gift : Sent(owner.node).tiles) tiles += gift.second.size();
+    }
+    return tiles;
+  };
+  CHECK(given_to(0) == 16);
+  const std::size_t little = given_to(all - all / 8);
+  CHECK(little > 0);
+  CHECK(little < 10);
+  CHECK(given_to(2 * all) == 0);
 }
 
 TEST_CASE("a node traces its own pixels beside its macro-region, and none of it that are others'") {
@@ -146,8 +184,8 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
   const TilePlan plan(model.settings.image, {16, 16}, grid(), with_own.grid.own_edges);
   const auto own_of = [&](Rank rank) { return plan.tiles_of(share_of(kCube, rank)); };
   const Rank first{0}, second = kCube.owner_of(1, 0);
-  REQUIRE(own_of(first).size() == 6);
-  REQUIRE(own_of(second).size() == 2);
+  REQUIRE(own_of(first).size() == kTiles + 8);
+  REQUIRE(own_of(second).size() == kTiles - 8);
   const auto beside = part_beside(region_of(first), grid(), CameraFrame::from(model.settings.camera, model.settings.image),
                                   with_own.grid.own_edges);
   NodeAtWork node(kCube, first, with_own,
@@ -155,7 +193,7 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
   node.begin();
   node.assign(own_of(first));
   CHECK(Sent(node.node).errors.empty());
-  CHECK(node.work() >= 6);
+  CHECK(node.work() >= static_cast<int>(kTiles) + 8);
   const Sent sent(node.node);
   const auto own = own_of(first);
   CHECK(sent.tiles_with_credit == std::set<std::uint32_t>(own.begin(), own.end()));
@@ -166,10 +204,11 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
 TEST_CASE("an offer that comes before the picture begins here is not forgotten") {
   Worker owner(Rank{0}, false);
   const Rank helper = owner.neighbour(1);
-  owner.node.on_neighbour(encode_signal(owner.stamp_of(helper), BatchType::kIdle));
+  owner.node.on_neighbour(encode_offer(owner.stamp_of(helper), BatchType::kIdle, 0));
   CHECK(Sent(owner.node).wishes.empty());
   owner.begin();
   owner.assign(tiles_of(Rank{0}));
+  for (int i = 0; i < 8; ++i) owner.work_once();
   const Sent sent(owner.node);
   REQUIRE(sent.wishes.size() == 1);
   CHECK(sent.wishes.front() == control::Share{1, 0, helper.value});
@@ -179,7 +218,7 @@ TEST_CASE("an idle node says so once, and again with a copy; then it traces its 
   Worker helper(Rank{0});
   const Rank owner = helper.neighbour(0);
   helper.assign(tiles_of(Rank{0}));
-  CHECK(helper.work() == 4);
+  CHECK(helper.work() == static_cast<int>(kTiles));
   const Sent idle(helper.node);
   REQUIRE(idle.offers.size() == 2);
   for (const auto& [to, type] : idle.offers) CHECK(type == BatchType::kIdle);

@@ -87,8 +87,8 @@ std::vector<Bytes> one_of_each(Random& random) {
           encode_signal(kStamp, BatchType::kGreetingAck),
           encode_signal(kStamp, BatchType::kGoodbye),
           encode_signal(kStamp, BatchType::kGoodbyeAck),
-          encode_signal(kStamp, BatchType::kIdle),
-          encode_signal(kStamp, BatchType::kIdleWithCopy),
+          encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
+          encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
           encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
           encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF})};
 }
@@ -258,6 +258,15 @@ TEST_CASE("grants, tokens, assignments and signals come back as sent") {
   std::uint64_t granted = 0;
   REQUIRE(decode_link_credit(encode_link_credit(kStamp, 123456), kLimits, granted).index() == 0);
   CHECK(granted == 123456);
+  for (const auto type : {BatchType::kIdle, BatchType::kIdleWithCopy}) {
+    std::uint64_t work = 0;
+    const BatchResult result = decode_offer(encode_offer(kStamp, type, 1ull << 50), kLimits, work);
+    REQUIRE(std::holds_alternative<BatchHeader>(result));
+    CHECK(std::get<BatchHeader>(result).type == type);
+    CHECK(work == 1ull << 50);
+    CHECK(decode_signal(encode_offer(kStamp, type, 1), kLimits) == BatchResult(BatchError::kBadType));
+  }
+  CHECK(std::holds_alternative<BatchError>(decode_offer(encode_signal(kStamp, BatchType::kGreeting), kLimits, granted)));
   TokenRecord token;
   const TokenRecord sent{true, -5'000'000'000, 17, 300, 1ull << 33};
   REQUIRE(decode_token(encode_token(kStamp, sent), kLimits, token).index() == 0);
