@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,17 @@ std::uint16_t cell_of(std::uint16_t fine, const std::vector<std::uint32_t>& cuts
   return static_cast<std::uint16_t>(std::upper_bound(cuts.begin(), cuts.end(), fine) - cuts.begin());
 }
 
-/// Own parts of the picture end with the macro-region where they nearly do: narrower strips are traced in packets that aren't full.
+/// Strips no wider are traced in packets that aren't full.
 constexpr std::int64_t kNarrowStrip = 4;
+
+/// Own pixels end with the macro-region where they nearly do, but each node keeps some.
+void close_narrow_strips(std::span<const std::int64_t> region_edges, std::span<std::int64_t> own_edges) {
+  for (std::size_t i = 0; i < own_edges.size(); ++i) {
+    const std::int64_t edge = region_edges[i];
+    const bool follows = (i == 0 || own_edges[i - 1] < edge) && (i + 1 == own_edges.size() || edge < own_edges[i + 1]);
+    if (follows && std::abs(own_edges[i] - edge) <= kNarrowStrip) own_edges[i] = edge;
+  }
+}
 
 /// From 0 to the side of the picture.
 std::vector<std::int64_t> with_ends(const std::vector<std::int64_t>& inner, std::uint32_t side) {
@@ -52,9 +62,8 @@ Partition jagged_partition(const MacroGrid& cells, const CameraFrame& frame, std
   JaggedCuts cuts = jagged_cuts(load.map, with_ends(cells.column_edges(), frame.image.width),
                                 with_ends(cells.row_edges(), frame.image.height), columns, rows);
   const std::vector<std::int64_t> middle = mean_columns(cuts, columns);
-  for (std::size_t i = 0; i < cuts.columns.size(); ++i) {
-    const std::int64_t edge = middle[i % middle.size()];
-    if (std::abs(cuts.columns[i] - edge) <= kNarrowStrip) cuts.columns[i] = edge;
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    close_narrow_strips(middle, std::span(cuts.columns).subspan(row * middle.size(), middle.size()));
   }
   MacroGrid grid(frame, middle, cuts.rows);
   for (LeavingLight& light : load.left_by_light) {

@@ -79,7 +79,13 @@ class Contents {
  public:
   Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
            const Occluders& occluders)
-      : model_(model), frame_(CameraFrame::from(model.settings.camera, model.settings.image)), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
+      : model_(model),
+        frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
+        cube_(cube),
+        cut_(cut),
+        tree_(tree),
+        occluders_(occluders),
+        queries_(cube.nodes()) {
     if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
     for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
     room_ = std::min(slice_room(model_bytes, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));

@@ -12,6 +12,13 @@ namespace graycube {
 namespace {
 
 #ifdef __GLIBC__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Sanitizers have heaps of their own.
+constexpr bool kIsOurHeap = false;
+#else
+constexpr bool kIsOurHeap = true;
+#endif
+
 constexpr int kMapped = 32 << 20, kKept = 256 << 20, kAtOnce = 1 << 20;
 
 /// The heap grows once by all that lies in large pages. They begin behind what malloc has written to by then, the end of
@@ -40,9 +47,7 @@ void keep_freed_memory(unsigned arenas, std::size_t large) {
   mallopt(M_ARENA_MAX, static_cast<int>(arenas));
   mallopt(M_MMAP_THRESHOLD, kMapped);
   mallopt(M_TRIM_THRESHOLD, kKept);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  if (large > 0) set_large_pages_aside(large);
-#endif
+  if (kIsOurHeap && large > 0) set_large_pages_aside(large);
   mallopt(M_TOP_PAD, kAtOnce);
 #else
   static_cast<void>(arenas), static_cast<void>(large);

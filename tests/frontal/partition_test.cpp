@@ -53,6 +53,27 @@ TEST_CASE("where work lies where pixels are, each row of nodes has its own cuts,
   CHECK(prepared(scene, {.scatter = 2}, 16).grid.own_edges.empty());
 }
 
+TEST_CASE("own pixels of a row's nodes follow each other, however small the picture and however uneven the work") {
+  std::size_t beside = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    Scene scene = corner_scene();
+    scene.settings.image = {static_cast<std::uint32_t>(64 + dice.below(20)), static_cast<std::uint32_t>(64 + dice.below(20)), 1};
+    scene.settings.camera.look_at = {dice.between(-4, 4), dice.between(-4, 4), 0};
+    for (int i = 0; i < 30; ++i) scene.settings.lights.push_back(scene.settings.lights.front());
+    const PreparedScene cut = prepared(scene, {}, 16);
+    REQUIRE(cut.grid.own_edges.size() == 12);
+    for (std::size_t i = 0; i < 12; ++i) {
+      const std::int64_t before = i % 3 == 0 ? 0 : cut.grid.own_edges[i - 1];
+      REQUIRE(cut.grid.own_edges[i] > before);
+      REQUIRE(cut.grid.own_edges[i] < scene.settings.image.width);
+      beside += cut.grid.own_edges[i] != cut.grid.column_edges[i % 3] ? 1 : 0;
+    }
+  }
+  CHECK(beside > 100);
+}
+
 TEST_CASE("no pre-render is made where it would not pay") {
   SECTION("a picture with fewer primary rays than the scene has work for") {
     Scene scene = corner_scene();
