@@ -5,8 +5,13 @@
 #include <ctime>
 #include <utility>
 
+#include "memory/kept_heap.hpp"
+
 namespace graycube {
 namespace {
+
+/// About what rays, light and batches under way take of an evaluator's heap beside what it keeps.
+constexpr std::size_t kHeapOfRendering = std::size_t{1} << 20;
 
 double seconds_of(clockid_t clock) {
   timespec t{};
@@ -72,7 +77,10 @@ void EvaluatorPool::work(unsigned index) {
     WorkResult result = bench.run(std::move(*piece));
     lock.lock();
     // Rendering is counted when the evaluator waits: looking at the clock takes a system call.
-    if (is_build) since_last_count();
+    if (is_build) {
+      touch_heap_ahead(kHeapOfRendering);
+      since_last_count();
+    }
     if (is_primary) last_primary_ = WaitClock::Time::clock::now();
     node_.give_result(std::move(result));
   }

@@ -54,4 +54,10 @@ void keep_freed_memory(unsigned arenas, std::size_t large) {
 #endif
 }
 
+void touch_heap_ahead(std::size_t bytes) {
+  void* const block = std::malloc(bytes);
+  if (block != nullptr && bytes > 0) static_cast<volatile char*>(block)[bytes - 1] = 0;
+  std::free(block);
+}
+
 }  // namespace graycube

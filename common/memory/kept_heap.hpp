@@ -11,4 +11,8 @@ namespace graycube {
 /// library isn't glibc.
 void keep_freed_memory(unsigned arenas, std::size_t large);
 
+/// Has the system provide now the large page that the next `bytes` of the calling thread's heap end in, if it doesn't yet: it may
+/// take as long as a tile.
+void touch_heap_ahead(std::size_t bytes);
+
 }  // namespace graycube
