@@ -79,23 +79,14 @@ class Contents {
  public:
   Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
            const Occluders& occluders)
-      : model_(model),
-        frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
-        cube_(cube),
-        cut_(cut),
-        tree_(tree),
-        occluders_(occluders),
-        queries_(cube.nodes()) {
+      : model_(model), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
     if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
     for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
     room_ = std::min(slice_room(model_bytes, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
   }
 
   ModelContents of(Rank rank) const {
-    const RegionShare share = share_of(cube_, rank);
-    const RegionIndex region{static_cast<std::uint16_t>(share.column), static_cast<std::uint16_t>(share.row)};
-    const auto beside = part_beside(region, cut_.grid, frame_, cut_.own_edges);
-    ModelContents contents = contents_of_share(model_, cut_.grid, share, beside ? &*beside : nullptr);
+    ModelContents contents = contents_with_own_pixels(model_, cut_.grid, share_of(cube_, rank), cut_.own_edges);
     std::uint64_t held = 0;
     for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
     for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
@@ -119,7 +110,6 @@ class Contents {
   }
 
   const Model& model_;
-  CameraFrame frame_;
   const Hypercube& cube_;
   const Partition& cut_;
   const SurfaceTree* tree_;

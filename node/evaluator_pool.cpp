@@ -75,12 +75,12 @@ void EvaluatorPool::work(unsigned index) {
     if (is_build) busy_s_ += since_last_count();
     lock.unlock();
     WorkResult result = bench.run(std::move(*piece));
-    lock.lock();
     // Rendering is counted when the evaluator waits: looking at the clock takes a system call.
     if (is_build) {
       touch_heap_ahead(kHeapOfRendering);
       since_last_count();
     }
+    lock.lock();
     if (is_primary) last_primary_ = WaitClock::Time::clock::now();
     node_.give_result(std::move(result));
   }

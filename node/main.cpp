@@ -151,7 +151,8 @@ int become_node(const NodeArguments& a, std::size_t number, int until_closed, pi
 /// Forks a process for each node, writes their ids and ends: all that loading and linking took is done once, and the
 /// nodes are children of the frontal (a subreaper) like any others.
 int fork_nodes(const NodeArguments& a) {
-  // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread.
+  // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread, and is kept: while there
+  // is one, no other looks again.
   const ZmqContext first;
   const pid_t self = ::getpid(), frontal = ::getppid();
   std::array<int, 2> alive{};

@@ -178,7 +178,7 @@ class Node {
   void offer_help();
   void on_offer(Link& link, std::span<const std::byte> batch, Link::Offer offer);
   void share_work();
-  double work_ahead_of(const Link& link) const;
+  double work_to_spare(const Link& link) const;
   double work_of_a_tile() const;
   bool share_with(Link& link);
   void on_tiles(Link& link, std::span<const std::byte> batch);

@@ -78,16 +78,17 @@ void Node::on_offer(Link& link, std::span<const std::byte> batch, Link::Offer of
   share_work();
 }
 
+/// 0 while it isn't known.
 double Node::work_of_a_tile() const {
   return tiles_traced_ < kTellingTiles ? 0 : work_done_ / static_cast<double>(tiles_traced_);
 }
 
-/// What this node will have done, as far as can be told, beyond what a neighbour that is idle has: who is idle first need not have less to
-/// do, but may have been let run first. What it gets brings both to the same at half of that.
-double Node::work_ahead_of(const Link& link) const {
+/// What brings both to the same if a neighbour that is idle does it: half of what this node will have done, as far as can be told, beyond what
+/// the neighbour has. Who is idle first need not have less to do, but may have been let run first.
+double Node::work_to_spare(const Link& link) const {
   const double to_do = work_of_a_tile() * static_cast<double>(tiles_.size() + unassigned_tiles_) +
                        kRayWork * static_cast<double>(rays_.size());
-  return work_done_ + to_do - static_cast<double>(link.offered_after);
+  return 0.5 * (work_done_ + to_do - static_cast<double>(link.offered_after));
 }
 
 /// Gives neighbours that have nothing to do something of what waits here.
@@ -96,7 +97,7 @@ void Node::share_work() {
   for (Link& link : links_) {
     if (link.offer == Link::Offer::kIdleWithCopy && share_with(link)) link.offer = Link::Offer::kNone;
     if (link.offer != Link::Offer::kIdle || link.has_asked) continue;
-    const double tile = work_of_a_tile(), spare = 0.5 * work_ahead_of(link);
+    const double tile = work_of_a_tile(), spare = work_to_spare(link);
     const std::size_t least_tiles = kTilesToCopy + slice_bytes_ / kBytesPerTile;
     const std::size_t least_rays = kRaysToShare + slice_bytes_ / kBytesPerRay;
     const bool pays = (tile > 0 && tiles_.size() >= 2 * least_tiles && spare >= tile * static_cast<double>(least_tiles)) ||
@@ -110,7 +111,7 @@ void Node::share_work() {
 /// Tiles rather than rays: they are a few bytes. The last ones: this node comes from the other end.
 bool Node::share_with(Link& link) {
   const std::size_t room = static_cast<std::size_t>(link.send_credit / kRayBytes);
-  const double tile = work_of_a_tile(), spare = 0.5 * work_ahead_of(link);
+  const double tile = work_of_a_tile(), spare = work_to_spare(link);
   if (tiles_.size() >= kTilesToShare && is_own_tile(tiles_.back()) && tile > 0 && spare >= tile) {
     std::vector<std::uint32_t> tiles;
     const std::size_t most = std::min({tiles_.size() / 2, kMostTilesAtATime, static_cast<std::size_t>(spare / tile)});

@@ -4,9 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "geometry/check.hpp"
 

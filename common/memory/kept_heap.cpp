@@ -12,13 +12,6 @@ namespace graycube {
 namespace {
 
 #ifdef __GLIBC__
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// Sanitizers have heaps of their own.
-constexpr bool kIsOurHeap = false;
-#else
-constexpr bool kIsOurHeap = true;
-#endif
-
 constexpr int kMapped = 32 << 20, kKept = 256 << 20, kAtOnce = 1 << 20;
 
 /// The heap grows once by all that lies in large pages. They begin behind what malloc has written to by then, the end of

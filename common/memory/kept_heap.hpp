@@ -5,6 +5,13 @@
 
 namespace graycube {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// Sanitizers have heaps of their own.
+inline constexpr bool kIsOurHeap = false;
+#else
+inline constexpr bool kIsOurHeap = true;
+#endif
+
 /// Freed memory is kept for what comes next, batches above all, instead of being given back to the system and
 /// touched anew. At most `arenas` heaps; the first of them, which `large` bytes of address space are set aside for, lies in large
 /// pages (large_pages.hpp): they are taken as they are needed. To be called before there are threads; does nothing where the C

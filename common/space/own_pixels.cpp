@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace graycube {
+namespace {
+
+std::span<const std::int64_t> own_edges_of_row(std::span<const std::int64_t> own_edges, const MacroGrid& grid, std::uint32_t row) {
+  const std::size_t inner = grid.columns() - 1;
+  return own_edges.subspan(row * inner, inner);
+}
+
+}  // namespace
 
 RegionIndex owner_of_pixel(std::uint32_t x, RegionIndex region, const MacroGrid& grid, std::span<const std::int64_t> own_edges) {
   if (own_edges.empty()) return region;
@@ -23,6 +31,14 @@ std::optional<PicturePart> part_beside(RegionIndex region, const MacroGrid& grid
   const PixelRect inside = grid.pixels_of(region);
   if (std::max<std::int64_t>(begin, 0) >= inside.x0 && std::min(end, width) <= inside.x1) return std::nullopt;
   return PicturePart{MacroGrid(frame, {begin, end}, grid.row_edges()), {1, region.row}};
+}
+
+ModelContents contents_with_own_pixels(const Model& model, const MacroGrid& grid, const RegionShare& share,
+                                       std::span<const std::int64_t> own_edges) {
+  const RegionIndex region{static_cast<std::uint16_t>(share.column), static_cast<std::uint16_t>(share.row)};
+  const auto frame = CameraFrame::from(model.settings.camera, model.settings.image);
+  const auto beside = part_beside(region, grid, frame, own_edges);
+  return contents_of_share(model, grid, share, beside ? &*beside : nullptr);
 }
 
 }  // namespace graycube

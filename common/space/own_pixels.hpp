@@ -13,16 +13,15 @@
 
 namespace graycube {
 
-inline std::span<const std::int64_t> own_edges_of_row(std::span<const std::int64_t> own_edges, const MacroGrid& grid, std::uint32_t row) {
-  const std::size_t inner = grid.columns() - 1;
-  return own_edges.subspan(row * inner, inner);
-}
-
 /// The region in the row of `region`, in which the pixel is, whose node traces the pixel's primary rays.
 RegionIndex owner_of_pixel(std::uint32_t x, RegionIndex region, const MacroGrid& grid, std::span<const std::int64_t> own_edges);
 
 /// What the own pixels of a region's node need of the scene beside the region itself; nothing where they are in it.
 std::optional<PicturePart> part_beside(RegionIndex region, const MacroGrid& grid, const CameraFrame& frame,
+                                       std::span<const std::int64_t> own_edges);
+
+/// What a share's macro-regions and own pixels need. Where own pixels are others than the regions', the share has one region.
+ModelContents contents_with_own_pixels(const Model& model, const MacroGrid& grid, const RegionShare& share,
                                        std::span<const std::int64_t> own_edges);
 
 }  // namespace graycube

@@ -74,9 +74,12 @@ std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
 
 std::vector<std::uint32_t> TilePlan::tiles_of(const RegionShare& share) const {
   std::vector<std::uint32_t> tiles;
-  for (std::uint32_t area = 0; area < areas_.size(); ++area) {
-    if (!share.owns(areas_[area].owner)) continue;
-    for (std::uint32_t i = 0; i < tile_count_of(area); ++i) tiles.push_back(first_tile(area) + i);
+  for (std::size_t row = share.row; row < first_areas_.size(); row += share.rows) {
+    const std::size_t end = row + 1 < first_areas_.size() ? first_areas_[row + 1] : areas_.size();
+    for (std::uint32_t area = first_areas_[row]; area < end; ++area) {
+      if (!share.owns_column(areas_[area].owner.column)) continue;
+      for (std::uint32_t i = 0; i < tile_count_of(area); ++i) tiles.push_back(first_tile(area) + i);
+    }
   }
   return tiles;
 }

@@ -134,6 +134,23 @@ TEST_CASE("where one node can't know where all is, none does, and own pixels are
   }
 }
 
+TEST_CASE("where objects without bounds are too many for one node, no node knows what is foreign") {
+  // Floors one below the other, all below the picture's middle, are too many for the nodes above it.
+  std::vector<CsgNode> floors;
+  for (int i = 0; i < 80; ++i) floors.push_back(node_of(HalfSpaceShape{{0, 1, 0}, -2.0 - i}));
+  Scene scene = many_balls();
+  scene.objects = scene_of(std::move(floors)).objects;
+  // Evenly: rows that aren't cut in the middle reach the floors behind the eye.
+  const auto all = slices(prepared(scene, {.partition = PartitionMode::kRegular}, 16));
+  std::size_t fewest = 80;
+  for (std::size_t rank = 0; rank < 16; ++rank) {
+    INFO("rank " << rank);
+    CHECK_FALSE(all[rank].foreign_bounds);
+    fewest = std::min(fewest, all[rank].model.objects.size());
+  }
+  CHECK(fewest < 80);
+}
+
 TEST_CASE("what a node gets beside its own part is what its shadow rays ask for") {
   const Scene scene = many_balls();
   const Model model = compile_scene(scene);

@@ -14,12 +14,6 @@
 namespace graycube {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsOurHeap = false;
-#else
-constexpr bool kIsOurHeap = true;
-#endif
-
 long page_faults() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

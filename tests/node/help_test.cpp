@@ -186,10 +186,8 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
   const Rank first{0}, second = kCube.owner_of(1, 0);
   REQUIRE(own_of(first).size() == kTiles + 8);
   REQUIRE(own_of(second).size() == kTiles - 8);
-  const auto beside = part_beside(region_of(first), grid(), CameraFrame::from(model.settings.camera, model.settings.image),
-                                  with_own.grid.own_edges);
-  NodeAtWork node(kCube, first, with_own,
-                  encode_model(extract(model, contents_of_share(model, grid(), share_of(kCube, first), &*beside))));
+  const ModelContents contents = contents_with_own_pixels(model, grid(), share_of(kCube, first), with_own.grid.own_edges);
+  NodeAtWork node(kCube, first, with_own, encode_model(extract(model, contents)));
   node.begin();
   node.assign(own_of(first));
   CHECK(Sent(node.node).errors.empty());

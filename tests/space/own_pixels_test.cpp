@@ -55,8 +55,7 @@ TEST_CASE("what a part beside a region needs is all that its primary rays meet")
     for (std::uint16_t row = 0; row < 2; ++row) {
       for (std::uint16_t column = 0; column < 2; ++column) {
         const RegionIndex region{column, row};
-        const auto beside = part_beside(region, grid, camera, own);
-        const Model slice = extract(model, contents_of_share(model, grid, only(region, grid), beside ? &*beside : nullptr));
+        const Model slice = extract(model, contents_with_own_pixels(model, grid, only(region, grid), own));
         more += slice.primitives.size() > restrict_to_share(model, grid, only(region, grid)).primitives.size() ? 1 : 0;
         const SurfaceTree tree = SurfaceTree::build(slice);
         for (std::uint32_t y = 0; y < camera.image.height; ++y) {

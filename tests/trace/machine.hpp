@@ -85,16 +85,13 @@ class Machine {
   Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice,
           std::vector<std::int64_t> own_edges = {})
       : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows), own_edges_(std::move(own_edges)) {
-    const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
     const Occluders occluders = Occluders::of(model);
     const SurfaceTree whole = SurfaceTree::build(model);
     const ForeignBoundsMaker maker(whole);
     for (std::uint32_t row = 0; row < rows; ++row) {
       for (std::uint32_t column = 0; column < columns; ++column) {
         const RegionShare share{columns, rows, column, row};
-        const RegionIndex region{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row)};
-        const auto beside = part_beside(region, grid, frame, own_edges_);
-        ModelContents contents = contents_of_share(model, grid, share, beside ? &*beside : nullptr);
+        ModelContents contents = contents_with_own_pixels(model, grid, share, own_edges_);
         const std::uint64_t one_in = 1 + dice.below(4);
         std::vector<bool> chosen(model.objects.size());
         for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
