@@ -3,14 +3,11 @@
 #include <algorithm>
 
 namespace graycube {
-namespace {
 
 std::span<const std::int64_t> own_edges_of_row(std::span<const std::int64_t> own_edges, const MacroGrid& grid, std::uint32_t row) {
   const std::size_t inner = grid.columns() - 1;
   return own_edges.subspan(row * inner, inner);
 }
-
-}  // namespace
 
 RegionIndex owner_of_pixel(std::uint32_t x, RegionIndex region, const MacroGrid& grid, std::span<const std::int64_t> own_edges) {
   if (own_edges.empty()) return region;

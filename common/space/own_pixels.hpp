@@ -13,6 +13,9 @@
 
 namespace graycube {
 
+/// Those between the own pixels of that row; `own_edges` are not empty.
+std::span<const std::int64_t> own_edges_of_row(std::span<const std::int64_t> own_edges, const MacroGrid& grid, std::uint32_t row);
+
 /// The region in the row of `region`, in which the pixel is, whose node traces the pixel's primary rays.
 RegionIndex owner_of_pixel(std::uint32_t x, RegionIndex region, const MacroGrid& grid, std::span<const std::int64_t> own_edges);
 

@@ -36,18 +36,22 @@ TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& gri
 
 /// Areas end where the macro-region changes or the owner does.
 void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row, std::span<const std::int64_t> own_edges) {
-  const auto region_at = [&](std::uint32_t x) { return RegionIndex{grid.region_of_pixel(x, 0).column, row}; };
-  const auto owner_at = [&](std::uint32_t x) { return owner_of_pixel(x, region_at(x), grid, own_edges); };
+  std::vector<std::uint32_t> ends{image_.width};
+  for (const std::span<const std::int64_t> edges : {std::span(grid.column_edges()), own_edges_of_row(own_edges, grid, row)}) {
+    for (const std::int64_t edge : edges) {
+      if (edge > 0 && edge < image_.width) ends.push_back(static_cast<std::uint32_t>(edge));
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   const PixelRect pixels = grid.pixels_of({0, row});
   std::uint32_t began = 0;
   std::uint16_t areas = 0;
-  for (std::uint32_t x = 0; x < image_.width; ++x) {
-    place_of_x_.push_back(areas);
-    const bool ends = x + 1 == image_.width || region_at(x + 1) != region_at(x) || owner_at(x + 1) != owner_at(x);
-    if (!ends) continue;
-    add_area({began, pixels.y0, x + 1, pixels.y1}, region_at(x), owner_at(x));
-    began = x + 1;
-    ++areas;
+  for (const std::uint32_t end : ends) {
+    const RegionIndex region{grid.region_of_pixel(began, 0).column, row};
+    add_area({began, pixels.y0, end, pixels.y1}, region, owner_of_pixel(began, region, grid, own_edges));
+    place_of_x_.insert(place_of_x_.end(), end - began, areas++);
+    began = end;
   }
 }
 
