@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace graycube {
 namespace {
@@ -21,11 +22,13 @@ std::string description(int status) {
   return "exited with status " + std::to_string(WEXITSTATUS(status));
 }
 
-/// The child starts with default signal handling and nothing blocked, whatever the frontal has set, and writes to `output`.
+/// The child starts with default signal handling and nothing blocked, whatever the frontal has set, reads from `input` and writes to
+/// `output`.
 class SpawnPlan {
  public:
-  explicit SpawnPlan(int output) {
+  SpawnPlan(int input, int output) {
     ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     ::posix_spawnattr_init(&attributes_);
     sigset_t none, all;
@@ -49,6 +52,27 @@ class SpawnPlan {
   posix_spawnattr_t attributes_;
 };
 
+class Pipe {
+ public:
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  }
+  ~Pipe() {
+    ::close(ends_[0]);
+    close_writing_end();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  int reading_end() const { return ends_[0]; }
+  int writing_end() const { return ends_[1]; }
+  void close_writing_end() {
+    if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
+  }
+
+ private:
+  std::array<int, 2> ends_{};
+};
+
 /// What comes out of a pipe until its other end is closed.
 std::string all_of(int pipe) {
   std::string text;
@@ -62,10 +86,10 @@ std::string all_of(int pipe) {
 
 double seconds_of(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
-/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`.
+/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`. Its standard input, and that of processes it leaves behind, ends
+/// when it has ended.
 std::string output_of(std::vector<std::string> command, double& cpu_s) {
-  std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  Pipe input, output;
   std::vector<char*> argv;
   for (std::string& a : command) argv.push_back(a.data());
   argv.push_back(nullptr);
@@ -74,15 +98,13 @@ std::string output_of(std::vector<std::string> command, double& cpu_s) {
   std::vector<char*> environment{bind_now.data()};
   for (char** variable = environ; *variable != nullptr; ++variable) environment.push_back(*variable);
   environment.push_back(nullptr);
-  const SpawnPlan plan(pipe[1]);
+  const SpawnPlan plan(input.reading_end(), output.writing_end());
   pid_t pid = 0;
   const int error =
       ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(), argv.data(), environment.data());
-  ::close(pipe[1]);
-  std::string text;
-  if (error == 0) text = all_of(pipe[0]);
-  ::close(pipe[0]);
+  output.close_writing_end();
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
+  std::string text = all_of(output.reading_end());
   rusage usage{};
   while (::wait4(pid, nullptr, 0, &usage) == -1 && errno == EINTR) {
   }

@@ -1,12 +1,10 @@
 // graycube-node: one corner of the hypercube. The main thread is the mailroom: it owns every socket.
 #include <fcntl.h>
-#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -134,14 +132,12 @@ int run_node(const NodeArguments& a, std::size_t number) {
   return 0;
 }
 
-/// In a process just forked: once its parent has ended, and the frontal has become its parent, a node.
-int become_node(const NodeArguments& a, std::size_t number, int until_closed, pid_t forked_from, pid_t frontal) {
+/// In a process just forked: once its parent has ended, and the frontal has become its parent, a node. Standard input is what the
+/// frontal closes then.
+int become_node(const NodeArguments& a, std::size_t number, pid_t frontal) {
   char none = 0;
-  while (::read(until_closed, &none, 1) == -1 && errno == EINTR) {
+  while (::read(STDIN_FILENO, &none, 1) == -1 && errno == EINTR) {
   }
-  ::close(until_closed);
-  // A process closes its files just before its children change parents.
-  while (::getppid() == forked_from) ::sched_yield();
   // A node never outlives its frontal.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != frontal) return 1;
@@ -154,20 +150,17 @@ int fork_nodes(const NodeArguments& a) {
   // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread, and is kept: while there
   // is one, no other looks again.
   const ZmqContext first;
-  const pid_t self = ::getpid(), frontal = ::getppid();
-  std::array<int, 2> alive{};
-  if (::pipe2(alive.data(), O_CLOEXEC) != 0) return fail("start", "pipe", std::strerror(errno), 1);
+  const pid_t frontal = ::getppid();
   std::string pids;
   for (std::size_t number = 0; number < a.ranks.size(); ++number) {
     const pid_t pid = ::fork();
     if (pid < 0) return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
     if (pid == 0) {
-      ::close(alive[1]);
       // What the frontal waits for the end of.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       ::dup2(nowhere, STDOUT_FILENO);
       ::close(nowhere);
-      return become_node(a, number, alive[0], self, frontal);
+      return become_node(a, number, frontal);
     }
     pids += std::to_string(pid) + '\n';
   }
