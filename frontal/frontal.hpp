@@ -88,6 +88,8 @@ class Frontal {
 
   /// CPU seconds that this process has used so far; for the statistics.
   std::function<double()> cpu_seconds = [] { return 0.0; };
+  /// What of them starting processes took, this one included.
+  std::function<double()> start_cpu_seconds = [] { return 0.0; };
 
  private:
   struct NodeRecord {
@@ -108,7 +110,8 @@ class Frontal {
     control::JobInfo info;
     control::JobOptions options;
     double submitted_at_s = 0, began_at_s = 0, build_began_s = 0, render_began_s = 0, render_ended_s = 0;
-    double cpu_at_start_s = 0;
+    /// 0 for the first job: what came before it was for its sake.
+    double cpu_at_start_s = 0, start_cpu_at_start_s = 0;
     double last_progress_s = 0;
     bool is_preparing = false;
     std::optional<RenderJob> render;

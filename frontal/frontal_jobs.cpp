@@ -29,7 +29,10 @@ void Frontal::start_next_job() {
   job.submitted_at_s = next.submitted_at_s;
   job.began_at_s = now_s_;
   job.is_preparing = true;
-  job.cpu_at_start_s = job.info.job == 1 ? 0 : cpu_seconds();
+  if (job.info.job > 1) {
+    job.cpu_at_start_s = cpu_seconds();
+    job.start_cpu_at_start_s = start_cpu_seconds();
+  }
   job.info.state = JobState::kLoading;
   job.info.started_s = unix_s_;
   report_progress(true);
@@ -249,6 +252,7 @@ std::string Frontal::statistics(const std::string& failed) const {
   s.wall_s = now_s_ - running_->submitted_at_s;
   s.frontal_cpu_s = cpu_seconds() - running_->cpu_at_start_s;
   s.cpu_s = s.frontal_cpu_s;
+  s.start_cpu_s = start_cpu_seconds() - running_->start_cpu_at_start_s;
   s.load_s = render.scene().load_s;
   s.partition_s = render.scene().partition_s;
   s.build_s = running_->render_began_s - running_->build_began_s;

@@ -71,9 +71,11 @@ class FrontalProcess {
                  *store_),
         preparation_(wakeup_) {
     frontal_.cpu_seconds = [this] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s(); };
+    frontal_.start_cpu_seconds = [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); };
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     if (http_) std::cout << "page " << http_->url() << std::endl;
     std::cout << "listening " << inbox_.endpoint() << std::endl;
+    own_start_cpu_s_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   }
 
   /// Until the farm is down; why it gave up, or nothing.
@@ -133,6 +135,7 @@ class FrontalProcess {
   }
 
   int signals_;
+  double own_start_cpu_s_ = 0;
   TemporaryFolder folder_;
   ZmqContext context_;
   Wakeup wakeup_;

@@ -44,6 +44,7 @@ void EvaluatorPool::grow(unsigned threads) {
 /// Called with the lock held, after anything may have changed in the brain.
 void EvaluatorPool::after_change() {
   grow(node_.threads());
+  if (!start_cpu_s_ && node_.has_job()) start_cpu_s_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, node_.is_rendering());
   if (node_.has_outgoing() || node_.is_shut_down()) mailroom_.signal();
   if (waiting_ > 0 && node_.may_have_work()) changed_.notify_all();
@@ -91,6 +92,8 @@ void EvaluatorPool::measure(control::NodeStats& stats) {
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, false);
   const double cpu_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
+  stats.start_cpu_s = start_cpu_s_.value_or(0);
+  start_cpu_s_ = 0;
   stats.busy_s = std::exchange(busy_s_, 0);
   if (last_primary_) {
     const auto since = WaitClock::Time::clock::now() - *last_primary_;

@@ -48,6 +48,8 @@ class EvaluatorPool {
   std::optional<WaitClock::Time> last_primary_;
   double busy_s_ = 0;
   double cpu_reported_s_ = 0;
+  /// Until the first job came.
+  std::optional<double> start_cpu_s_;
 };
 
 }  // namespace graycube

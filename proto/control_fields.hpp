@@ -56,6 +56,7 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("gray", m.gray, kRankRange);
   visit("pid", m.pid);
   visit("cpu_s", m.cpu_s, kSeconds);
+  visit("start_cpu_s", m.start_cpu_s, {.min = 0, .has_default = true});
   visit("busy_s", m.busy_s, kSeconds);
   visit("idle_s", m.idle_s, kSeconds);
   visit("blocked_s", m.blocked_s, kSeconds);

@@ -91,6 +91,8 @@ struct NodeStats {
   std::uint32_t rank = 0, gray = 0;
   std::uint64_t pid = 0;
   double cpu_s = 0, busy_s = 0, idle_s = 0, blocked_s = 0, window_s = 0;
+  /// What of cpu_s the process took before its first job came; 0 in those after it.
+  double start_cpu_s = 0;
   std::uint64_t rays_in = 0, rays_out = 0, queue_peak = 0, primitives = 0, peak_rss_bytes = 0;
   /// Rays, counted where they are created.
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;

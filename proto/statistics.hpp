@@ -29,6 +29,8 @@ struct Statistics {
   double wall_s = 0, cpu_s = 0;
   /// The frontal's part of cpu_s.
   double frontal_cpu_s = 0;
+  /// What of that went into starting processes; the nodes' own part comes on top.
+  double start_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
   /// By rank; what the nodes sent of themselves. Totals are summed from these.

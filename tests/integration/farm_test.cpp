@@ -157,6 +157,12 @@ TEST_CASE("submit --wait is a render on the farm") {
   CHECK(o.err.find("token round") != std::string::npos);
   CHECK(sandbox.files() == std::vector<std::string>{"a.exr", "a.json", "a.png"});
   CHECK(read_exr(sandbox / "a.exr").width == 64);
+  ok(sandbox, {"submit", first(), "--wait", "--algorithm", "macro", "--size", "64x48", "--stats", "b.json"});
+  const auto start_cpu_s = [&](const char* stats) {
+    return sandbox.json(stats)["start_cpu_s"].get<double>();
+  };
+  CHECK(start_cpu_s("a.json") > 0);
+  CHECK(start_cpu_s("b.json") == 0);
   CHECK(sandbox.run({"submit", first(), "-n", "8"}).status == 2);
   CHECK(sandbox.run({"submit", first(), "--wait", "--size", kLongSize, "--timeout", "0.3", "-q"})
             .status == 1);

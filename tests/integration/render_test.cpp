@@ -72,19 +72,24 @@ TEST_CASE("a macro render's statistics add up") {
   CHECK(s["balance"]["efficiency"] > 0);
   CHECK(s["balance"]["efficiency"] <= 1);
   REQUIRE(s["per_node"].size() == 8);
-  double cpu_s = 0;
+  double cpu_s = 0, start_cpu_s = 0;
   std::uint64_t rays_in = 0, rays_out = 0;
   for (std::size_t rank = 0; rank < 8; ++rank) {
     const Json& n = s["per_node"][rank];
     CHECK(n["rank"] == rank);
     CHECK(n["busy_s"] <= n["cpu_s"]);
     CHECK(n["peak_rss_bytes"] > 0);
+    CHECK(n["start_cpu_s"] > 0);
+    CHECK(n["start_cpu_s"].get<double>() + n["busy_s"].get<double>() <= n["cpu_s"]);
     cpu_s += n["cpu_s"].get<double>();
+    start_cpu_s += n["start_cpu_s"].get<double>();
     rays_in += n["rays_in"].get<std::uint64_t>();
     rays_out += n["rays_out"].get<std::uint64_t>();
   }
   CHECK(rays_in == rays_out);
   CHECK(s["cpu_s"] >= cpu_s);
+  CHECK(s["start_cpu_s"] > start_cpu_s);
+  CHECK(s["start_cpu_s"] < s["cpu_s"]);
   CHECK(s["wall_s"] >= s["phases"]["render_s"]);
 }
 
@@ -109,6 +114,7 @@ TEST_CASE("a serial render's statistics have the same shape as a farm's") {
   CHECK(node["busy_s"] > 0);
   CHECK(node["busy_s"] <= serial["cpu_s"]);
   CHECK(serial["cpu_s"] > 0);
+  CHECK(serial["start_cpu_s"] == 0);
 }
 
 TEST_CASE("in macro no node holds the whole scene, and more nodes hold less each") {

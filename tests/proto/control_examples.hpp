@@ -25,6 +25,7 @@ inline control::NodeStats example_stats() {
   s.shadow = 157297;
   s.reflection = 20349;
   s.refraction = 10879;
+  s.start_cpu_s = 0.0625;
   s.sum_batches = 17;
   s.sum_bytes = 170000;
   s.malformed_drops = 1;
