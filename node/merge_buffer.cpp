@@ -58,12 +58,17 @@ void MergeBuffer::expect_others(bool others) {
 void MergeBuffer::clear() {
   merged_.credits.clear();
   merged_.contributions.clear();
-  merged_.contributions.reserve(kFullPixels);
   pixels_.clear();
   tiles_.clear();
 }
 
+/// Not before there is light: what a node got to build from has been freed by then, and this takes its place.
+void MergeBuffer::make_room() {
+  if (merged_.contributions.capacity() == 0) merged_.contributions.reserve(kFullPixels);
+}
+
 std::size_t MergeBuffer::add(std::span<const PixelReturn> returns, const TilePlan& plan) {
+  make_room();
   std::size_t taken = 0;
   for (; taken < returns.size() && !is_full(); ++taken) {
     const PixelReturn& r = returns[taken];
@@ -80,6 +85,7 @@ bool MergeBuffer::add_gathered(std::span<const TileCredit> credits,
       merged_.contributions.size() + contributions.size() > most_) {
     return false;
   }
+  make_room();
   for (const TileCredit& c : credits) add_credit(c.tile, c.credit);
   for (const Contribution& c : contributions) add_light(c.pixel, c.light);
   return true;
@@ -87,6 +93,7 @@ bool MergeBuffer::add_gathered(std::span<const TileCredit> credits,
 
 std::size_t MergeBuffer::add_tile(std::span<const PixelReturn> returns, std::uint32_t tile,
                                   const TilePlan& plan) {
+  make_room();
   auto& all = merged_.contributions;
   const std::size_t room = is_full() ? 0 : full_ - all.size();
   const auto taken = returns.first(std::min(returns.size(), room));

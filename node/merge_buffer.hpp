@@ -72,6 +72,7 @@ class MergeBuffer {
     std::uint32_t generation_ = 1;
   };
 
+  void make_room();
   void add_credit(std::uint32_t tile, const Credit& credit);
   void add_light(std::uint32_t pixel, const FixedRgb& light);
 
