@@ -69,6 +69,25 @@ TEST_CASE("what is merged sums up to what came in, through many fillings") {
   }
 }
 
+TEST_CASE("a buffer takes its room when the first light comes, whichever way, and keeps it") {
+  PixelReturn r;
+  r.merged = 1;
+  r.light = {1, 2, 3};
+  r.credit.add_power(0);
+  const auto room = [](const MergeBuffer& buffer) { return buffer.gathered().contributions.capacity(); };
+  MergeBuffer by_pixels, by_tile, gathered;
+  gathered.expect_others(true);
+  for (const MergeBuffer* buffer : {&by_pixels, &by_tile, &gathered}) CHECK(room(*buffer) == 0);
+  CHECK(by_pixels.add({&r, 1}, kPlan) == 1);
+  CHECK(by_tile.add_tile({&r, 1}, 0, kPlan) == 1);
+  CHECK(gathered.add_gathered(by_tile.gathered().credits, by_tile.gathered().contributions));
+  for (MergeBuffer* buffer : {&by_pixels, &by_tile, &gathered}) {
+    CHECK(room(*buffer) >= MergeBuffer::kFullPixels);
+    buffer->clear();
+    CHECK(room(*buffer) >= MergeBuffer::kFullPixels);
+  }
+}
+
 TEST_CASE("a pixel that comes again is one contribution, until a record can't hold it") {
   for (const bool others : {false, true}) {
     MergeBuffer buffer;
