@@ -19,7 +19,7 @@ sys.dont_write_bytecode = True  # nothing is left in the source folder
 
 from measure import Failure, run
 
-GRAYCUBE = Path(__file__).resolve().parent.parent / "build/release/bin/graycube"
+GRAYCUBE = Path(__file__).resolve().parent.parent / "build/bench/bin/graycube"
 LONGEST_S = 600
 
 
@@ -51,16 +51,21 @@ class Farm:
         self.graycube, self.nodes, self.endpoint = graycube, nodes, f"ipc://{folder}/farm"
 
     def __enter__(self):
-        self.process = subprocess.Popen([self.graycube, "up", "-n", str(self.nodes), "--listen", self.endpoint],
-                                        stdout=subprocess.DEVNULL)
+        try:
+            self.process = subprocess.Popen([self.graycube, "up", "-n", str(self.nodes), "--listen", self.endpoint],
+                                            stdout=subprocess.DEVNULL)
+        except OSError as e:
+            raise Failure(f"cannot run {self.graycube}: {e.strerror}") from e
         for _ in range(100):
             if subprocess.run([self.graycube, "nodes", "--connect", self.endpoint], capture_output=True).returncode == 0:
                 return self
             time.sleep(0.1)
+        self.__exit__()
         raise Failure("the farm doesn't answer")
 
     def __exit__(self, *_):
         subprocess.run([self.graycube, "down", "--connect", self.endpoint], capture_output=True)
+        self.process.terminate()
         self.process.wait()
 
 
@@ -87,18 +92,23 @@ def measured(turns: Turns, nodes: int, renders: int, folder: Path) -> list:
             f"{statistics.median(balance):.2f} ({balance[0]:.2f} to {balance[-1]:.2f})", f"{blocked:.3f}", str(rounds)]
 
 
+def numbers(text: str) -> list:
+    return [int(n) for n in text.split(",")]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="+", type=Path, help="scene files")
-    parser.add_argument("-n", "--nodes", default="16,64", help="numbers of nodes (default 16,64)")
+    parser.add_argument("-n", "--nodes", default="16,64", type=numbers,
+                        help="numbers of nodes (default 16,64)")
     parser.add_argument("--size", default="1024x1024")
     parser.add_argument("--renders", type=int, default=5, help="turns (default 5)")
-    parser.add_argument("--graycube", type=Path, default=GRAYCUBE, help="the command (default: that of build/release)")
+    parser.add_argument("--graycube", type=Path, default=GRAYCUBE, help="the command (default: that of build/bench)")
     arguments = parser.parse_args()
     rows = [["SCENE", "NODES", "SERIAL s", "RENDER", "OF IT START", "FARM IS UP", "EFFICIENCY", "BLOCKED", "ROUNDS"]]
     try:
         for scene in arguments.scenes:
-            for nodes in map(int, arguments.nodes.split(",")):
+            for nodes in arguments.nodes:
                 with tempfile.TemporaryDirectory(prefix="gc-") as folder:
                     turns = Turns(arguments.graycube.resolve(), scene.resolve(), arguments.size, Path(folder))
                     rows.append(measured(turns, nodes, arguments.renders, Path(folder)))

@@ -3,7 +3,8 @@
 # in build/bench, generates scenes, runs, prints tables. Arguments go to bench/compare.py, as in
 #   deploy/bench.sh --quick
 #   deploy/bench.sh --seeds 21,22,23 --size 1024 --families csg:1000,flake:5 --json out/bench.json
-# `deploy/bench.sh --kernels [Google Benchmark's options]` runs the micro-benchmarks instead.
+# `deploy/bench.sh --kernels [Google Benchmark's options]` runs the micro-benchmarks instead, and `deploy/bench.sh --farm SCENE…` (with
+# bench/farm_cost.py's options) measures farms: what their processes cost, and renders beside serial.
 set -euo pipefail
 called_from=$PWD
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
@@ -44,13 +45,19 @@ say "Building in build/bench"
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DGRAYCUBE_BENCH=ON \
   -DGRAYCUBE_TESTS=ON --log-level=WARNING >&2
 cmake --build build/bench --parallel "$(nproc)" --target graycube compare_pictures scene_family \
-  trace_time plain_tracer rays_vs_embree kernels -- --quiet >&2
+  trace_time plain_tracer rays_vs_embree kernels graycube-frontal graycube-node bare_farm -- --quiet >&2
 
 if [[ ${1-} == --kernels ]]; then
   exec build/bench/bin/kernels "${@:2}"
 fi
-say "Running; a full comparison takes ten minutes or so"
 programs=$PWD/build/bench/bin
+if [[ ${1-} == --farm ]]; then
+  "$programs/bare_farm" 16 64
+  farm_cost=$PWD/bench/farm_cost.py
+  cd -- "$called_from"
+  exec python3 "$farm_cost" --graycube "$programs/graycube" "${@:2}"
+fi
+say "Running; a full comparison takes ten minutes or so"
 compare=$PWD/bench/compare.py
 cd -- "$called_from" # so that --json's file is where the caller means it
 exec python3 "$compare" --bin "$programs" "$@"
