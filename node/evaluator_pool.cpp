@@ -11,7 +11,7 @@ namespace graycube {
 namespace {
 
 /// About what rays, light and batches under way take of an evaluator's heap beside what it keeps.
-constexpr std::size_t kHeapOfRendering = std::size_t{1} << 19;
+constexpr std::size_t kHeapOfRendering = std::size_t{1} << 20;
 
 double seconds_of(clockid_t clock) {
   timespec t{};
