@@ -34,6 +34,8 @@ std::string name_of(Stage stage) {
   return {};
 }
 
+std::string endpoint_of(const TemporaryFolder& folder, const std::string& name) { return "ipc://" + (folder / name).string(); }
+
 Message some_message() { return Message::of_text("hello"); }
 
 void receive(Connection& connection) {
@@ -53,10 +55,10 @@ std::string receive(Inbox& inbox) {
 void run_process(Rank rank, const Hypercube& cube, Stage stage, const TemporaryFolder& folder) {
   if (stage == Stage::kForked) return;
   keep_freed_memory(1, 0);
-  const auto endpoint = [&](Rank of) { return "ipc://" + (folder / std::to_string(of.value)).string(); };
+  const auto endpoint = [&](Rank of) { return endpoint_of(folder, std::to_string(of.value)); };
   ZmqContext context;
   Inbox inbox(context, endpoint(rank));
-  Connection hub(context, "ipc://" + (folder / "hub").string());
+  Connection hub(context, endpoint_of(folder, "hub"));
   hub.send(some_message());
   // All inboxes are there now.
   receive(hub);
@@ -110,7 +112,7 @@ void measure(const Hypercube& cube, Stage stage) {
   long faults = 0;
   {
     ZmqContext context;
-    Inbox hub(context, "ipc://" + (folder / "hub").string());
+    Inbox hub(context, endpoint_of(folder, "hub"));
     ::close(start[1]);
     ::close(start[0]);
     if (stage != Stage::kForked) answer_all(hub, cube.nodes());

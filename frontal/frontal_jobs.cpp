@@ -260,7 +260,10 @@ std::string Frontal::statistics(const std::string& failed) const {
   s.token_rounds = render.rounds();
   s.token_hops = render.hops();
   s.per_node = render.reports();
-  for (const control::NodeStats& n : s.per_node) s.cpu_s += n.cpu_s;
+  for (const control::NodeStats& n : s.per_node) {
+    s.cpu_s += n.cpu_s;
+    s.start_cpu_s += n.start_cpu_s;
+  }
   return statistics_json(s);
 }
 

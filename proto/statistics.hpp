@@ -29,7 +29,7 @@ struct Statistics {
   double wall_s = 0, cpu_s = 0;
   /// The frontal's part of cpu_s.
   double frontal_cpu_s = 0;
-  /// What of that went into starting processes; the nodes' own part comes on top.
+  /// The part of cpu_s that went into starting processes.
   double start_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
