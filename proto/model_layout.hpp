@@ -15,10 +15,12 @@ inline constexpr std::size_t kSettingsBytes = 188;
 inline constexpr std::size_t kLightBytes = 49;
 inline constexpr std::size_t kMaterialBytes = 81;
 inline constexpr std::size_t kPlaneBytes = 32;
-/// The two counts; at least one point and one triangle follow.
-inline constexpr std::size_t kMeshBytes = 8;
+/// The three counts; at least one point and one triangle follow.
+inline constexpr std::size_t kMeshBytes = 12;
 inline constexpr std::size_t kPointBytes = 24;
 inline constexpr std::size_t kTriangleBytes = 12;
+/// A triangle's plane, where a mesh has planes of other solids.
+inline constexpr std::size_t kPlaneNumberBytes = 4;
 inline constexpr std::size_t kNodeBytes = 5;
 inline constexpr std::size_t kObjectBytes = 60;
 /// Kind, flags and material; what the flags name follows.
@@ -60,7 +62,8 @@ inline unsigned flags_of(const Primitive& p) {
 }
 
 inline std::size_t mesh_bytes(const TriangleMesh& mesh) {
-  return kMeshBytes + mesh.points.size() * kPointBytes + mesh.triangles.size() * kTriangleBytes;
+  return kMeshBytes + mesh.points.size() * kPointBytes + mesh.triangles.size() * kTriangleBytes +
+         mesh.planes.size() * kPlaneBytes + mesh.plane_of.size() * kPlaneNumberBytes;
 }
 
 constexpr std::size_t primitive_bytes(unsigned flags) {

@@ -203,11 +203,16 @@ class ModelReader {
 
   const char* mesh(Mesh& out) {
     const std::uint64_t points = r_.get<std::uint32_t>(), triangles = r_.get<std::uint32_t>();
+    const std::uint64_t planes = r_.get<std::uint32_t>();
     mesh_points_ += points;
     mesh_triangles_ += triangles;
     if (points == 0 || triangles == 0) return "empty";
     if (mesh_points_ > kMaxModelPoints || mesh_triangles_ > kMaxMeshTriangles) return "a count beyond its limit";
-    if (points * kPointBytes + triangles * kTriangleBytes > r_.remaining()) return "too short";
+    if (planes > triangles) return "more planes than triangles";
+    const std::uint64_t plane_numbers = planes > 0 ? triangles : 0;
+    const std::uint64_t bytes = points * kPointBytes + triangles * kTriangleBytes + planes * kPlaneBytes +
+                                plane_numbers * kPlaneNumberBytes;
+    if (bytes > r_.remaining()) return "too short";
     TriangleMesh surface;
     surface.points.resize(points);
     surface.triangles.resize(triangles);
@@ -221,7 +226,23 @@ class ModelReader {
         if (i >= points) return "no such point";
       }
     }
+    if (const char* fault = mesh_planes(planes, surface)) return fault;
     out = Mesh(std::move(surface));
+    return nullptr;
+  }
+
+  /// The planes of other solids in which its triangles lie, if any.
+  const char* mesh_planes(std::uint64_t count, TriangleMesh& surface) {
+    if (count == 0) return nullptr;
+    surface.planes.resize(count);
+    surface.plane_of.resize(surface.triangles.size());
+    for (Plane& p : surface.planes) {
+      if (const char* fault = plane(p)) return fault;
+    }
+    for (std::uint32_t& i : surface.plane_of) {
+      i = r_.get<std::uint32_t>();
+      if (i >= count && i != TriangleMesh::kOwnPlane) return "no such plane";
+    }
     return nullptr;
   }
 

@@ -84,13 +84,21 @@ void put_primitive(ByteWriter& w, const Primitive& p, unsigned flags) {
   if ((flags & kHasMesh) != 0) w.put(p.mesh);
 }
 
+void put_plane(ByteWriter& w, const Plane& plane) {
+  put_vec(w, plane.normal);
+  w.put(plane.offset);
+}
+
 void put_mesh(ByteWriter& w, const TriangleMesh& mesh) {
   w.put(static_cast<std::uint32_t>(mesh.points.size()));
   w.put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  w.put(static_cast<std::uint32_t>(mesh.planes.size()));
   for (const Vec3& p : mesh.points) put_vec(w, p);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t i : t) w.put(i);
   }
+  for (const Plane& plane : mesh.planes) put_plane(w, plane);
+  for (const std::uint32_t plane : mesh.plane_of) w.put(plane);
 }
 
 /// A leaf's size is 1 and an inner node names no primitive, so one number is enough.
@@ -106,11 +114,6 @@ void put_object(ByteWriter& w, const Object& o) {
   w.put(o.first_node);
   w.put(o.node_count);
   put_box(w, o.bounds);
-}
-
-void put_plane(ByteWriter& w, const Plane& plane) {
-  put_vec(w, plane.normal);
-  w.put(plane.offset);
 }
 
 struct Counts {

@@ -45,26 +45,25 @@ inline CellSide classify_box(const Primitive& p, const Aabb& cell) {
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
-inline constexpr Vec3 kCubeLo{0, 0, 0};
-inline constexpr Vec3 kCubeHi{1, 1, 1};
+// A parallelepiped's frame has unit rows, the normals of its faces: they are planes of the world.
 
 inline Spans parallelepiped_spans(const Primitive& p, const Ray& ray) {
-  return spans_of(box_interval(kCubeLo, kCubeHi, p.to_local.point(ray.origin),
+  return spans_of(box_interval(box_lo(p), box_hi(p), p.to_local.point(ray.origin),
                                p.to_local.vector(ray.direction)));
 }
 inline bool parallelepiped_contains(const Primitive& p, const Vec3& q) {
-  return Aabb{kCubeLo, kCubeHi}.contains(p.to_local.point(q));
+  return Aabb{box_lo(p), box_hi(p)}.contains(p.to_local.point(q));
 }
 inline Vec3 parallelepiped_normal(const Primitive& p, const Ray& ray, double t) {
-  const Vec3 local = box_face(kCubeLo, kCubeHi, p.to_local.point(ray.origin),
-                              p.to_local.vector(ray.direction), t);
-  return normalized(p.to_local.transposed_vector(local));
+  return p.to_local.transposed_vector(
+      box_face(box_lo(p), box_hi(p), p.to_local.point(ray.origin), p.to_local.vector(ray.direction), t));
 }
 inline CellSide classify_parallelepiped(const Primitive& p, const Aabb& cell) {
-  const auto misses = [](const Aabb& l) { return !l.overlaps({kCubeLo, kCubeHi}); };
+  const Vec3 lo = box_lo(p), hi = box_hi(p);
+  const auto misses = [&](const Aabb& l) { return !l.overlaps({lo, hi}); };
   const auto holds = [&](const Vec3& q) {
     const Vec3 l = p.to_local.point(q);
-    return l.x > 0 && l.x < 1 && l.y > 0 && l.y < 1 && l.z > 0 && l.z < 1;
+    return l.x > lo.x && l.x < hi.x && l.y > lo.y && l.y < hi.y && l.z > lo.z && l.z < hi.z;
   };
   return classify_bounded(p, cell, misses, holds);
 }

@@ -80,16 +80,6 @@ bool keeps_axes(const Affine& map) {
   return true;
 }
 
-Aabb half_space_bounds(const Plane& plane) {
-  Aabb b;
-  const Vec3& n = plane.normal;
-  for (int a = 0; a < 3; ++a) {
-    if (n[a] == 0 || n[(a + 1) % 3] != 0 || n[(a + 2) % 3] != 0) continue;
-    (n[a] > 0 ? b.hi[a] : b.lo[a]) = plane.offset / n[a];
-  }
-  return b;
-}
-
 }  // namespace
 
 Primitive build_sphere(const Affine& to_world, const Vec3& center, double radius) {
@@ -131,7 +121,14 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
   const Vec3 e = hi - lo;
   const Affine map = compose(to_world, frame({e.x, 0, 0}, {0, e.y, 0}, {0, 0, e.z}, lo));
   p.kind = PrimitiveKind::kParallelepiped;
-  p.to_local = inverse_of(map);
+  const Affine inverse = inverse_of(map);
+  const Vec3 low = to_world.point(lo), high = to_world.point(hi);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Vec3 n = normalized(inverse.row(static_cast<int>(a))) + Vec3{};
+    p.to_local.m[a] = {n.x, n.y, n.z, 0};
+    p.v[a] = dot(n, low) + 0.0;
+    p.v[a + 3] = dot(n, high) + 0.0;
+  }
   p.bounds = Aabb::nothing();
   for (int i = 0; i < 8; ++i) p.bounds.include(map.point(Aabb{{0, 0, 0}, {1, 1, 1}}.corner(i)));
   return p;
@@ -187,7 +184,7 @@ Primitive build_half_space(const Affine& to_world, const Plane& plane) {
   Primitive p;
   p.kind = PrimitiveKind::kHalfSpace;
   p.v = {world.normal.x, world.normal.y, world.normal.z, world.offset, 0, 0};
-  p.bounds = half_space_bounds(world);
+  p.bounds = csg::half_space_bounds(world);
   return p;
 }
 

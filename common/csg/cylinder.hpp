@@ -76,7 +76,8 @@ inline CellSide classify_cylinder(const Primitive& p, const Aabb& cell) {
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cylinder_contains(p, q); });
 }
 
-/// w(z) = 1 + k z: the cone's radius at local height z; k in [−1, 0].
+/// w(z) = 1 + k z: the cone's radius at local height z; k < 0. The larger end is at z = 0 and the smaller at 1, unless the
+/// frame is another cone's with the same surface.
 inline double cone_slope(const Primitive& p) { return p.v[5]; }
 
 /// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the caps cut
@@ -107,7 +108,7 @@ inline CellSide classify_cone(const Primitive& p, const Aabb& cell) {
   const auto misses = [&](const Aabb& l) {
     const double x = distance_to_zero(l.lo.x, l.hi.x);
     const double y = distance_to_zero(l.lo.y, l.hi.y);
-    const double widest = 1 + cone_slope(p) * std::fmin(1, std::fmax(0, l.lo.z));
+    const double widest = std::fmax(0, 1 + cone_slope(p) * l.lo.z);
     return x * x + y * y > widest * widest;
   };
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cone_contains(p, q); });

@@ -78,6 +78,9 @@ inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> f
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
+/// Infinite but for a half-space across a world axis.
+Aabb half_space_bounds(const Plane& plane);
+
 /// Bounds of the intersection of the half-spaces. When it is unbounded, or a vertex lies farther out than some
 /// thousand times the largest offset, only faces across a world axis bound it.
 Aabb polyhedron_bounds(std::span<const Plane> faces);

@@ -12,6 +12,14 @@ namespace graycube {
 struct Mesh::Data {
   explicit Data(TriangleMesh mesh) : surface(std::move(mesh)), tree(surface) {
     for (const Vec3& p : surface.points) bounds.include(p);
+    for (std::size_t i = 0; i < surface.plane_of.size(); ++i) {
+      if (surface.plane_of[i] == TriangleMesh::kOwnPlane) continue;
+      const Plane& plane = surface.planes[surface.plane_of[i]];
+      for (const std::uint32_t corner : surface.triangles[i]) {
+        const Vec3& p = surface.points[corner];
+        bounds.include(p + (plane.offset - dot(plane.normal, p)) * plane.normal);
+      }
+    }
   }
 
   TriangleMesh surface;
@@ -58,7 +66,8 @@ const MeshTree& Mesh::tree() const { return data_->tree; }
 
 std::size_t Mesh::memory_bytes() const {
   return sizeof(Data) + data_->surface.points.size() * sizeof(Vec3) +
-         data_->surface.triangles.size() * sizeof(Triangle) + data_->tree.memory_bytes();
+         data_->surface.triangles.size() * sizeof(Triangle) + data_->surface.planes.size() * sizeof(Plane) +
+         data_->surface.plane_of.size() * sizeof(std::uint32_t) + data_->tree.memory_bytes();
 }
 
 void Mesh::sort_by_parameter(std::vector<MeshCut>& cuts) {

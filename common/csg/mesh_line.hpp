@@ -88,4 +88,7 @@ inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, co
 /// worth the name: then it is the corners' parameters weighted by where the line passes.
 double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// Planes met at less than this sine count as seen edge on.
+inline constexpr double kLeastSine = 1e-6;
+
 }  // namespace graycube::csg

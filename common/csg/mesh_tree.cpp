@@ -16,6 +16,11 @@ constexpr std::size_t kBins = 16;
 constexpr std::size_t kMaxChosenDepth = 40;
 static_assert((kMaxChosenDepth + 24) * (WideNode::kWidth - 1) + WideNode::kWidth <= MeshTree::kMaxStack);
 
+bool has_own_plane(const TriangleMesh& mesh, std::size_t triangle) {
+  return mesh.plane_of.empty() || mesh.plane_of[triangle] == TriangleMesh::kOwnPlane;
+}
+Vec3 on_plane(const Vec3& p, const Plane& plane) { return p + (plane.offset - dot(plane.normal, p)) * plane.normal; }
+
 struct FloatBox {
   std::array<float, 3> lo{kFloatInf, kFloatInf, kFloatInf}, hi{-kFloatInf, -kFloatInf, -kFloatInf};
 
@@ -36,14 +41,20 @@ struct FloatBox {
 /// a point of that side to within rounding.
 constexpr double kGrowth = 1e-9;
 
-FloatBox box_of(const TriangleMesh& mesh, const Triangle& t, double grow) {
+FloatBox box_of(const TriangleMesh& mesh, std::size_t triangle, double grow) {
   FloatBox box;
-  for (const std::uint32_t i : t) {
+  const auto include = [&](const Vec3& p) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const double v = mesh.points[i][static_cast<int>(a)];
+      const double v = p[static_cast<int>(a)];
       box.lo[a] = std::min(box.lo[a], float_below(v - grow));
       box.hi[a] = std::max(box.hi[a], float_above(v + grow));
     }
+  };
+  for (const std::uint32_t i : mesh.triangles[triangle]) {
+    include(mesh.points[i]);
+    if (has_own_plane(mesh, triangle)) continue;
+    // Lines meet it in the plane.
+    include(on_plane(mesh.points[i], mesh.planes[mesh.plane_of[triangle]]));
   }
   return box;
 }
@@ -72,9 +83,14 @@ bool may_touch(const Vec3& a, const Vec3& b, const Vec3& c, const Aabb& cell) {
   return !(std::fabs(dot(n, middle)) > dot(size, half) + rounding);
 }
 
-bool may_touch_any(const TriangleBlock& block, const Aabb& cell) {
-  for (std::size_t i = 0; i < TriangleBlock::kWidth; ++i) {
-    if (may_touch(block.corner(i, 0), block.corner(i, 1), block.corner(i, 2), cell)) return true;
+bool may_touch_any(const MeshTree& tree, std::uint32_t index, const Aabb& cell) {
+  const TriangleBlock& block = tree.blocks()[index];
+  for (std::uint32_t i = 0; i < TriangleBlock::kWidth; ++i) {
+    const Vec3 a = block.corner(i, 0), b = block.corner(i, 1), c = block.corner(i, 2);
+    if (may_touch(a, b, c, cell)) return true;
+    const Plane* plane = tree.plane_of(index * static_cast<std::uint32_t>(TriangleBlock::kWidth) + i);
+    if (plane == nullptr) continue;
+    if (may_touch(on_plane(a, *plane), on_plane(b, *plane), on_plane(c, *plane), cell)) return true;
   }
   return false;
 }
@@ -87,7 +103,8 @@ class MeshTreeBuilder {
     boxes_.reserve(order_.size());
     double largest = 0;
     for (const Vec3& p : mesh.points) largest = larger(max_abs(p), largest);
-    for (const Triangle& t : mesh.triangles) boxes_.push_back(box_of(mesh, t, kGrowth * largest));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) boxes_.push_back(box_of(mesh, t, kGrowth * largest));
+    tree_.planes_ = mesh.planes;
     std::iota(order_.begin(), order_.end(), 0u);
   }
 
@@ -151,8 +168,13 @@ class MeshTreeBuilder {
     }
   }
 
-  TriangleBlock block_of(Run run) const {
+  TriangleBlock block_of(Run run) {
     TriangleBlock block;
+    if (!mesh_.plane_of.empty()) {
+      for (std::size_t i = 0; i < TriangleBlock::kWidth; ++i) {
+        tree_.plane_of_.push_back(mesh_.plane_of[run[i < run.size() ? i : 0]]);
+      }
+    }
     for (std::size_t i = 0; i < TriangleBlock::kWidth; ++i) {
       const Triangle& t = mesh_.triangles[run[i < run.size() ? i : 0]];
       for (std::size_t c = 0; c < 3; ++c) {
@@ -242,7 +264,7 @@ bool MeshTree::may_touch(const Aabb& box) const {
       if (!touches(node, i, box)) continue;
       if ((node.child[i] & WideNode::kItemFlag) == 0) {
         stack[size++] = node.child[i];
-      } else if (may_touch_any(blocks_[node.child[i] & ~WideNode::kItemFlag], box)) {
+      } else if (may_touch_any(*this, node.child[i] & ~WideNode::kItemFlag, box)) {
         return true;
       }
     }

@@ -34,8 +34,14 @@ class MeshTree {
 
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const std::vector<TriangleBlock>& blocks() const { return blocks_; }
+  /// The plane of another solid in which a triangle lies, null for its own; numbered as MeshCut::triangle.
+  const Plane* plane_of(std::uint32_t triangle) const {
+    if (plane_of_.empty() || plane_of_[triangle] == TriangleMesh::kOwnPlane) [[likely]] return nullptr;
+    return &planes_[plane_of_[triangle]];
+  }
   std::size_t memory_bytes() const {
-    return nodes_.size() * sizeof(WideNode) + blocks_.size() * sizeof(TriangleBlock);
+    return nodes_.size() * sizeof(WideNode) + blocks_.size() * sizeof(TriangleBlock) + planes_.size() * sizeof(Plane) +
+           plane_of_.size() * sizeof(std::uint32_t);
   }
 
   /// Conservative: may any triangle touch the box?
@@ -45,6 +51,9 @@ class MeshTree {
   friend class MeshTreeBuilder;
   std::vector<WideNode> nodes_;
   std::vector<TriangleBlock> blocks_;
+  std::vector<Plane> planes_;
+  /// By place in the blocks; empty when all triangles have their own.
+  std::vector<std::uint32_t> plane_of_;
 };
 
 }  // namespace graycube

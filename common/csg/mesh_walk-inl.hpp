@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "csg/mesh_walk.hpp"
+#include "csg/roots.hpp"
 #include "geometry/wide_node-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -72,9 +73,15 @@ HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const 
     const auto i = static_cast<std::size_t>(__builtin_ctz(rest));
     const int count = line.turn() * csg::winding_of(seen.corner(i, 0), seen.corner(i, 1), seen.corner(i, 2));
     if (count == 0) continue;
-    const double t = csg::triangle_parameter(line, ray, block.corner(i, 0), block.corner(i, 1), block.corner(i, 2));
+    const auto triangle = static_cast<std::uint32_t>(index * TriangleBlock::kWidth + i);
+    const Plane* plane = tree.plane_of(triangle);
+    const double slope = plane != nullptr ? dot(plane->normal, ray.direction) : 0.0;
+    const double t =
+        std::fabs(slope) > csg::kLeastSine * max_abs(ray.direction)
+            ? csg::plane_parameter(plane->offset, dot(plane->normal, ray.origin), 1.0 / slope) + 0.0
+            : csg::triangle_parameter(line, ray, block.corner(i, 0), block.corner(i, 1), block.corner(i, 2));
     if (t >= least && t < below) {
-      cuts.push_back({t, count, static_cast<std::uint32_t>(index * TriangleBlock::kWidth + i)});
+      cuts.push_back({t, count, triangle});
     }
   }
 }

@@ -44,8 +44,8 @@ void add_cuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, d
 namespace csg {
 
 double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
-  // Planes met at less than this sine count as seen edge on; rounding may exceed the corners' parameters by the other.
-  constexpr double kLeastSine = 1e-6, kSlackOfParameter = 1e-12;
+  // Rounding may exceed the corners' parameters by so much.
+  constexpr double kSlackOfParameter = 1e-12;
   const double ta = line.parameter(a), tb = line.parameter(b), tc = line.parameter(c);
   const double least = std::min(ta, std::min(tb, tc)), most = std::max(ta, std::max(tb, tc));
   const Vec3 normal = normalized(cross(b - a, c - a));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "csg/cylinder.hpp"
 #include "csg/half_space.hpp"
 #include "csg/tree.hpp"
 
@@ -70,18 +71,11 @@ std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by
       return p;
     }
     case Kind::kBox:
+    case Kind::kParallelepiped:
       for (std::size_t a = 0; a < 3; ++a) {
         p.v[a] -= by;
         p.v[a + 3] += by;
         if (!(p.v[a] < p.v[a + 3])) return std::nullopt;
-      }
-      return p;
-    case Kind::kParallelepiped:
-      for (int i = 0; i < 3; ++i) {
-        const double shift = by * length(p.to_local.row(i));
-        if (!(1 + 2 * shift > 0)) return std::nullopt;
-        p.to_local.m[static_cast<std::size_t>(i)][3] += shift;
-        divide_row(p.to_local, i, 1 + 2 * shift);
       }
       return p;
     case Kind::kCylinder: {
@@ -93,13 +87,15 @@ std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by
     case Kind::kCone: {
       // The radius at height z is (1 + k z): it grows by what a point moves across, and by what it moves along.
       const double k = p.v[5];
-      const double lower = p.v[3], height = p.v[4] - p.v[3];
       const double radius = 1 + by * (stretch(p.to_local, 2) + std::fabs(k) * length(p.to_local.row(2)));
       if (!(radius > 0) || !move_caps()) return std::nullopt;
       for (int i = 0; i < 2; ++i) divide_row(p.to_local, i, radius);
       p.v[5] = k / radius;
       // The caps of a smaller cone may reach beyond its apex, where the other nappe begins.
-      p.v[4] = std::min(p.v[4], lower - height / p.v[5]);
+      const auto to_world = p.to_local.inverse();
+      if (!to_world) return std::nullopt;
+      const Vec3 apex = to_world->point({0, 0, -1 / p.v[5]});
+      p.v[4] = std::min(p.v[4], dot(csg::cap_normal(p), apex));
       if (!(p.v[3] < p.v[4])) return std::nullopt;
       return p;
     }

@@ -53,6 +53,16 @@ Aabb bounds_of_axis_faces(std::span<const Plane> faces) {
 
 }  // namespace
 
+Aabb half_space_bounds(const Plane& plane) {
+  Aabb b;
+  const Vec3& n = plane.normal;
+  for (int a = 0; a < 3; ++a) {
+    if (n[a] == 0 || n[(a + 1) % 3] != 0 || n[(a + 2) % 3] != 0) continue;
+    (n[a] > 0 ? b.hi[a] : b.lo[a]) = plane.offset / n[a];
+  }
+  return b;
+}
+
 Aabb polyhedron_bounds(std::span<const Plane> faces) {
   const Aabb unclipped = bounds_of_axis_faces(faces);
   if (faces.size() > kMaxClippedFaces) return unclipped;

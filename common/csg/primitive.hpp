@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "csg/mesh.hpp"
+#include "csg/plane.hpp"
 #include "csg/spans.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
@@ -19,9 +20,9 @@ enum class PrimitiveKind : std::uint8_t {
   kSphere,          // v[0..2] centre, v[3] radius
   kEllipsoid,       // to_local maps it to the unit sphere
   kBox,             // v[0..2] lower corner, v[3..5] upper corner, world axes
-  kParallelepiped,  // to_local maps it to the cube [0, 1]³
+  kParallelepiped,  // to_local, whose rows are unit normals, maps it to the box v[0..2] … v[3..5]
   kCylinder,        // to_local: x² + y² ≤ 1; world cap planes in v: normal 0..2, lower 3, upper 4 offset
-  kCone,            // as kCylinder with x² + y² ≤ (1 + v[5] z)², z the height above the larger end, 0 … 1
+  kCone,            // as kCylinder with x² + y² ≤ (1 + v[5] z)², v[5] < 0, on the nappe with 1 + v[5] z ≥ 0
   kTorus,           // to_local: major radius 1 about z, minor radius v[0]
   kHalfSpace,       // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
   kPolyhedron,      // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
@@ -31,13 +32,6 @@ enum class PrimitiveKind : std::uint8_t {
   kMesh,            // meshes[mesh]
 };
 inline constexpr int kPrimitiveKinds = 13;
-
-struct Plane {
-  Vec3 normal;
-  double offset = 0;
-
-  friend bool operator==(const Plane&, const Plane&) = default;
-};
 
 struct Primitive {
   PrimitiveKind kind = PrimitiveKind::kSphere;

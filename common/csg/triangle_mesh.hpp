@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "csg/plane.hpp"
 #include "geometry/vec.hpp"
 
 namespace graycube {
@@ -16,6 +17,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
+  /// Planes of other solids in which triangles lie (csg/coincidence.hpp), and each triangle's, or kOwnPlane; none when no
+  /// triangle has one.
+  static constexpr std::uint32_t kOwnPlane = 0xFFFFFFFFu;
+  std::vector<Plane> planes{};
+  std::vector<std::uint32_t> plane_of{};
 
   friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "csg/build_primitive.hpp"
+#include "csg/coincidence.hpp"
+#include "csg/exactness.hpp"
 #include "csg/tree.hpp"
 #include "geometry/check.hpp"
 #include "scene/flat_solids.hpp"
+#include "scene/leaf_reach.hpp"
 
 namespace graycube {
 namespace {
@@ -21,7 +24,7 @@ Overloaded(Ts...) -> Overloaded<Ts...>;
 
 class Compiler {
  public:
-  explicit Compiler(const Scene& scene) : scene_(scene) {}
+  explicit Compiler(const Scene& scene) : scene_(scene), share_(share_of_digits(scene.digits)) {}
 
   Model run() {
     model_.settings = scene_.settings;
@@ -30,7 +33,10 @@ class Compiler {
     model_.objects.reserve(scene_.objects.size());
     model_.nodes.reserve(scene_.objects.size());
     model_.primitives.reserve(scene_.objects.size());
+    exactness_.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
+    unify_coincident_surfaces(model_, exactness_);
+    for (Object& object : model_.objects) object.bounds = bounds_of(model_.tree(object), model_.primitives);
     model_.delta = delta();
     return std::move(model_);
   }
@@ -38,7 +44,7 @@ class Compiler {
  private:
   /// What a node inherits from those above it.
   struct Context {
-    Affine to_world;
+    MeasuredMap to_world;
     MaterialIndex material = kInheritMaterial;
     bool inverted = false;
   };
@@ -49,8 +55,6 @@ class Compiler {
     out.first_node = static_cast<std::uint32_t>(model_.nodes.size());
     emit(object.csg, {.to_world = {}, .material = object.material, .inverted = false});
     out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
-    const std::span<const TreeNode> tree{model_.nodes.data() + out.first_node, out.node_count};
-    out.bounds = bounds_of(tree, model_.primitives);
     model_.objects.push_back(out);
   }
 
@@ -61,7 +65,7 @@ class Compiler {
         Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
                    [&](const ReferenceNode& n) { emit(scene_.shapes[n.shape].node, context); },
                    [&](const PrismShape& shape) { emit_prism(shape, context); },
-                   [&](const auto& shape) { emit_leaf(build(context.to_world, shape), context); }},
+                   [&](const auto& shape) { emit_leaf(node, build(context.to_world.map, shape), context); }},
         node.value);
   }
 
@@ -97,12 +101,19 @@ class Compiler {
     emit(*solid, context);
   }
 
-  void emit_leaf(Primitive primitive, const Context& context) {
+  void emit_leaf(const CsgNode& leaf, Primitive primitive, const Context& context) {
     GRAYCUBE_CHECK(context.material != kInheritMaterial, "a leaf without a material");
     primitive.material = context.material;
     const auto kind = context.inverted ? TreeNode::Kind::kInvertedLeaf : TreeNode::Kind::kLeaf;
     model_.nodes.push_back({kind, static_cast<std::uint32_t>(model_.primitives.size()), 1});
     model_.primitives.push_back(primitive);
+    const LeafReach reach = reach_of(leaf, primitive, context.to_world.map);
+    exactness_.push_back(exactness_of(context.to_world, reach.most, reach.turn, share_of(leaf)));
+  }
+
+  double share_of(const CsgNode& leaf) const {
+    const auto* mesh = std::get_if<MeshShape>(&leaf.value);
+    return mesh == nullptr ? share_ : std::max(share_, share_of_digits(mesh->digits));
   }
 
   static Primitive build(const Affine& m, const SphereShape& s) {
@@ -156,7 +167,10 @@ class Compiler {
   }
 
   const Scene& scene_;
+  double share_;
   Model model_;
+  /// Of each primitive.
+  std::vector<Exactness> exactness_;
 };
 
 }  // namespace

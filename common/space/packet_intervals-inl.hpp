@@ -164,9 +164,9 @@ HWY_INLINE LaneInterval lanes_parallelepiped(const Primitive& p, const LaneRays&
   const LaneVec o = lanes_point(p.to_local, rays.origin);
   const LaneVec d = lanes_vector(p.to_local, rays.direction);
   LaneInterval i = LaneInterval::whole();
-  clip_lanes_to_any_slab(i, 0, 1, o.x, d.x);
-  clip_lanes_to_any_slab(i, 0, 1, o.y, d.y);
-  clip_lanes_to_any_slab(i, 0, 1, o.z, d.z);
+  clip_lanes_to_any_slab(i, p.v[0], p.v[3], o.x, d.x);
+  clip_lanes_to_any_slab(i, p.v[1], p.v[4], o.y, d.y);
+  clip_lanes_to_any_slab(i, p.v[2], p.v[5], o.z, d.z);
   return i;
 }
 

@@ -1,4 +1,5 @@
 // Solids as wholes: laws of set algebra along rays, faces that coincide, maps, the space outside.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -57,6 +58,15 @@ CsgNode random_leaf(RandomModel& random) {
   return transformed(random.leaf(random.dice().below(kLeafKinds)), random.map());
 }
 
+/// Whether two lists have the same crossings, their parameters but for the last places: where a mesh stands twice, its faces
+/// coincide with others, and are crossed where the planes are that they share.
+bool agree(const std::vector<WholeCrossing>& a, const std::vector<WholeCrossing>& b, bool with_primitives) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const WholeCrossing& c, const WholeCrossing& d) {
+    if (with_primitives && (c.primitive != d.primitive || c.object != d.object)) return false;
+    return c.entering == d.entering && std::fabs(c.t - d.t) <= 1e-12 * (1 + std::fabs(c.t));
+  });
+}
+
 /// Parameters only.
 std::vector<double> parameters(const std::vector<WholeCrossing>& crossings) {
   std::vector<double> r;
@@ -90,8 +100,8 @@ TEST_CASE("a solid united or intersected with itself is itself") {
     for (std::size_t i = 0; i < 4 * kRayCases; ++i) {
       const Ray ray = rays.make(i % kRayCases).ray;
       const auto expected = once.all(ray, -1e3);
-      REQUIRE(united.all(ray, -1e3) == expected);  // the first of equal children is hit
-      REQUIRE(intersected.all(ray, -1e3) == expected);
+      REQUIRE(agree(united.all(ray, -1e3), expected, true));  // the first of equal children is hit
+      REQUIRE(agree(intersected.all(ray, -1e3), expected, true));
     }
   }
 }
@@ -105,7 +115,7 @@ TEST_CASE("distributing an intersection over a union changes no crossing") {
     RandomRays rays(seed, left.model());
     for (std::size_t i = 0; i < 4 * kRayCases; ++i) {
       const Ray ray = rays.make(i % kRayCases).ray;
-      REQUIRE(parameters(left.all(ray, -1e3)) == parameters(right.all(ray, -1e3)));
+      REQUIRE(agree(left.all(ray, -1e3), right.all(ray, -1e3), false));
     }
   }
 }

@@ -133,7 +133,10 @@ Model small_model() {
                            Handedness::kRight, {0.5, 0.5}, InsideView::kExit};
   model.materials.resize(1);
   model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
-  model.meshes.emplace_back(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}}});
+  model.meshes.emplace_back(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                         {{0, 1, 2}, {2, 1, 0}},
+                                         {{{0, 0, 1}, 0}},
+                                         {TriangleMesh::kOwnPlane, 0}});
   model.primitives.resize(2);
   model.primitives[0].v = {1, 2, 3, 0.5, 0, 0};
   model.primitives[0].bounds = {{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}};
@@ -265,6 +268,16 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        }},
       {"mesh 0", "empty", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, 0, 0}}, {}}); }},
       {"mesh 0", "finite", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, Aabb::kInf, 0}}, {{0, 0, 0}}}); }},
+      {"mesh 0", "planes",
+       [](Model& m) {
+         const TriangleMesh& old = m.meshes[0].surface();
+         m.meshes[0] = Mesh(TriangleMesh{old.points, old.triangles, std::vector<Plane>(3, old.planes[0]), {0, 1}});
+       }},
+      {"mesh 0", "finite",
+       [](Model& m) {
+         const TriangleMesh& old = m.meshes[0].surface();
+         m.meshes[0] = Mesh(TriangleMesh{old.points, old.triangles, {{{0, 0, 1}, std::nan("")}}, {0, 0}});
+       }},
       {"node 1", "primitive", [](Model& m) { m.nodes[1].primitive = 2; }},
       {"node 2", "children", [](Model& m) { m.nodes[2].size = 1; }},
       {"node 2", "parent", [](Model& m) { m.nodes[2].size = 4; }},
@@ -363,4 +376,22 @@ TEST_CASE("mutated models are refused or survive a round trip") {
     }
   }
   CHECK(accepted > 1000);
+}
+
+TEST_CASE("a mesh's triangle can't lie in a plane that isn't there") {
+  Model model = small_model();
+  const auto bytes = encode_model(model);
+  TriangleMesh surface = model.meshes[0].surface();
+  surface.plane_of[1] = TriangleMesh::kOwnPlane;
+  model.meshes[0] = Mesh(std::move(surface));
+  auto changed = encode_model(model);
+  // Where the two differ is the second triangle's plane, 0 or none.
+  const auto at = std::mismatch(bytes.begin(), bytes.end(), changed.begin()).second;
+  REQUIRE(changed.end() - at >= 4);
+  REQUIRE(decode_model(changed).index() == 0);
+  *at = decltype(*bytes.begin()){1};
+  std::fill(at + 1, at + 4, decltype(*bytes.begin()){0});
+  const ModelError error = error_of(changed);
+  CHECK(error.where == "mesh 0");
+  CHECK(error.why == "no such plane");
 }

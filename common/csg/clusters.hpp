@@ -1,0 +1,85 @@
+// Finds which of many things may be one: things measured by several numbers, each with a tolerance.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace graycube::csg {
+
+/// A number that may be off by the tolerance.
+struct Measured {
+  double value = 0, tolerance = 0;
+};
+
+/// A measured thing as an interval of values.
+struct Extent {
+  double lo, hi;
+  std::uint32_t item;
+};
+
+/// Sorts the extents and calls visit(run) for each run of them that have a point in common. What is one has its true value
+/// in common, so it is in one run, if nothing else is as near; and nothing grows by chaining: all of a run are within
+/// tolerance of each other. Neither the order given nor the items' numbers matter for what makes a run.
+template <typename Visit>
+void for_each_run(std::span<Extent> extents, Visit&& visit) {
+  const auto end_of_numbers = std::partition(extents.begin(), extents.end(), [](const Extent& e) {
+    return std::isfinite(e.lo) && std::isfinite(e.hi);
+  });
+  // What overflowed equals nothing.
+  extents = extents.first(static_cast<std::size_t>(end_of_numbers - extents.begin()));
+  std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
+    return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.item < b.item;
+  });
+  for (std::size_t first = 0; first < extents.size();) {
+    double common = std::numeric_limits<double>::infinity();
+    std::size_t end = first;
+    for (; end < extents.size() && extents[end].lo <= common; ++end) common = std::min(common, extents[end].hi);
+    visit(extents.subspan(first, end - first));
+    first = end;
+  }
+}
+
+/// Splits items by their numbers until those that are left together can't be told apart by any.
+template <typename Measure, typename Visit>
+class Clusters {
+ public:
+  Clusters(int dimensions, const Measure& measure, const Visit& visit)
+      : dimensions_(dimensions), measure_(measure), visit_(visit) {}
+
+  void find(std::vector<Extent> items) { split(items, 0, 0, 0); }
+
+ private:
+  /// Splits may reopen numbers that were looked at before; no honest scene needs more than two rounds.
+  static constexpr int kMostRounds = 4;
+
+  void split(std::span<Extent> items, int dimension, int agreeing, int passes) {
+    if (items.size() < 2) return;
+    if (agreeing == dimensions_ || passes == kMostRounds * dimensions_) return visit_(items);
+    for (Extent& e : items) {
+      const Measured m = measure_(e.item, dimension);
+      e.lo = m.value - m.tolerance;
+      e.hi = m.value + m.tolerance;
+    }
+    const int next = (dimension + 1) % dimensions_;
+    for_each_run(items, [&](std::span<Extent> run) {
+      split(run, next, run.size() == items.size() ? agreeing + 1 : 1, passes + 1);
+    });
+  }
+
+  int dimensions_;
+  const Measure& measure_;
+  const Visit& visit_;
+};
+
+/// Calls visit(span of Extent) for each set of two or more of the items that may be one: measure(item, dimension) gives
+/// their numbers. O(n log n) for a bounded number of rounds.
+template <typename Measure, typename Visit>
+void for_each_cluster(std::vector<Extent> items, int dimensions, const Measure& measure, const Visit& visit) {
+  Clusters<Measure, Visit>(dimensions, measure, visit).find(std::move(items));
+}
+
+}  // namespace graycube::csg

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "csg/clusters.hpp"
+#include "csg/coincidence.hpp"
+#include "csg/surface_numbers.hpp"
+#include "geometry/check.hpp"
+
+namespace graycube {
+namespace {
+
+using csg::Extent;
+using csg::SurfaceFamily;
+
+void copy_rows(const Affine& from, int count, Affine& to) {
+  for (int i = 0; i < count; ++i) to.m[static_cast<std::size_t>(i)] = from.m[static_cast<std::size_t>(i)];
+}
+
+/// The cone's half that the other is on, too.
+bool is_on_same_nappe(const Primitive& cone, const Primitive& other) {
+  const auto to_world = other.to_local.inverse();
+  if (!to_world) return false;
+  const Vec3 inside = cone.to_local.point(to_world->point({0, 0, 0}));
+  return 1 + cone.v[5] * inside.z > 0;
+}
+
+/// Gives the primitive the other's surface; its caps and faces stay its own.
+void take_surface(const Primitive& from, Primitive& p) {
+  switch (csg::family_of(p.kind)) {
+    case SurfaceFamily::kBall:
+    case SurfaceFamily::kTorus:
+    case SurfaceFamily::kEllipticTorus:
+    case SurfaceFamily::kEllipticCone:
+      p.kind = from.kind;
+      p.v = from.v;
+      p.to_local = from.to_local;
+      p.bounds = from.bounds;
+      return;
+    case SurfaceFamily::kCylinder: copy_rows(from.to_local, 2, p.to_local); return;
+    case SurfaceFamily::kCone:
+      if (!is_on_same_nappe(from, p)) return;
+      p.to_local = from.to_local;
+      p.v[5] = from.v[5];
+      return;
+    case SurfaceFamily::kQuadric:
+      p.to_local = from.to_local;
+      std::copy(from.v.begin(), from.v.begin() + 4, p.v.begin());
+      return;
+    case SurfaceFamily::kNone: return;
+  }
+}
+
+class SurfaceUnifier {
+ public:
+  SurfaceUnifier(Model& model, std::span<const Exactness> exactness) : model_(model), exactness_(exactness) {}
+
+  void run() {
+    std::array<std::vector<Extent>, csg::kSurfaceFamilies> families;
+    for (std::uint32_t i = 0; i < model_.primitives.size(); ++i) {
+      straighten(i);
+      const SurfaceFamily family = csg::family_of(model_.primitives[i].kind);
+      if (family != SurfaceFamily::kNone) families[static_cast<std::size_t>(family)].push_back({0, 0, i});
+    }
+    const auto measure = [&](std::uint32_t i, int which) {
+      return csg::surface_number(model_.primitives[i], exactness_[i], which);
+    };
+    const auto unify = [&](std::span<const Extent> cluster) { unify_cluster(cluster); };
+    for (std::size_t f = 0; f < families.size(); ++f) {
+      const int count = csg::number_count(static_cast<SurfaceFamily>(f));
+      csg::for_each_cluster(std::move(families[f]), count, measure, unify);
+    }
+  }
+
+ private:
+  /// A cone whose ends are equal but for rounding is a cylinder.
+  void straighten(std::uint32_t i) {
+    Primitive& p = model_.primitives[i];
+    if (p.kind != PrimitiveKind::kCone) return;
+    const double widest = larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
+    if (!(std::fabs(p.v[5]) <= widest * exactness_[i].distance())) return;
+    p.kind = PrimitiveKind::kCylinder;
+    p.v[5] = 0;
+  }
+
+  /// Simpler kinds first, then what is known best; the rest is a choice among bits.
+  bool is_better(std::uint32_t a, std::uint32_t b) const {
+    const Primitive &p = model_.primitives[a], &q = model_.primitives[b];
+    if (p.kind != q.kind) return p.kind < q.kind;
+    const double x = exactness_[a].distance(), y = exactness_[b].distance();
+    return std::tie(x, p.to_local.m, p.v) < std::tie(y, q.to_local.m, q.v);
+  }
+
+  void unify_cluster(std::span<const Extent> cluster) {
+    std::uint32_t best = cluster.front().item;
+    for (const Extent& e : cluster) {
+      if (is_better(e.item, best)) best = e.item;
+    }
+    const Primitive from = model_.primitives[best];
+    for (const Extent& e : cluster) {
+      Primitive& p = model_.primitives[e.item];
+      const Primitive before = p;
+      take_surface(from, p);
+      if (p == before || p.bounds != before.bounds) continue;
+      p.bounds = p.bounds.grown(2 * exactness_[e.item].distance());
+    }
+  }
+
+  Model& model_;
+  std::span<const Exactness> exactness_;
+};
+
+}  // namespace
+
+void unify_curved_surfaces(Model& model, std::span<const Exactness> exactness) {
+  GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(), model.primitives.size());
+  SurfaceUnifier(model, exactness).run();
+}
+
+// Curved surfaces second: what they come to may depend on caps, which are the same by then.
+void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
+  unify_planes(model, exactness);
+  unify_curved_surfaces(model, exactness);
+}
+
+}  // namespace graycube
