@@ -78,6 +78,8 @@ struct PairOptions {
   ChainOptions::Turns turns = ChainOptions::Turns::kAny;
   /// Sizes other than 1 and places far from the origin.
   bool is_any_size = true;
+  /// The longer scene's parts have ways and numbers of their own, too.
+  bool tells_longer_anew = false;
 
   bool is_exact() const { return turns == ChainOptions::Turns::kQuarters; }
 };
@@ -87,7 +89,7 @@ class PairMaker {
   /// The kind is that of the seed, modulo kPairKinds.
   explicit PairMaker(std::uint64_t seed, PairOptions options = {})
       : PairMaker(seed, static_cast<PairKind>(seed % kPairKinds), options) {}
-  PairMaker(std::uint64_t seed, PairKind kind, PairOptions options = {}) : dice_(seed * 2 + 1), options_(options) {
+  PairMaker(std::uint64_t seed, PairKind kind, PairOptions options = {}) : dice_(seed * 2 + 1), telling_dice_(seed * 2), options_(options) {
     pair_.seed = seed;
     pair_.kind = kind;
   }
@@ -132,13 +134,15 @@ class PairMaker {
     return Step::rotate(dice_.unit_vector(), chains::round_angle(dice_));
   }
   /// By the chain as it is.
-  CsgNode plain(CsgNode node) const { return transformed(std::move(node), map_of(chain_)); }
+  CsgNode plain(const CsgNode& node) {
+    return options_.tells_longer_anew ? told(node) : transformed(node, map_of(chain_));
+  }
   /// By another way, in other numbers.
   CsgNode told(const CsgNode& node) {
-    if (options_.is_exact()) return placed(node, chain_, dice_);
-    const Chain way = rewritten(chain_, dice_, unit_, 1 + dice_.below(6));
+    if (options_.is_exact()) return placed(node, chain_, telling_dice_);
+    const Chain way = rewritten(chain_, telling_dice_, unit_, 1 + telling_dice_.below(6));
     note_difference(map_of(way));
-    return told_anew(node, way, dice_);
+    return told_anew(node, way, telling_dice_);
   }
   void note_difference(const Affine& other) {
     const Affine map = map_of(chain_);
@@ -405,7 +409,8 @@ class PairMaker {
     return one;
   }
 
-  Dice dice_;
+  /// What is made, and how it is told.
+  Dice dice_, telling_dice_;
   PairOptions options_;
   FlushPair pair_;
   double unit_ = 1;

@@ -147,6 +147,20 @@ class CrossingFinder {
   TreeScratch scratch_;
 };
 
+/// Without the pieces, in a solid or between two, that are not longer than `thickness`.
+inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& all, double thickness) {
+  std::vector<SeenCrossing> kept;
+  for (const SeenCrossing& c : all) {
+    const auto before = std::find_if(kept.rbegin(), kept.rend(), [&](const auto& k) { return k.object == c.object; });
+    if (before != kept.rend() && c.t - before->t <= thickness) {
+      kept.erase(std::next(before).base());
+    } else {
+      kept.push_back(c);
+    }
+  }
+  return kept;
+}
+
 /// How much crossings of one line may differ that came by different arithmetic.
 struct CrossingTolerance {
   /// In scene units, for a ray straight at a face; more for one that grazes it.
