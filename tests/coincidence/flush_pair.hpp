@@ -129,9 +129,9 @@ class PairMaker {
     const double at = dice_.between(lo, hi);
     return unit_ * (options_.is_exact() ? std::ceil(at * 256) / 256 : at);
   }
-  Step some_turn() {
-    if (options_.is_exact()) return Step::rotate(dice_.axis(), 90);
-    return Step::rotate(dice_.unit_vector(), chains::round_angle(dice_));
+  Move some_turn() {
+    if (options_.is_exact()) return Move::rotate(dice_.axis(), 90);
+    return Move::rotate(dice_.unit_vector(), chains::round_angle(dice_));
   }
   /// By the chain as it is.
   CsgNode plain(const CsgNode& node) {
@@ -359,7 +359,7 @@ class PairMaker {
     const CsgNode x_plain = plain(x), x_told = told(x), x_again = told(x);
     note_site(s, {0, s.hi});
     // The other stands askew in it.
-    chain_.insert(chain_.begin(), {some_turn(), Step::translate(unit_ * (options_.is_exact() ? Vec3{0.25, 0.25, 0.125} : dice_.point(0.5)))});
+    chain_.insert(chain_.begin(), {some_turn(), Move::translate(unit_ * (options_.is_exact() ? Vec3{0.25, 0.25, 0.125} : dice_.point(0.5)))});
     const CsgNode y = some_column(0, 0, length(0.3, 0.8), s).between(0, s.hi);
     const CsgNode y_plain = plain(y), y_told = told(y), y_again = told(y);
     chain_ = common_way;
@@ -393,7 +393,7 @@ class PairMaker {
     const std::size_t count = 2 + dice_.below(3);
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 spot{4 * static_cast<double>(i), 0, 0};
-      chain_ = {some_turn(), Step::translate(unit_ * spot)};
+      chain_ = {some_turn(), Move::translate(unit_ * spot)};
       chain_.insert(chain_.end(), common_way.begin(), common_way.end());
       parts.push_back(part(static_cast<PairKind>(dice_.below(kPairKinds - 1))));
     }
