@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "coincidence/flush_pair.hpp"
 #include "scene/compile_scene.hpp"
@@ -112,6 +114,33 @@ class PictureComparison {
 
   const Picture& found_;
   const Picture& expected_;
+};
+
+/// Counts pixels that differ, over the scenes of a test.
+class PictureTally {
+ public:
+  void add(const std::string& what, const Picture& found, const Picture& expected) {
+    const PictureDifference d = PictureComparison(found, expected).run();
+    if (d.interior > 0) {
+      wrong_ += "\n  " + what + ": " + std::to_string(d.pixels) + " pixels, " + std::to_string(d.interior) + " of them inside";
+    }
+    sum_.pixels += d.pixels;
+    sum_.interior += d.interior;
+    sum_.all_interior += d.all_interior;
+    pixels_ += std::uint64_t{expected.width} * expected.height;
+  }
+  /// Interior pixels never differ, others hardly ever; `share`: of all pixels how many are interior at least.
+  void check(double share = 0.5) const {
+    INFO(sum_.pixels << " of " << pixels_ << " pixels" << wrong_);
+    CHECK(sum_.interior == 0);
+    CHECK(sum_.pixels * 10'000 <= pixels_);
+    CHECK(static_cast<double>(sum_.all_interior) > share * static_cast<double>(pixels_));
+  }
+
+ private:
+  PictureDifference sum_;
+  std::string wrong_;
+  std::uint64_t pixels_ = 0;
 };
 
 }  // namespace graycube::testing
