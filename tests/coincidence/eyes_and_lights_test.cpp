@@ -147,6 +147,23 @@ TEST_CASE("a light on a face lights what one just before the face does") {
   tally.check();
 }
 
+TEST_CASE("a light in the plane of a face leaves no grains of highlights there") {
+  PictureTally tally;
+  Material shiny = matt();
+  shiny.specular = 0.5;
+  shiny.shininess = 3;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    // Alone the solid shows no highlight at all: the light is in it, or in its upper face.
+    const auto only_face = [&](double above) {
+      Scene scene = lit_from_face(seed, above, shiny);
+      scene.objects.resize(1);
+      return picture_of(scene);
+    };
+    tally.add("seed " + std::to_string(seed), only_face(0), only_face(-2e-8));
+  }
+  tally.check();
+}
+
 namespace {
 
 /// How many of a picture's rays hit something at once.
