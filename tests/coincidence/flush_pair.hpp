@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -80,6 +81,9 @@ struct PairOptions {
   bool is_any_size = true;
   /// The longer scene's parts have ways and numbers of their own, too.
   bool tells_longer_anew = false;
+  std::size_t most_moves = 5;
+  /// How parts are told; by default anew, by a way of their own.
+  std::function<CsgNode(const CsgNode&, const Chain&)> telling{};
 
   bool is_exact() const { return turns == ChainOptions::Turns::kQuarters; }
 };
@@ -96,7 +100,7 @@ class PairMaker {
 
   FlushPair make() {
     unit_ = 1;
-    ChainOptions how{options_.turns, 5, 0};
+    ChainOptions how{options_.turns, options_.most_moves, 0};
     if (options_.is_any_size && !options_.is_exact()) {
       constexpr std::array<double, 7> kUnits{1, 25.4, 1000, 1e-3, 100, 1e-6, 1e-9};
       if (dice_.one_in(2)) unit_ = kUnits[dice_.below(kUnits.size())];
@@ -139,6 +143,7 @@ class PairMaker {
   }
   /// By another way, in other numbers.
   CsgNode told(const CsgNode& node) {
+    if (options_.telling) return options_.telling(node, chain_);
     if (options_.is_exact()) return placed(node, chain_, telling_dice_);
     const Chain way = rewritten(chain_, telling_dice_, unit_, 1 + telling_dice_.below(6));
     note_difference(map_of(way));

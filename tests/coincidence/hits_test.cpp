@@ -4,112 +4,12 @@
 #include <sstream>
 #include <string>
 
-#include "coincidence/pair_rays.hpp"
+#include "coincidence/pair_models.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
 
 namespace {
-
-/// What came of the rays of some pairs.
-struct Tally {
-  std::size_t rays = 0, met = 0, wrong = 0;
-  /// Differ within a hair's breadth of an edge, or nearly along a face.
-  std::size_t near_edges = 0;
-  /// The first wrong ray.
-  std::string first;
-
-  void add(const Tally& t) {
-    rays += t.rays;
-    met += t.met;
-    wrong += t.wrong;
-    near_edges += t.near_edges;
-    if (first.empty()) first = t.first;
-  }
-};
-
-/// Compares the two scenes of a pair.
-class PairOfModels {
- public:
-  /// `forgives_skins`: skins as thick as rounding makes them don't count.
-  explicit PairOfModels(const FlushPair& pair, bool forgives_skins = false)
-      : pair_(pair),
-        forgives_skins_(forgives_skins),
-        flush_model_(compile_scene(pair.flush)),
-        longer_model_(compile_scene(pair.longer)),
-        flush_(flush_model_),
-        longer_(longer_model_),
-        rays_(pair, pair.seed) {}
-
-  Tally compare(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const PairRay ray = rays_.make(i);
-      if (ray.starts_on_face && !PairRays::is_large_enough(ray)) continue;
-      const auto expected = compare(ray);
-      if (expected.empty() || !PairRays::is_large_enough(ray)) continue;
-      compare(rays_.secondary(ray, ray.ray.at(expected[i % expected.size()].t)));
-    }
-    return tally_;
-  }
-
- private:
-  std::vector<SeenCrossing> compare(const PairRay& ray) {
-    const auto expected = longer_.all(ray);
-    auto found = flush_.all(ray);
-    if (forgives_skins_) found = without_skins(found, 100 * tolerance(ray, found).t);
-    ++tally_.rays;
-    tally_.met += expected.empty() ? 0 : 1;
-    if (same_crossings(expected, found, tolerance(ray, expected))) return expected;
-    if (!is_clear_of_edges(ray, expected)) {
-      ++tally_.near_edges;
-      return expected;
-    }
-    if (++tally_.wrong == 1) tally_.first = describe(ray, expected, found);
-    return expected;
-  }
-
-  static CrossingTolerance tolerance(const PairRay& ray, const std::vector<SeenCrossing>& expected) {
-    const double farthest = expected.empty() ? 0 : expected.back().t;
-    const double reach = max_abs(ray.ray.origin) + farthest;
-    return {1e-9 * (ray.size + farthest) + 64 * std::numeric_limits<double>::epsilon() * reach, 1e-6};
-  }
-
-  /// Rays a millionth of the size beside it cross the same faces, none of them nearly along it.
-  bool is_clear_of_edges(const PairRay& ray, const std::vector<SeenCrossing>& expected) {
-    constexpr double kBeside = 1e-6;
-    for (const SeenCrossing& c : expected) {
-      if (c.cosine < kLeastGrazing) return false;
-    }
-    for (int i = 0; i < 8; ++i) {
-      const auto around = longer_.all(rays_.beside(ray, kBeside));
-      if (!same_crossings(expected, around, {1e-4 * (ray.size + 1e-3 * max_abs(ray.ray.origin)), 1e-2})) return false;
-    }
-    return true;
-  }
-
-  std::string describe(const PairRay& ray, const std::vector<SeenCrossing>& expected,
-                       const std::vector<SeenCrossing>& found) const {
-    std::ostringstream out;
-    out.precision(17);
-    const Vec3 &o = ray.ray.origin, &d = ray.ray.direction;
-    out << pair_.text() << ": ray " << ray.what << " {{" << o.x << ", " << o.y << ", " << o.z << "}, {" << d.x << ", "
-        << d.y << ", " << d.z << "}}, size " << ray.size << ", ways differ by " << pair_.ways_differ_ulps << " ulps";
-    const auto list = [&](const char* name, const std::vector<SeenCrossing>& crossings) {
-      out << "\n  " << name << ':';
-      for (const SeenCrossing& c : crossings) out << ' ' << (c.entering ? "in " : "out ") << c.t;
-    };
-    list("expected", expected);
-    list("found", found);
-    return out.str();
-  }
-
-  const FlushPair& pair_;
-  bool forgives_skins_;
-  Model flush_model_, longer_model_;
-  CrossingFinder flush_, longer_;
-  PairRays rays_;
-  Tally tally_;
-};
 
 constexpr std::size_t kRays = 120;
 
@@ -128,7 +28,7 @@ void check_pairs(std::uint64_t count, const Make& make, bool forgives_skins = fa
   std::size_t wrong_pairs = 0;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     const FlushPair pair = make(seed);
-    const Tally tally = PairOfModels(pair, forgives_skins).compare(kRays);
+    const Tally tally = PairOfModels(pair, {.forgives_skins = forgives_skins}).compare(kRays);
     sum.add(tally);
     if (tally.wrong == 0) continue;
     if (++wrong_pairs <= 5) UNSCOPED_INFO(tally.first);

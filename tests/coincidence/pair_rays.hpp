@@ -147,12 +147,12 @@ class CrossingFinder {
   TreeScratch scratch_;
 };
 
-/// Without the pieces, in a solid or between two, that are not longer than `thickness`.
+/// Without the pieces, in a solid or between two, that are not thicker than `thickness`.
 inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& all, double thickness) {
   std::vector<SeenCrossing> kept;
   for (const SeenCrossing& c : all) {
     const auto before = std::find_if(kept.rbegin(), kept.rend(), [&](const auto& k) { return k.object == c.object; });
-    if (before != kept.rend() && c.t - before->t <= thickness) {
+    if (before != kept.rend() && (c.t - before->t) * std::fmax(c.cosine, kLeastGrazing) <= thickness) {
       kept.erase(std::next(before).base());
     } else {
       kept.push_back(c);
