@@ -1,5 +1,5 @@
-// What is meant apart stays apart: sheets, slits and thin walls just above the rounding of numbers, on parts of 100 mm
-// and of 100 m, turned and unturned.
+// What is meant apart stays apart: sheets, slits and thin walls just above the rounding of numbers,
+// on parts of 100 mm and of 100 m, turned and unturned.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -14,7 +14,8 @@ namespace {
 /// Brings a node to its place.
 using Placing = std::function<CsgNode(const CsgNode&)>;
 
-/// A solid of which rays from `from` to within `spread` of `at` first cross one thin piece, or slit, `thickness` thick.
+/// A solid of which rays from `from` to within `spread` of `at` first cross one thin piece, or
+/// slit, `thickness` thick.
 struct ThinPlace {
   CsgNode solid;
   Vec3 from, at;
@@ -24,7 +25,8 @@ struct ThinPlace {
   bool is_slit = false;
 };
 
-/// Calls `check(size, share, placing, map, dice)` for parts of 100 mm and of 100 m, sheets of 1e-6 and 1e-9 of their size.
+/// Calls `check(size, share, placing, map, dice)` for parts of 100 mm and of 100 m, sheets of 1e-6
+/// and 1e-9 of their size.
 template <typename Check>
 void for_all_sizes(const Check& check) {
   for (const double size : {100.0, 1e5}) {
@@ -69,7 +71,9 @@ void check_thin_place(const ThinPlace& place, double size, const Affine& map, Di
   CHECK(steep > 10);
 }
 
-CsgNode cut(CsgNode a, CsgNode b) { return operation(Operation::kDifference, {std::move(a), std::move(b)}); }
+CsgNode cut(CsgNode a, CsgNode b) {
+  return operation(Operation::kDifference, {std::move(a), std::move(b)});
+}
 
 }  // namespace
 
@@ -77,9 +81,16 @@ TEST_CASE("a floor of a millionth, or a billionth, of a part's size is left by a
   for_all_sizes([](double s, double share, const Placing& placing, const Affine& map, Dice& dice) {
     const double w = share * s;
     const CsgNode block = node_of(BoxShape{{0, 0, 0}, {s, s, s}});
-    const CsgNode pocket = dice.one_in(2) ? node_of(BoxShape{{0.2 * s, 0.2 * s, w}, {0.8 * s, 0.8 * s, s}})
-                                          : node_of(CylinderShape{{0.5 * s, 0.5 * s, w}, {0.5 * s, 0.5 * s, s}, 0.3 * s});
-    check_thin_place({cut(placing(block), placing(pocket)), {0.5 * s, 0.5 * s, -2 * s}, {0.5 * s, 0.5 * s, 0}, 0.1 * s, w, false},
+    const CsgNode pocket =
+        dice.one_in(2)
+            ? node_of(BoxShape{{0.2 * s, 0.2 * s, w}, {0.8 * s, 0.8 * s, s}})
+            : node_of(CylinderShape{{0.5 * s, 0.5 * s, w}, {0.5 * s, 0.5 * s, s}, 0.3 * s});
+    check_thin_place({cut(placing(block), placing(pocket)),
+                      {0.5 * s, 0.5 * s, -2 * s},
+                      {0.5 * s, 0.5 * s, 0},
+                      0.1 * s,
+                      w,
+                      false},
                      s, map, dice);
   });
 }
@@ -90,12 +101,20 @@ TEST_CASE("a sheet on a face stays an object of its own, and a slit between two 
     const CsgNode lower = node_of(BoxShape{{0, 0, 0}, {s, s, middle}});
     const CsgNode upper = node_of(BoxShape{{0, 0, middle + w}, {s, s, s}});
     check_thin_place({operation(Operation::kUnion, {placing(lower), placing(upper)}),
-                      {middle, middle, -2 * s}, {middle, middle, middle}, 0.1 * s, w, true},
+                      {middle, middle, -2 * s},
+                      {middle, middle, middle},
+                      0.1 * s,
+                      w,
+                      true},
                      s, map, dice);
     // The sheet on the lower part, itself crossed with a slit of its own thickness below.
     const CsgNode sheet = node_of(BoxShape{{0, 0, middle + w}, {s, s, middle + 2 * w}});
     check_thin_place({operation(Operation::kUnion, {placing(lower), placing(sheet)}),
-                      {middle, middle, 3 * s}, {middle, middle, middle}, 0.1 * s, w, false},
+                      {middle, middle, 3 * s},
+                      {middle, middle, middle},
+                      0.1 * s,
+                      w,
+                      false},
                      s, map, dice);
   });
 }
@@ -103,29 +122,46 @@ TEST_CASE("a sheet on a face stays an object of its own, and a slit between two 
 TEST_CASE("plates a billionth of their size thick stay plates, whatever they are made of") {
   for_all_sizes([](double s, double share, const Placing& placing, const Affine& map, Dice& dice) {
     const double w = share * s;
-    const Column column(static_cast<ColumnKind>(dice.below(kColumnKinds - 3)), 0, 0, 0.5 * s, {-0.1 * s, 0.1 * s, 0}, dice);
-    check_thin_place({placing(column.between(0, w)), {0, 0, -2 * s}, {0, 0, 0}, 0.1 * s, w, false}, s, map, dice);
+    const Column column(static_cast<ColumnKind>(dice.below(kColumnKinds - 3)), 0, 0, 0.5 * s,
+                        {-0.1 * s, 0.1 * s, 0}, dice);
+    check_thin_place({placing(column.between(0, w)), {0, 0, -2 * s}, {0, 0, 0}, 0.1 * s, w, false},
+                     s, map, dice);
   });
 }
 
 TEST_CASE("round walls stay where radii differ by a millionth or a billionth") {
   for_all_sizes([](double s, double share, const Placing& placing, const Affine& map, Dice& dice) {
     const double r = 0.5 * s;
-    const auto wall = [&](const CsgNode& outer, const CsgNode& inner) { return cut(placing(outer), placing(inner)); };
+    const auto wall = [&](const CsgNode& outer, const CsgNode& inner) {
+      return cut(placing(outer), placing(inner));
+    };
     const Vec3 beside{2 * s, 0, 0.1 * s}, at{0, 0, 0};
     const auto ball = [](double radius) { return node_of(SphereShape{{0, 0, 0}, radius}); };
-    check_thin_place({wall(ball(r), ball(r * (1 - share))), beside, at, 0.1 * s, r * share, false}, s, map, dice);
-    const auto rod = [&](double radius, double h) { return node_of(CylinderShape{{0, 0, -h}, {0, 0, h}, radius}); };
-    check_thin_place({wall(rod(r, s), rod(r * (1 - share), 1.1 * s)), beside, at, 0.1 * s, r * share, false}, s, map, dice);
+    check_thin_place({wall(ball(r), ball(r * (1 - share))), beside, at, 0.1 * s, r * share, false},
+                     s, map, dice);
+    const auto rod = [&](double radius, double h) {
+      return node_of(CylinderShape{{0, 0, -h}, {0, 0, h}, radius});
+    };
+    check_thin_place(
+        {wall(rod(r, s), rod(r * (1 - share), 1.1 * s)), beside, at, 0.1 * s, r * share, false}, s,
+        map, dice);
     const auto egg = [](double radius) {
-      return node_of(EllipsoidShape{{0, 0, 0}, {Vec3{radius, 0, 0}, {0, 0.8 * radius, 0}, {0, 0, 1.2 * radius}}});
+      return node_of(EllipsoidShape{
+          {0, 0, 0}, {Vec3{radius, 0, 0}, {0, 0.8 * radius, 0}, {0, 0, 1.2 * radius}}});
     };
     // Where an axis ends an ellipsoid's wall is as thick as the axes differ.
-    check_thin_place({wall(egg(r), egg(r * (1 - share))), {2 * s, 0, 0}, {r, 0, 0}, 1e-3 * s, r * share, false}, s, map,
-                     dice);
-    const auto ring = [&](double minor) { return node_of(TorusShape{{0, 0, 0}, {0, 0, 1}, r, minor}); };
-    check_thin_place({wall(ring(0.3 * r), ring(0.3 * r * (1 - share))), {2 * s, 0, 0.05 * s}, {1.3 * r, 0, 0}, 0.02 * s,
-                      0.3 * r * share, false},
+    check_thin_place(
+        {wall(egg(r), egg(r * (1 - share))), {2 * s, 0, 0}, {r, 0, 0}, 1e-3 * s, r * share, false},
+        s, map, dice);
+    const auto ring = [&](double minor) {
+      return node_of(TorusShape{{0, 0, 0}, {0, 0, 1}, r, minor});
+    };
+    check_thin_place({wall(ring(0.3 * r), ring(0.3 * r * (1 - share))),
+                      {2 * s, 0, 0.05 * s},
+                      {1.3 * r, 0, 0},
+                      0.02 * s,
+                      0.3 * r * share,
+                      false},
                      s, map, dice);
   });
 }
@@ -135,7 +171,9 @@ TEST_CASE("cylinders whose axes lie a millionth or a billionth apart leave a cre
     const double r = 0.5 * s, w = share * s;
     const CsgNode rod = node_of(CylinderShape{{0, 0, -s}, {0, 0, s}, r});
     const CsgNode aside = node_of(CylinderShape{{-w, 0, -1.1 * s}, {-w, 0, 1.1 * s}, r});
-    check_thin_place({cut(placing(rod), placing(aside)), {2 * s, 0, 0}, {r, 0, 0}, 1e-3 * s, w, false}, s, map, dice);
+    check_thin_place(
+        {cut(placing(rod), placing(aside)), {2 * s, 0, 0}, {r, 0, 0}, 1e-3 * s, w, false}, s, map,
+        dice);
   });
 }
 
@@ -144,8 +182,12 @@ TEST_CASE("a wedge stays whose faces form an angle of a millionth or a billionth
     const CsgNode block = node_of(BoxShape{{0, 0, 0}, {s, s, s}});
     // What lies above the plane z = share · x is taken away.
     const CsgNode above = node_of(HalfSpaceShape{{share, 0, -1}, 0});
-    check_thin_place({cut(placing(block), placing(above)), {0.8 * s, 0.5 * s, -2 * s}, {0.8 * s, 0.5 * s, 0}, 1e-3 * s,
-                      0.8 * share * s, false},
+    check_thin_place({cut(placing(block), placing(above)),
+                      {0.8 * s, 0.5 * s, -2 * s},
+                      {0.8 * s, 0.5 * s, 0},
+                      1e-3 * s,
+                      0.8 * share * s,
+                      false},
                      s, map, dice);
   });
 }
@@ -161,14 +203,18 @@ TEST_CASE("a pack of sheets a billionth thick, and apart, stays as many sheets")
     const Model model = compile_scene(scene_of({operation(Operation::kUnion, std::move(sheets))}));
     CrossingFinder finder(model);
     for (int i = 0; i < 10; ++i) {
-      const Vec3 from = map.point({0.5 * s, 0.5 * s, 2 * s}), at = map.point(s * Vec3{dice.between(0.3, 0.7), 0.5, 0});
+      const Vec3 from = map.point({0.5 * s, 0.5 * s, 2 * s}),
+                 at = map.point(s * Vec3{dice.between(0.3, 0.7), 0.5, 0});
       CHECK(finder.all({"", {from, normalized(at - from)}, 0, s, false}).size() == 2 * kSheets);
     }
   });
 }
 
-TEST_CASE("planes of other parts, each within rounding of the next, don't bring the sides of a sheet together") {
-  // The sides are 1e-11 of the size apart, a thousand times what rounding makes of numbers; 4000 steps lie between.
+TEST_CASE(
+    "planes of other parts, each within rounding of the next, don't bring the sides of a sheet "
+    "together") {
+  // The sides are 1e-11 of the size apart, a thousand times what rounding makes of numbers; 4000
+  // steps lie between.
   constexpr std::size_t kSteps = 4000;
   for (const bool is_turned : {false, true}) {
     Dice dice(is_turned ? 1 : 2);
@@ -184,7 +230,8 @@ TEST_CASE("planes of other parts, each within rounding of the next, don't bring 
     CrossingFinder finder(model);
     const Affine map = is_turned ? ways.map() : Affine{};
     for (int i = 0; i < 20; ++i) {
-      const Vec3 from = map.point({0.5 * s, 0.5 * s, 2 * s}), at = map.point(s * Vec3{dice.between(0.3, 0.7), 0.5, 0});
+      const Vec3 from = map.point({0.5 * s, 0.5 * s, 2 * s}),
+                 at = map.point(s * Vec3{dice.between(0.3, 0.7), 0.5, 0});
       const auto found = finder.all({"", {from, normalized(at - from)}, 0, s, false});
       REQUIRE(found.size() == 2);
       CHECK((found[1].t - found[0].t) * found[0].cosine == Approx(w).epsilon(0.05));

@@ -81,12 +81,14 @@ class PairOfModels {
   CrossingTolerance tolerance(const PairRay& ray, const std::vector<SeenCrossing>& expected) const {
     const double farthest = expected.empty() ? 0 : expected.back().t;
     const double reach = max_abs(ray.ray.origin) + farthest;
-    const double of_coordinates = options_.rounding > 1e-9 ? options_.rounding : 64 * std::numeric_limits<double>::epsilon();
-    return {10 * options_.rounding * (ray.size + farthest) + of_coordinates * reach, std::fmax(1e-6, 1000 * options_.rounding)};
+    const double of_coordinates =
+        options_.rounding > 1e-9 ? options_.rounding : 64 * std::numeric_limits<double>::epsilon();
+    return {10 * options_.rounding * (ray.size + farthest) + of_coordinates * reach,
+            std::fmax(1e-6, 1000 * options_.rounding)};
   }
 
-  /// Rays a millionth of the size beside it, or a little more where numbers are coarser, cross the same faces, none of
-  /// them nearly along it.
+  /// Rays a millionth of the size beside it, or a little more where numbers are coarser, cross the
+  /// same faces, none of them nearly along it.
   bool is_clear_of_edges(const PairRay& ray, const std::vector<SeenCrossing>& expected) {
     const double beside = std::fmax(1e-6, 60 * options_.rounding);
     for (const SeenCrossing& c : expected) {
@@ -95,7 +97,8 @@ class PairOfModels {
     for (int i = 0; i < 8; ++i) {
       const auto around = longer_.all(rays_.beside(ray, beside));
       const double far = ray.size + 1e-3 * max_abs(ray.ray.origin);
-      if (!same_crossings(expected, around, {30 * beside * far, std::fmax(1e-2, 30 * beside)})) return false;
+      if (!same_crossings(expected, around, {30 * beside * far, std::fmax(1e-2, 30 * beside)}))
+        return false;
     }
     return true;
   }
@@ -105,8 +108,9 @@ class PairOfModels {
     std::ostringstream out;
     out.precision(17);
     const Vec3 &o = ray.ray.origin, &d = ray.ray.direction;
-    out << pair_.text() << ": ray " << ray.what << " {{" << o.x << ", " << o.y << ", " << o.z << "}, {" << d.x << ", "
-        << d.y << ", " << d.z << "}}, size " << ray.size << ", ways differ by " << pair_.ways_differ_ulps << " ulps";
+    out << pair_.text() << ": ray " << ray.what << " {{" << o.x << ", " << o.y << ", " << o.z
+        << "}, {" << d.x << ", " << d.y << ", " << d.z << "}}, size " << ray.size
+        << ", ways differ by " << pair_.ways_differ_ulps << " ulps";
     const auto list = [&](const char* name, const std::vector<SeenCrossing>& crossings) {
       out << "\n  " << name << ':';
       for (const SeenCrossing& c : crossings) out << ' ' << (c.entering ? "in " : "out ") << c.t;

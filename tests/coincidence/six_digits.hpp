@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "coincidence/flush_pair.hpp"
+#include "coincidence/pair_maker.hpp"
 
 namespace graycube::testing {
 
@@ -25,7 +25,7 @@ class SixDigits {
       }
       node.transform = map;
     }
-    std::visit([this](auto& shape) { round(shape); }, node.value);
+    std::visit([&](auto& shape) { round(shape); }, node.value);
   }
 
  private:
@@ -117,11 +117,12 @@ inline void round_to_six_digits(Scene& scene) {
   SixDigits::say_six(scene);
 }
 
-/// A leaf as OpenSCAD tells it: at the origin, of a size, brought to its place by a level of its own.
+/// A leaf as OpenSCAD tells it: at the origin, of a size, brought to its place by a level of its
+/// own.
 class AsOpenscad {
  public:
   CsgNode operator()(const CsgNode& node) const {
-    CsgNode told = std::visit([this](const auto& shape) { return tell(shape); }, node.value);
+    CsgNode told = std::visit([&](const auto& shape) { return tell(shape); }, node.value);
     if (!node.transform) return told;
     return with_level(std::move(told), *node.transform);
   }
@@ -137,12 +138,15 @@ class AsOpenscad {
     for (const CsgNode& child : o.children) told.children.push_back((*this)(child));
     return node_of(std::move(told));
   }
-  static CsgNode tell(const BoxShape& b) { return with_level(node_of(BoxShape{{}, b.max - b.min}), translation(b.min)); }
+  static CsgNode tell(const BoxShape& b) {
+    return with_level(node_of(BoxShape{{}, b.max - b.min}), translation(b.min));
+  }
   static CsgNode tell(const CylinderShape& c) {
     return with_level(node_of(CylinderShape{{}, c.top - c.base, c.radius}), translation(c.base));
   }
   static CsgNode tell(const ConeShape& c) {
-    return with_level(node_of(ConeShape{{}, c.base_radius, c.top - c.base, c.top_radius}), translation(c.base));
+    return with_level(node_of(ConeShape{{}, c.base_radius, c.top - c.base, c.top_radius}),
+                      translation(c.base));
   }
   static CsgNode tell(const SphereShape& s) {
     return with_level(node_of(SphereShape{{}, s.radius}), translation(s.center));
