@@ -1,5 +1,5 @@
-// A way to a place: maps one after the other, as a file's nested `transform` lists give them, and other ways that
-// lead to the same place by other arithmetic.
+// A way to a place: maps one after the other, as a file's nested `transform` lists give them, and
+// other ways that lead to the same place by other arithmetic.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,9 @@ struct Move {
   Affine matrix;
 
   static Move translate(const Vec3& by) { return {Kind::kTranslate, by, 0, {}}; }
-  static Move rotate(const Vec3& axis, double degrees) { return {Kind::kRotate, axis, degrees, {}}; }
+  static Move rotate(const Vec3& axis, double degrees) {
+    return {Kind::kRotate, axis, degrees, {}};
+  }
   static Move scale(const Vec3& by) { return {Kind::kScale, by, 0, {}}; }
   static Move with_matrix(const Affine& m) { return {Kind::kMatrix, {}, 0, m}; }
 
@@ -83,7 +85,8 @@ inline Move any_move(Dice& dice, double size, ChainOptions::Turns turns) {
     case 0: return Move::translate(offset(dice, size, turns));
     case 1:
     case 2:
-      if (turns == Turns::kQuarters) return Move::rotate(dice.axis(), 90.0 * static_cast<double>(1 + dice.below(3)));
+      if (turns == Turns::kQuarters)
+        return Move::rotate(dice.axis(), 90.0 * static_cast<double>(1 + dice.below(3)));
       return Move::rotate(dice.one_in(2) ? dice.axis() : dice.unit_vector(), round_angle(dice));
     case 3: {
       Vec3 mirror{1, 1, 1};
@@ -91,9 +94,11 @@ inline Move any_move(Dice& dice, double size, ChainOptions::Turns turns) {
       return Move::scale(mirror);
     }
     case 4: {
-      if (turns == Turns::kQuarters) return Move::scale(dice.one_in(2) ? Vec3{2, 2, 2} : Vec3{1, 0.5, 2});
+      if (turns == Turns::kQuarters)
+        return Move::scale(dice.one_in(2) ? Vec3{2, 2, 2} : Vec3{1, 0.5, 2});
       const double s = dice.between(0.4, 2);
-      return Move::scale(dice.one_in(2) ? Vec3{s, s, s} : Vec3{s, dice.between(0.5, 2), dice.between(0.5, 2)});
+      return Move::scale(dice.one_in(2) ? Vec3{s, s, s}
+                                        : Vec3{s, dice.between(0.5, 2), dice.between(0.5, 2)});
     }
     default:
       if (turns == Turns::kQuarters) return Move::rotate(dice.axis(), 180);
@@ -107,7 +112,8 @@ inline Move any_move(Dice& dice, double size, ChainOptions::Turns turns) {
 inline Chain some_chain(Dice& dice, double size, const ChainOptions& options) {
   Chain chain;
   const std::size_t count = 1 + dice.below(options.most_moves);
-  for (std::size_t i = 0; i < count; ++i) chain.push_back(chains::any_move(dice, size, options.turns));
+  for (std::size_t i = 0; i < count; ++i)
+    chain.push_back(chains::any_move(dice, size, options.turns));
   if (options.turns != ChainOptions::Turns::kQuarters) {
     chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(dice.below(chain.size() + 1)),
                  Move::rotate(dice.unit_vector(), chains::round_angle(dice)));
@@ -120,11 +126,15 @@ namespace chains {
 
 /// A move and what takes it back, so that nothing happens.
 inline std::pair<Move, Move> there_and_back(Dice& dice, double size) {
-  switch (dice.below(4)) {
+  switch (dice.below(5)) {
     case 0: {
       Vec3 mirror{1, 1, 1};
       mirror[static_cast<int>(dice.below(3))] = -1;
       return {Move::scale(mirror), Move::scale(mirror)};
+    }
+    case 4: {
+      const Vec3 s{3, 0.7, dice.between(0.5, 2)};
+      return {Move::scale(s), Move::scale({1 / s.x, 1 / s.y, 1 / s.z})};
     }
     case 1: {
       const double s = dice.one_in(2) ? 3 : dice.between(0.5, 2);
@@ -147,9 +157,11 @@ inline std::pair<Move, Move> there_and_back(Dice& dice, double size) {
 inline std::pair<Move, Move> halves(Dice& dice, const Move& s) {
   const double share = dice.between(0.1, 0.9);
   switch (s.kind) {
-    case Move::Kind::kTranslate: return {Move::translate(share * s.v), Move::translate(s.v - share * s.v)};
+    case Move::Kind::kTranslate:
+      return {Move::translate(share * s.v), Move::translate(s.v - share * s.v)};
     case Move::Kind::kRotate: {
-      const double first = dice.one_in(2) ? std::floor(share * s.angle_degrees) : share * s.angle_degrees;
+      const double first =
+          dice.one_in(2) ? std::floor(share * s.angle_degrees) : share * s.angle_degrees;
       return {Move::rotate(s.v, first), Move::rotate(s.v, s.angle_degrees - first)};
     }
     case Move::Kind::kScale: {
@@ -192,8 +204,10 @@ inline void rewrite_once(Chain& chain, Dice& dice, double size) {
     }
     case 1: return replace(halves(dice, *at));
     case 2:
-      if (at->kind == Move::Kind::kRotate) *at = Move::rotate(-at->v, -at->angle_degrees);
-      else replace(halves(dice, *at));
+      if (at->kind == Move::Kind::kRotate)
+        *at = Move::rotate(-at->v, -at->angle_degrees);
+      else
+        replace(halves(dice, *at));
       return;
     case 3:
       if (i + 1 < chain.size()) swap_with_translation(chain, i);
@@ -219,10 +233,12 @@ inline CsgNode placed(CsgNode node, const Chain& chain, Dice& dice) {
   const std::size_t levels = 1 + dice.below(kMostLevels);
   std::size_t done = 0;
   for (std::size_t level = 0; level < levels; ++level) {
-    const std::size_t end = level + 1 == levels ? chain.size() : done + dice.below(chain.size() - done + 1);
+    const std::size_t end =
+        level + 1 == levels ? chain.size() : done + dice.below(chain.size() - done + 1);
     if (end == done) continue;
     if (node.transform) node = operation(Operation::kUnion, {std::move(node)});
-    node.transform = map_of({chain.begin() + static_cast<std::ptrdiff_t>(done), chain.begin() + static_cast<std::ptrdiff_t>(end)});
+    node.transform = map_of({chain.begin() + static_cast<std::ptrdiff_t>(done),
+                             chain.begin() + static_cast<std::ptrdiff_t>(end)});
     done = end;
   }
   return node;

@@ -1,5 +1,5 @@
-// Columns: solids that stand along z between two heights, whose sides don't depend on where they are cut off. A cut
-// of the same sides may thus end flush with a face, or go on beyond it.
+// Columns: solids that stand along z between two heights, whose sides don't depend on where they
+// are cut off. A cut of the same sides may thus end flush with a face, or go on beyond it.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +42,10 @@ struct Stretch {
 
 class Column {
  public:
-  /// About (x, y), of radius about `r`. `is_exact`: numbers for which all arithmetic is exact, in a kind with plane sides.
-  Column(ColumnKind kind, double x, double y, double r, const Stretch& stretch, Dice& dice, bool is_exact = false)
+  /// About (x, y), of radius about `r`. `is_exact`: numbers for which all arithmetic is exact, in a
+  /// kind with plane sides.
+  Column(ColumnKind kind, double x, double y, double r, const Stretch& stretch, Dice& dice,
+         bool is_exact = false)
       : kind_(kind), x_(x), y_(y), r_(r), stretch_(stretch) {
     a_ = is_exact ? 1 : dice.between(0.75, 1);
     b_ = is_exact ? 0.75 : dice.between(0.75, 1);
@@ -56,9 +58,12 @@ class Column {
     narrowing_ = dice.sign() * dice.between(0.5, 1) * slope;
   }
 
-  /// Within the sides at all heights of the stretch lies the disc of this radius, and around them that of the other.
+  /// Within the sides at all heights of the stretch lies the disc of this radius, and around them
+  /// that of the other.
   double inner() const { return kind_ == ColumnKind::kTorus ? 0 : 0.6 * r_; }
-  double outer() const { return static_cast<std::size_t>(kind_) < kFlatColumnKinds ? 1.55 * r_ : 1.3 * r_; }
+  double outer() const {
+    return static_cast<std::size_t>(kind_) < kFlatColumnKinds ? 1.55 * r_ : 1.3 * r_;
+  }
   double x() const { return x_; }
   double y() const { return y_; }
   ColumnKind kind() const { return kind_; }
@@ -66,7 +71,8 @@ class Column {
   /// A ball and a ring must be higher than the stretch.
   static bool fits(ColumnKind kind, double r, const Stretch& stretch) {
     if (kind == ColumnKind::kTorus) return stretch.half() < 0.38 * r;
-    if (kind == ColumnKind::kBall || kind == ColumnKind::kEllipsoid) return stretch.half() < 0.55 * r;
+    if (kind == ColumnKind::kBall || kind == ColumnKind::kEllipsoid)
+      return stretch.half() < 0.55 * r;
     return true;
   }
 
@@ -86,8 +92,7 @@ class Column {
       case ColumnKind::kQuadric: return quadric(lo, hi);
       case ColumnKind::kBall: return slab(node_of(SphereShape{middle(), 1.2 * r_}), lo, hi);
       case ColumnKind::kEllipsoid: return slab(ellipsoid(), lo, hi);
-      default:
-        return slab(node_of(TorusShape{middle(), {0, 0, 1}, 0.6 * r_, 0.4 * r_}), lo, hi);
+      default: return slab(node_of(TorusShape{middle(), {0, 0, 1}, 0.6 * r_, 0.4 * r_}), lo, hi);
     }
   }
 
@@ -97,7 +102,9 @@ class Column {
   BoxShape box(double lo, double hi) const {
     return {{x_ - a_ * r_, y_ - b_ * r_, lo}, {x_ + a_ * r_, y_ + b_ * r_, hi}};
   }
-  CsgNode cylinder(double lo, double hi) const { return node_of(CylinderShape{{x_, y_, lo}, {x_, y_, hi}, r_}); }
+  CsgNode cylinder(double lo, double hi) const {
+    return node_of(CylinderShape{{x_, y_, lo}, {x_, y_, hi}, r_});
+  }
   /// Planes of constant z stay where they are.
   Affine lean() const {
     Affine a;
@@ -124,7 +131,9 @@ class Column {
     }
     return points;
   }
-  CsgNode prism(double lo, double hi) const { return node_of(PrismShape{corners(), {}, hi - lo, lo}); }
+  CsgNode prism(double lo, double hi) const {
+    return node_of(PrismShape{corners(), {}, hi - lo, lo});
+  }
   CsgNode mesh(double lo, double hi) const {
     PolygonMesh polygons;
     for (const double z : {lo, hi}) {
@@ -160,16 +169,21 @@ class Column {
   /// x² + b y² + k z ≤ r² about the axis.
   CsgNode quadric(double lo, double hi) const {
     const double k = narrowing_ * r_;
-    const QuadricShape q{{b_, 0, k, -r_ * r_}, {-2 * r_, -2 * r_, lo - stretch_.middle()}, {2 * r_, 2 * r_, hi - stretch_.middle()}};
+    const QuadricShape q{{b_, 0, k, -r_ * r_},
+                         {-2 * r_, -2 * r_, lo - stretch_.middle()},
+                         {2 * r_, 2 * r_, hi - stretch_.middle()}};
     return transformed(node_of(q), translation(middle()));
   }
   CsgNode ellipsoid() const {
     const double c = cos_degrees(phase_degrees_), s = sin_degrees(phase_degrees_);
-    return node_of(EllipsoidShape{middle(), {1.2 * r_ * Vec3{c, s, 0}, a_ * 1.2 * r_ * Vec3{-s, c, 0}, 1.1 * r_ * Vec3{0.1, 0, 1}}});
+    return node_of(EllipsoidShape{
+        middle(),
+        {1.2 * r_ * Vec3{c, s, 0}, a_ * 1.2 * r_ * Vec3{-s, c, 0}, 1.1 * r_ * Vec3{0.1, 0, 1}}});
   }
   static CsgNode slab(CsgNode whole, double lo, double hi) {
-    return operation(Operation::kIntersection, {std::move(whole), node_of(HalfSpaceShape{{0, 0, 1}, hi}),
-                                                node_of(HalfSpaceShape{{0, 0, -1}, -lo})});
+    return operation(Operation::kIntersection,
+                     {std::move(whole), node_of(HalfSpaceShape{{0, 0, 1}, hi}),
+                      node_of(HalfSpaceShape{{0, 0, -1}, -lo})});
   }
 
   ColumnKind kind_;

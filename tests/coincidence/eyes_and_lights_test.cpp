@@ -1,4 +1,5 @@
-// Eyes and lights that lie exactly on faces, and on what would be a face if a flush cut left a skin.
+// Eyes and lights that lie exactly on faces, and on what would be a face if a flush cut left a
+// skin.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <optional>
@@ -13,7 +14,8 @@ namespace {
 
 constexpr std::uint32_t kSide = 48;
 
-/// Where in the pair touching faces vanish, with no surface near: in a hole's mouth, or between two parts.
+/// Where in the pair touching faces vanish, with no surface near: in a hole's mouth, or between two
+/// parts.
 std::optional<Vec3> vanished_face_point(const FlushPair& pair, Dice& dice, double& size) {
   const Model model = compile_scene(pair.longer);
   CrossingFinder finder(model);
@@ -35,8 +37,9 @@ std::optional<Vec3> vanished_face_point(const FlushPair& pair, Dice& dice, doubl
   return std::nullopt;
 }
 
-/// Calls `change(scene, point, size)` for pairs of all kinds that have such a point, and compares their pictures.
-/// `apart`: for pairs without touching surfaces, to see whether the pictures can agree at all.
+/// Calls `change(scene, point, size)` for pairs of all kinds that have such a point, and compares
+/// their pictures. `apart`: for pairs without touching surfaces, to see whether the pictures can
+/// agree at all.
 template <typename Change>
 void check_at_vanished_faces(const Change& change, bool apart) {
   PictureTally tally;
@@ -82,7 +85,8 @@ void put_eye(Scene& scene, const Vec3& point, double size) {
   c.eye = point;
   c.look_at = point + size * view;
 }
-/// It lies in the plane of the faces around, where whether there are highlights is for rounding to say.
+/// It lies in the plane of the faces around, where whether there are highlights is for rounding to
+/// say.
 void put_light(Scene& scene, const Vec3& point, double) {
   scene.materials.front().material.specular = 0;
   scene.settings.lights = {{point, {1, 1, 1}, Falloff::kNone}};
@@ -98,20 +102,24 @@ TEST_CASE("a light in the mouth of a flush hole lights what it lights in a longe
   check_at_vanished_faces(put_light, false);
 }
 
-TEST_CASE("an eye and a light in the mouth of a longer hole do the same whichever way leads to it") {
+TEST_CASE(
+    "an eye and a light in the mouth of a longer hole do the same whichever way leads to it") {
   check_at_vanished_faces(put_eye, true);
   check_at_vanished_faces(put_light, true);
 }
 
-TEST_CASE("a light between two solids that touch lights nothing, whether they are one object or two") {
+TEST_CASE(
+    "a light between two solids that touch lights nothing, whether they are one object or two") {
   PictureTally tally;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Dice dice(seed);
     OtherWays ways(some_turn_and_move(dice), dice);
     const Stack stack = Stack::some(dice);
-    Scene lit = scene_with_settings(moved_settings(settings_around_origin(dice, kSide), ways.map()), {matt()});
+    Scene lit = scene_with_settings(moved_settings(settings_around_origin(dice, kSide), ways.map()),
+                                    {matt()});
     lit.settings.lights = {{ways.map().point({0.1, -0.1, 0}), {1, 1, 1}, Falloff::kNone}};
-    std::vector<CsgNode> solids{ways(stack.below.between(-0.5, 0)), ways(stack.above.between(0, 0.5))};
+    std::vector<CsgNode> solids{ways(stack.below.between(-0.5, 0)),
+                                ways(stack.above.between(0, 0.5))};
     if (seed % 2 == 0) solids = {operation(Operation::kUnion, solids)};
     add_objects(lit, solids);
     add_objects(lit, {ways(node_of(HalfSpaceShape{{0, 0, 1}, -1}))});
@@ -129,10 +137,12 @@ Scene lit_from_face(std::uint64_t seed, double above, const Material& material) 
   Dice dice(seed);
   OtherWays ways(some_turn_and_move(dice), dice);
   const Stack stack = Stack::some(dice);
-  Scene scene = scene_with_settings(moved_settings(settings_around_origin(dice, kSide), ways.map()), {material});
+  Scene scene = scene_with_settings(moved_settings(settings_around_origin(dice, kSide), ways.map()),
+                                    {material});
   scene.settings.lights = {{ways.map().point({-0.15, 0.4, above}), {1, 1, 1}, Falloff::kNone}};
   add_objects(scene, {ways(stack.below.between(-0.5, 0)), ways(stack.above.between(0, 0.5)),
-                      ways(node_of(BoxShape{{-2, -2, -1}, {2, 2, -0.75}})), ways(node_of(BoxShape{{-2, 1.5, -0.75}, {2, 2, 1}}))});
+                      ways(node_of(BoxShape{{-2, -2, -1}, {2, 2, -0.75}})),
+                      ways(node_of(BoxShape{{-2, 1.5, -0.75}, {2, 2, 1}}))});
   return scene;
 }
 
@@ -193,7 +203,8 @@ TEST_CASE("of the face that it lies on an eye sees nothing, or nothing else") {
     c.up = {0, 1, 0};
     c.fov_degrees = 90;
     scene.settings = moved_settings(scene.settings, ways.map());
-    std::vector<CsgNode> solids{ways(stack.below.between(-0.5, 0)), ways(stack.above.between(0, 0.5))};
+    std::vector<CsgNode> solids{ways(stack.below.between(-0.5, 0)),
+                                ways(stack.above.between(0, 0.5))};
     if (seed % 3 == 0) solids = {operation(Operation::kUnion, solids)};
     add_objects(scene, std::move(solids));
     const std::size_t hits = hits_at_once(scene);

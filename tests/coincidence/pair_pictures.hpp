@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "coincidence/flush_pair.hpp"
+#include "coincidence/pair_maker.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
 
@@ -31,7 +31,9 @@ inline void set_up_picture(FlushPair& pair, std::uint32_t side) {
   s.background = {0.1, 0.2, 0.3};
   s.max_depth = 3;
   for (int i = 0; i < 2; ++i) {
-    s.lights.push_back({s.camera.look_at + 5 * size * (view + dice.unit_vector()), {0.6, 0.5, 0.5}, Falloff::kNone});
+    s.lights.push_back({s.camera.look_at + 5 * size * (view + dice.unit_vector()),
+                        {0.6, 0.5, 0.5},
+                        Falloff::kNone});
   }
   s.aovs = AovSet::all();
   Material m;
@@ -68,7 +70,8 @@ struct PictureDifference {
 
 class PictureComparison {
  public:
-  PictureComparison(const Picture& found, const Picture& expected) : found_(found), expected_(expected) {}
+  PictureComparison(const Picture& found, const Picture& expected)
+      : found_(found), expected_(expected) {}
 
   PictureDifference run() const {
     PictureDifference d;
@@ -85,19 +88,26 @@ class PictureComparison {
   }
 
  private:
-  std::size_t at(std::uint32_t x, std::uint32_t y) const { return 3 * (std::size_t{y} * expected_.width + x); }
+  std::size_t at(std::uint32_t x, std::uint32_t y) const {
+    return 3 * (std::size_t{y} * expected_.width + x);
+  }
   /// By more than four steps of a 16-bit picture.
   bool differs(std::uint32_t x, std::uint32_t y) const {
     constexpr double kMost = 4.0 / 65535;
     for (std::size_t i = at(x, y); i < at(x, y) + 3; ++i) {
-      const double a = std::clamp<double>(found_.rgb[i], 0, 1), b = std::clamp<double>(expected_.rgb[i], 0, 1);
+      const double a = std::clamp<double>(found_.rgb[i], 0, 1),
+                   b = std::clamp<double>(expected_.rgb[i], 0, 1);
       if (std::fabs(a - b) > kMost) return true;
     }
     return false;
   }
-  std::uint32_t object(std::uint32_t x, std::uint32_t y) const { return expected_.aov_planes[kDepthPlane][at(x, y) + 1]; }
+  std::uint32_t object(std::uint32_t x, std::uint32_t y) const {
+    return expected_.aov_planes[kDepthPlane][at(x, y) + 1];
+  }
   Vec3 normal(std::uint32_t x, std::uint32_t y) const {
-    const auto word = [&](std::size_t i) { return std::bit_cast<float>(expected_.aov_planes[kNormalPlane][at(x, y) + i]); };
+    const auto word = [&](std::size_t i) {
+      return std::bit_cast<float>(expected_.aov_planes[kNormalPlane][at(x, y) + i]);
+    };
     return {word(0), word(1), word(2)};
   }
   /// The same object and about the same normal in all nine pixels around.
@@ -106,7 +116,8 @@ class PictureComparison {
     if (x == 0 || y == 0 || x + 1 == expected_.width || y + 1 == expected_.height) return false;
     for (std::uint32_t v = y - 1; v <= y + 1; ++v) {
       for (std::uint32_t u = x - 1; u <= x + 1; ++u) {
-        if (object(u, v) != object(x, y) || length(normal(u, v) - normal(x, y)) > kBend) return false;
+        if (object(u, v) != object(x, y) || length(normal(u, v) - normal(x, y)) > kBend)
+          return false;
       }
     }
     return true;
@@ -122,14 +133,16 @@ class PictureTally {
   void add(const std::string& what, const Picture& found, const Picture& expected) {
     const PictureDifference d = PictureComparison(found, expected).run();
     if (d.interior > 0) {
-      wrong_ += "\n  " + what + ": " + std::to_string(d.pixels) + " pixels, " + std::to_string(d.interior) + " of them inside";
+      wrong_ += "\n  " + what + ": " + std::to_string(d.pixels) + " pixels, " +
+                std::to_string(d.interior) + " of them inside";
     }
     sum_.pixels += d.pixels;
     sum_.interior += d.interior;
     sum_.all_interior += d.all_interior;
     pixels_ += std::uint64_t{expected.width} * expected.height;
   }
-  /// Interior pixels never differ, others hardly ever; `share`: of all pixels how many are interior at least.
+  /// Interior pixels never differ, others hardly ever; `share`: of all pixels how many are interior
+  /// at least.
   void check(double share = 0.5) const {
     INFO(sum_.pixels << " of " << pixels_ << " pixels" << wrong_);
     CHECK(sum_.interior == 0);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "coincidence/flush_pair.hpp"
+#include "coincidence/pair_maker.hpp"
 #include "space/surface_tree.hpp"
 
 namespace graycube::testing {
@@ -36,10 +36,22 @@ class PairRays {
     const double size = site_->world_size();
     PairRay r{"", {}, 0, size, false};
     switch (kind % kKinds) {
-      case 0: r.what = "from outside"; r.ray = towards(inside_point(), size); break;
-      case 1: r.what = "from outside at a face"; r.ray = towards(face_point(), size); break;
-      case 2: r.what = "grazing a face"; r.ray = grazing(size); break;
-      case 3: r.what = "from inside"; r.ray = {inside_point(), dice_.unit_vector()}; break;
+      case 0:
+        r.what = "from outside";
+        r.ray = towards(inside_point(), size);
+        break;
+      case 1:
+        r.what = "from outside at a face";
+        r.ray = towards(face_point(), size);
+        break;
+      case 2:
+        r.what = "grazing a face";
+        r.ray = grazing(size);
+        break;
+      case 3:
+        r.what = "from inside";
+        r.ray = {inside_point(), dice_.unit_vector()};
+        break;
       default:
         r.what = "from a face";
         r.ray = {face_point(), dice_.unit_vector()};
@@ -54,13 +66,15 @@ class PairRays {
     start_on_face(r);
     return r;
   }
-  /// Whether secondary rays' least t is short beside the size (it is 1e-9 in scenes that are smaller).
+  /// Whether secondary rays' least t is short beside the size (it is 1e-9 in scenes that are
+  /// smaller).
   static bool is_large_enough(const PairRay& r) { return epsilon(r.ray.origin) < 5e-3 * r.size; }
 
   /// The ray a little beside: of those that start on a face only the direction.
   PairRay beside(PairRay r, double by) {
     const Vec3 aside = cross(r.ray.direction, dice_.unit_vector());
-    if (!r.starts_on_face) r.ray.origin = r.ray.origin + (by * r.size) * cross(r.ray.direction, normalized(aside));
+    if (!r.starts_on_face)
+      r.ray.origin = r.ray.origin + (by * r.size) * cross(r.ray.direction, normalized(aside));
     r.ray.direction = normalized(r.ray.direction + by * normalized(aside));
     return r;
   }
@@ -73,13 +87,15 @@ class PairRays {
   }
   Vec3 inside_point() {
     const double r = site_->radius;
-    return site_->to_world.point({dice_.between(-r, r), dice_.between(-r, r), dice_.between(-0.1, 1.1) * site_->height});
+    return site_->to_world.point(
+        {dice_.between(-r, r), dice_.between(-r, r), dice_.between(-0.1, 1.1) * site_->height});
   }
   /// Of a face that others may touch.
   Vec3 face_point() {
     const double z = site_->heights[dice_.below(site_->heights.size())];
     Vec3 disc{0, 0, site_->radius};
-    if (!site_->discs.empty() && !dice_.one_in(4)) disc = site_->discs[dice_.below(site_->discs.size())];
+    if (!site_->discs.empty() && !dice_.one_in(4))
+      disc = site_->discs[dice_.below(site_->discs.size())];
     return site_->to_world.point(
         {disc.x + disc.z * dice_.between(-1, 1), disc.y + disc.z * dice_.between(-1, 1), z});
   }
@@ -89,7 +105,8 @@ class PairRays {
   }
   Ray grazing(double size) {
     const double turn = dice_.between(0, 360);
-    const Vec3 along = normalized(site_->to_world.vector({cos_degrees(turn), sin_degrees(turn), 0}));
+    const Vec3 along =
+        normalized(site_->to_world.vector({cos_degrees(turn), sin_degrees(turn), 0}));
     const Vec3 beside = site_->to_world.vector({-sin_degrees(turn), cos_degrees(turn), 0});
     const double angle = dice_.sign() * dice_.between(kLeastGrazing, 0.1);
     const Vec3 d = normalized(along + angle * normalized(cross(along, beside)));
@@ -125,7 +142,8 @@ class CrossingFinder {
     std::vector<SeenCrossing> found;
     double t = r.t0;
     while (found.size() < kMostCrossings) {
-      const auto hit = tree_.first_crossing(r.ray, t, std::numeric_limits<double>::infinity(), scratch_);
+      const auto hit =
+          tree_.first_crossing(r.ray, t, std::numeric_limits<double>::infinity(), scratch_);
       if (!hit) break;
       found.push_back(seen(r.ray, *hit));
       t = std::nextafter(hit->t, std::numeric_limits<double>::infinity());
@@ -147,12 +165,15 @@ class CrossingFinder {
   TreeScratch scratch_;
 };
 
-/// Without the pieces, in a solid or between two, that are not longer than `thickness`.
-inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& all, double thickness) {
+/// Without the pieces, in a solid or between two, that are not thicker than `thickness`.
+inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& all,
+                                               double thickness) {
   std::vector<SeenCrossing> kept;
   for (const SeenCrossing& c : all) {
-    const auto before = std::find_if(kept.rbegin(), kept.rend(), [&](const auto& k) { return k.object == c.object; });
-    if (before != kept.rend() && c.t - before->t <= thickness) {
+    const auto before = std::find_if(kept.rbegin(), kept.rend(),
+                                     [&](const auto& k) { return k.object == c.object; });
+    if (before != kept.rend() &&
+        (c.t - before->t) * std::fmax(c.cosine, kLeastGrazing) <= thickness) {
       kept.erase(std::next(before).base());
     } else {
       kept.push_back(c);
@@ -170,10 +191,12 @@ struct CrossingTolerance {
 
 inline bool same_crossings(const std::vector<SeenCrossing>& a, const std::vector<SeenCrossing>& b,
                            const CrossingTolerance& by) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const SeenCrossing& x, const SeenCrossing& y) {
-    return x.object == y.object && x.entering == y.entering &&
-           std::fabs(x.t - y.t) * std::fmax(x.cosine, kLeastGrazing) <= by.t && length(x.normal - y.normal) <= by.normal;
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const SeenCrossing& x, const SeenCrossing& y) {
+                      return x.object == y.object && x.entering == y.entering &&
+                             std::fabs(x.t - y.t) * std::fmax(x.cosine, kLeastGrazing) <= by.t &&
+                             length(x.normal - y.normal) <= by.normal;
+                    });
 }
 
 }  // namespace graycube::testing

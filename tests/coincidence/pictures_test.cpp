@@ -1,5 +1,5 @@
-// Pictures of scenes whose surfaces touch: the same solids without touching surfaces give the same ones, and every
-// way of rendering gives the same bytes.
+// Pictures of scenes whose surfaces touch: the same solids without touching surfaces give the same
+// ones, and every way of rendering gives the same bytes.
 #include <catch2/catch.hpp>
 
 #include "coincidence/pair_pictures.hpp"
@@ -79,7 +79,8 @@ TEST_CASE("macro-regions give bit for bit the whole's picture of touching surfac
     const Harvest whole = trace_whole(model);
     Dice dice(seed);
     const auto [columns, rows] = kGrids[seed % kGrids.size()];
-    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), columns, rows);
+    const MacroGrid grid = MacroGrid::regular(
+        CameraFrame::from(model.settings.camera, model.settings.image), columns, rows);
     check_equal(whole, Machine(model, grid).trace(dice), model.settings.image);
   }
 }

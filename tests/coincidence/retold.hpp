@@ -1,5 +1,5 @@
-// The same solid told by other numbers: ends swapped, planes rescaled, a box as a polyhedron, a prism or a mesh, an
-// ellipsoid by other axes, a rotation carried out in the numbers.
+// The same solid told by other numbers: ends swapped, planes rescaled, a box as a polyhedron, a
+// prism or a mesh, an ellipsoid by other axes, a rotation carried out in the numbers.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,9 @@ inline PolyhedronShape polyhedron_of(const BoxShape& box) {
 /// Tells leaves anew, by dice.
 class Retelling {
  public:
-  explicit Retelling(Dice& dice) : dice_(dice) {}
+  /// `across_kinds`: round things also as shapes of a more general kind.
+  explicit Retelling(Dice& dice, bool across_kinds = false)
+      : dice_(dice), across_kinds_(across_kinds) {}
 
   /// All leaves of a tree, whose order and maps stay.
   CsgNode operator()(const CsgNode& node) {
@@ -79,7 +81,8 @@ class Retelling {
   CsgNode tell(const PolyhedronShape& p) {
     PolyhedronShape told = p;
     for (HalfSpaceShape& h : told.planes) h = rescaled(h);
-    std::rotate(told.planes.begin(), told.planes.begin() + static_cast<std::ptrdiff_t>(dice_.below(told.planes.size())),
+    std::rotate(told.planes.begin(),
+                told.planes.begin() + static_cast<std::ptrdiff_t>(dice_.below(told.planes.size())),
                 told.planes.end());
     return node_of(std::move(told));
   }
@@ -94,12 +97,20 @@ class Retelling {
   CsgNode tell(const PrismShape& p) {
     PrismShape told = p;
     if (told.paths.empty()) {
-      std::rotate(told.points.begin(), told.points.begin() + static_cast<std::ptrdiff_t>(dice_.below(told.points.size())),
-                  told.points.end());
+      std::rotate(
+          told.points.begin(),
+          told.points.begin() + static_cast<std::ptrdiff_t>(dice_.below(told.points.size())),
+          told.points.end());
     }
     return node_of(std::move(told));
   }
   CsgNode tell(const CylinderShape& c) {
+    const double r = c.radius;
+    const Vec3 axis = c.top - c.base;
+    if (across_kinds_ && axis.x == 0 && axis.y == 0 && dice_.one_in(2)) {
+      const QuadricShape round{{1, 0, 0, -r * r}, {-2 * r, -2 * r, 0}, {2 * r, 2 * r, axis.z}};
+      return transformed(node_of(round), translation(c.base));
+    }
     switch (dice_.below(4)) {
       case 0: return node_of(CylinderShape{c.top, c.base, c.radius});
       case 1: return node_of(ConeShape{c.base, c.radius, c.top, c.radius});
@@ -116,9 +127,14 @@ class Retelling {
     return node_of(ConeShape{c.top, c.top_radius, c.base, c.base_radius});
   }
   CsgNode tell(const SphereShape& s) {
+    if (across_kinds_ && dice_.one_in(2)) {
+      const double r = s.radius;
+      return tell(EllipsoidShape{s.center, {Vec3{r, 0, 0}, {0, r, 0}, {0, 0, r}}});
+    }
     if (dice_.one_in(2)) return node_of(s);
     const double back = 1 / s.radius;
-    return transformed(node_of(SphereShape{back * s.center, 1}), scaling({s.radius, s.radius, s.radius}));
+    return transformed(node_of(SphereShape{back * s.center, 1}),
+                       scaling({s.radius, s.radius, s.radius}));
   }
   CsgNode tell(const EllipsoidShape& e) {
     // The unit sphere turned in itself first.
@@ -129,6 +145,9 @@ class Retelling {
     return node_of(EllipsoidShape{e.center, {column(0), column(1), column(2)}});
   }
   CsgNode tell(const TorusShape& t) {
+    if (across_kinds_ && dice_.one_in(2)) {
+      return node_of(EllipticTorusShape{t.center, t.axis, t.major, t.minor, 0, t.minor});
+    }
     const double s = dice_.sign() * (dice_.one_in(2) ? 1 : dice_.between(0.3, 3));
     return node_of(TorusShape{t.center, s * t.axis, t.major, t.minor});
   }
@@ -150,6 +169,7 @@ class Retelling {
   }
 
   Dice& dice_;
+  bool across_kinds_;
 };
 
 /// A leaf with a rigid map carried out in its numbers; nothing for kinds that can't hold it.
@@ -157,7 +177,9 @@ class CarriedOut {
  public:
   explicit CarriedOut(const Affine& map) : map_(map) {}
 
-  std::optional<CsgNode> operator()(const SphereShape& s) const { return node_of(SphereShape{map_.point(s.center), s.radius}); }
+  std::optional<CsgNode> operator()(const SphereShape& s) const {
+    return node_of(SphereShape{map_.point(s.center), s.radius});
+  }
   std::optional<CsgNode> operator()(const BoxShape& b) const { return (*this)(polyhedron_of(b)); }
   std::optional<CsgNode> operator()(const CylinderShape& c) const {
     return node_of(CylinderShape{map_.point(c.base), map_.point(c.top), c.radius});
@@ -169,13 +191,17 @@ class CarriedOut {
     return node_of(TorusShape{map_.point(t.center), map_.vector(t.axis), t.major, t.minor});
   }
   std::optional<CsgNode> operator()(const EllipticTorusShape& t) const {
-    return node_of(EllipticTorusShape{map_.point(t.center), map_.vector(t.axis), t.radius, t.outward, t.upward, t.across});
+    return node_of(EllipticTorusShape{map_.point(t.center), map_.vector(t.axis), t.radius,
+                                      t.outward, t.upward, t.across});
   }
   std::optional<CsgNode> operator()(const EllipticConeShape& c) const {
-    return node_of(EllipticConeShape{map_.point(c.base), map_.point(c.top), map_.vector(c.a), map_.vector(c.b), c.top_a, c.top_b});
+    return node_of(EllipticConeShape{map_.point(c.base), map_.point(c.top), map_.vector(c.a),
+                                     map_.vector(c.b), c.top_a, c.top_b});
   }
   std::optional<CsgNode> operator()(const EllipsoidShape& e) const {
-    return node_of(EllipsoidShape{map_.point(e.center), {map_.vector(e.axes[0]), map_.vector(e.axes[1]), map_.vector(e.axes[2])}});
+    return node_of(
+        EllipsoidShape{map_.point(e.center),
+                       {map_.vector(e.axes[0]), map_.vector(e.axes[1]), map_.vector(e.axes[2])}});
   }
   std::optional<CsgNode> operator()(const HalfSpaceShape& h) const { return node_of(moved(h)); }
   std::optional<CsgNode> operator()(const PolyhedronShape& p) const {
@@ -202,8 +228,8 @@ class CarriedOut {
 };
 
 /// The node brought there in numbers of its own.
-inline CsgNode told_anew(const CsgNode& node, Chain way, Dice& dice) {
-  CsgNode told = Retelling(dice)(node);
+inline CsgNode told_anew(const CsgNode& node, Chain way, Dice& dice, bool across_kinds = false) {
+  CsgNode told = Retelling(dice, across_kinds)(node);
   if (!told.transform && !way.empty() && way.front().is_rigid()) {
     const CarriedOut carry(way.front().map());
     if (auto carried = std::visit(carry, told.value)) {

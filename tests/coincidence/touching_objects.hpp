@@ -1,5 +1,6 @@
-// Scenes of several objects whose faces touch: parts on tables, side by side, let into each other, of glass, mirrors
-// and matter. Unturned all their numbers are short, so that what coincides does to the bit.
+// Scenes of several objects whose faces touch: parts on tables, side by side, let into each other,
+// of glass, mirrors and matter. Unturned all their numbers are short, so that what coincides does
+// to the bit.
 #pragma once
 
 #include <utility>
@@ -28,14 +29,16 @@ class OtherWays {
 
 /// A turn and a translation: lengths and handedness stay.
 inline Chain some_turn_and_move(Dice& dice) {
-  return {Move::rotate(dice.unit_vector(), chains::round_angle(dice)), Move::translate(dice.point(2)),
-          Move::rotate(dice.axis(), chains::round_angle(dice))};
+  return {Move::rotate(dice.unit_vector(), chains::round_angle(dice)),
+          Move::translate(dice.point(2)), Move::rotate(dice.axis(), chains::round_angle(dice))};
 }
 
-inline Scene scene_with_settings(const RenderSettings& settings, const std::vector<Material>& materials) {
+inline Scene scene_with_settings(const RenderSettings& settings,
+                                 const std::vector<Material>& materials) {
   Scene scene;
   scene.settings = settings;
-  for (const Material& m : materials) scene.materials.push_back({"m" + std::to_string(scene.materials.size()), m});
+  for (const Material& m : materials)
+    scene.materials.push_back({"m" + std::to_string(scene.materials.size()), m});
   return scene;
 }
 
@@ -49,7 +52,8 @@ inline RenderSettings settings_around_origin(Dice& dice, std::uint32_t side) {
   s.camera.fov_degrees = 32;
   s.background = {0.1, 0.2, 0.3};
   s.max_depth = 4;
-  s.lights.push_back({9 * normalized(dice.unit_vector() + Vec3{0, 0, 1.5}), {0.6, 0.6, 0.5}, Falloff::kNone});
+  s.lights.push_back(
+      {9 * normalized(dice.unit_vector() + Vec3{0, 0, 1.5}), {0.6, 0.6, 0.5}, Falloff::kNone});
   s.lights.push_back({9 * dice.unit_vector(), {0.4, 0.3, 0.4}, Falloff::kNone});
   s.aovs = AovSet::all();
   return s;
@@ -72,8 +76,8 @@ inline RenderSettings moved_settings(RenderSettings s, const Affine& map) {
   return s;
 }
 
-/// Solids about the origin that touch: a table with its top at 0; standing on it, side by side and in one another, boxes
-/// and round things as high as each other or twice that.
+/// Solids about the origin that touch: a table with its top at 0; standing on it, side by side and
+/// in one another, boxes and round things as high as each other or twice that.
 inline std::vector<CsgNode> touching_solids(Dice& dice) {
   std::vector<CsgNode> solids{node_of(BoxShape{{-2, -2, -0.5}, {2, 2, 0}})};
   // A row of boxes that share their sides, one behind the other.
