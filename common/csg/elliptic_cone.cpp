@@ -47,14 +47,16 @@ Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
   const Vec3 d = p.to_local.vector(ray.direction);
   const double speed = length(d);
   const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
-  // Recentred in the middle of the piece that counts.
-  const double nearest = 0.5 * (i.enter + i.leave) * speed;
+  // Recentred at the point nearest the frame's origin, and roots settled: whoever has the same surface between other caps
+  // meets it at the same parameters.
+  const double nearest = -dot(o, u);
   const Vec3 q = o + nearest * u;
   if (misses_widest(q, u, k, i.enter * speed - nearest, i.leave * speed - nearest)) return {};
   const Quadratic x = product(q.x, u.x, 1 - k * q.z, -k * u.z);
   const Quadratic y = product(q.y, u.y, 1 - q.z, -u.z);
   const Quadratic w = product(1 - q.z, -u.z, 1 - k * q.z, -k * u.z);
-  return quartic_spans(SquaresQuartic{x, y, w}, QuarticRange::of_ray(i.enter, i.leave, nearest, speed));
+  return quartic_spans(SquaresQuartic{x, y, w}, QuarticRange::of_ray(i.enter, i.leave, nearest, speed),
+                       FindSettledRoot());
 }
 
 bool elliptic_cone_contains(const Primitive& p, const Vec3& q) {

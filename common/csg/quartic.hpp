@@ -14,9 +14,9 @@ namespace graycube::csg {
 inline constexpr int kMaxRootRounds = 100;
 
 /// The root of `f` in [lo, hi], where f(lo) and f(hi) have opposite signs: Newton, kept in a shrinking
-/// bracket, until the last bit settles.
+/// bracket, until steps are no longer than `enough`; 0: until the last bit settles.
 template <typename F, typename Derivative>
-double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi) {
+double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi, double enough = 0) {
   const bool rises = f(lo) < 0;
   double s = 0.5 * (lo + hi);
   for (int round = 0; round < kMaxRootRounds; ++round) {
@@ -29,10 +29,28 @@ double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi) {
     }
     double next = s - value / derivative(s);
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (next == s || !(lo < next && next < hi)) return next;
+    if (std::fabs(next - s) <= enough || !(lo < next && next < hi)) return next;
     s = next;
   }
   return s;
+}
+
+/// A root near which `f` changes its sign in [lo, hi], the same to the bit whatever the interval: f is evaluated on a fixed
+/// grid around the root, and the search begins anew in the step of the grid where its sign changes. What tells an interval
+/// from another is not more than which roots it holds.
+template <typename F, typename Derivative>
+double settled_root(F&& f, Derivative&& derivative, double lo, double hi) {
+  constexpr double kStep = 0x1p-36;
+  // Beyond it a step has too few doubles.
+  constexpr double kFarthest = 0x1p+12;
+  const double s = bracketed_root(f, derivative, lo, hi, kStep / 8);
+  if (!(std::fabs(s) < kFarthest)) return bracketed_root(f, derivative, lo, hi);
+  const double below = std::floor(s / kStep) * kStep;
+  const bool is_negative = f(below) < 0;
+  if ((f(below + kStep) < 0) != is_negative) return bracketed_root(f, derivative, below, below + kStep);
+  if ((f(below - kStep) < 0) != is_negative) return bracketed_root(f, derivative, below - kStep, below);
+  // It touches more than it cuts.
+  return bracketed_root(f, derivative, lo, hi);
 }
 
 /// Sorted points that cut an interval into pieces on which a function is monotonic, ends included.
@@ -162,9 +180,24 @@ struct QuarticRange {
   double t_of(double s) const { return (s + nearest) / speed; }
 };
 
+/// Finds a root between two points of opposite signs.
+struct FindRoot {
+  template <typename Line>
+  double operator()(const Line& line, double a, double b) const {
+    return bracketed_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); }, a, b);
+  }
+};
+/// The same to the bit whichever piece of the line is searched.
+struct FindSettledRoot {
+  template <typename Line>
+  double operator()(const Line& line, double a, double b) const {
+    return settled_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); }, a, b);
+  }
+};
+
 /// Where the quartic is negative between enter and leave; spans that reach an end have exactly its parameter.
-template <typename Line>
-Spans quartic_spans(const Line& line, const QuarticRange& range) {
+template <typename Line, typename Find = FindRoot>
+Spans quartic_spans(const Line& line, const QuarticRange& range, const Find& find = {}) {
   const Knots<5> knots = quartic_extremes(line, range.s_enter, range.s_leave);
   Spans spans;
   bool inside = line.f(knots.at[0]) < 0;
@@ -178,8 +211,7 @@ Spans quartic_spans(const Line& line, const QuarticRange& range) {
     const double b = knots.at[static_cast<std::size_t>(i + 1)];
     const bool inside_at_b = line.f(b) < 0;
     if (inside_at_b == inside) continue;
-    const double s = bracketed_root([&](double x) { return line.f(x); },
-                                    [&](double x) { return line.df(x); }, a, b);
+    const double s = find(line, a, b);
     const double t = std::fmax(range.t_of(s), spans.count > 0 ? spans.interval[0].leave : range.enter);
     if (inside) {
       leave_at(t);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/check.hpp"
 
@@ -126,20 +127,32 @@ void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   for (int a = 0; a < 3; ++a) n.number(p.v[1] * z[a], (tolerance + most * e.direction) * length(z));
 }
 
+/// One of an elliptic cone's two semi-axes: the plane that it is measured from, and its length, which grows linearly with the
+/// place.
+struct SemiAxis {
+  Vec3 normal, foot;
+  double length_at_origin;
+  Vec3 growth;
+};
+SemiAxis semi_axis_of(const Primitive& p, int row, double k) {
+  const Vec3 r = p.to_local.row(row);
+  const double l = length(r);
+  const Vec3 normal = (1 / l) * r;
+  return {normal, (-column(p.to_local, row) / l) * normal, (1 - k * column(p.to_local, 2)) / l, (-k / l) * p.to_local.row(2)};
+}
+
 void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  const Vec3 center = p.bounds.center();
-  n.point(center, e.distance());
-  for (int a = 0; a < 3; ++a) n.number(p.bounds.hi[a], e.distance());
-  for (int row = 0; row < 3; ++row) {
-    const Vec3 r = p.to_local.row(row);
-    n.form(form_of(r), form_tolerance(e, square(r)));
-    const double at = dot(r, center) + column(p.to_local, row);
-    // Of x and y the sense means nothing.
-    n.number(row < 2 ? std::fabs(at) : at, length(r) * (2 * e.distance() + e.direction * length(center)));
+  SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, p.v[5]);
+  // Which of them is x depends on where the frame begins.
+  if (std::fabs(dot(kGeneric, first.normal)) < std::fabs(dot(kGeneric, second.normal))) std::swap(first, second);
+  const double size = length(p.bounds.hi - p.bounds.lo), away = length(p.bounds.center()) + size;
+  const double angle = e.direction + e.distance() / size;
+  for (const SemiAxis& a : {first, second}) {
+    n.point(a.foot, e.distance() + angle * away);
+    n.form(form_of(a.normal), 2 * angle);
+    n.number(a.length_at_origin, e.distance() + angle * away);
+    for (int i = 0; i < 3; ++i) n.number(a.growth[i], 2 * angle);
   }
-  n.number(p.v[5], e.direction + e.distance() * length(p.to_local.row(2)));
-  n.number(p.v[3], 2 * e.distance());
-  n.number(p.v[4], 2 * e.distance());
 }
 
 void quadric_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
@@ -201,7 +214,7 @@ int number_count(SurfaceFamily family) {
     case SurfaceFamily::kCone: return 10;
     case SurfaceFamily::kTorus: return 17;
     case SurfaceFamily::kEllipticTorus: return 21;
-    case SurfaceFamily::kEllipticCone: return 31;
+    case SurfaceFamily::kEllipticCone: return 28;
     case SurfaceFamily::kQuadric: return 11;
     case SurfaceFamily::kNone: return 0;
   }

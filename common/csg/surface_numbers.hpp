@@ -17,7 +17,6 @@ inline constexpr std::size_t kSurfaceFamilies = 7;
 SurfaceFamily family_of(PrimitiveKind kind);
 int number_count(SurfaceFamily family);
 /// Number `which` of number_count, and what it may be off by. The first one differs for nearly all surfaces that differ.
-/// Elliptic cones are told apart by their caps, too: where their roots are looked for depends on them.
 Measured surface_number(const Primitive& p, const Exactness& exactness, int which);
 
 }  // namespace graycube::csg

@@ -35,7 +35,6 @@ void take_surface(const Primitive& from, Primitive& p) {
     case SurfaceFamily::kBall:
     case SurfaceFamily::kTorus:
     case SurfaceFamily::kEllipticTorus:
-    case SurfaceFamily::kEllipticCone:
       p.kind = from.kind;
       p.v = from.v;
       p.to_local = from.to_local;
@@ -44,6 +43,8 @@ void take_surface(const Primitive& from, Primitive& p) {
     case SurfaceFamily::kCylinder: copy_rows(from.to_local, 2, p.to_local); return;
     case SurfaceFamily::kCone:
       if (!is_on_same_nappe(from, p)) return;
+      [[fallthrough]];
+    case SurfaceFamily::kEllipticCone:
       p.to_local = from.to_local;
       p.v[5] = from.v[5];
       return;

@@ -135,7 +135,9 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   }
   look_up_horizons(light);
   for (std::size_t i = 0; i < count; ++i) {
-    if (cosine_[i] > 0) send_light_ray(light, i, step);
+    // A light in the surface's plane, but for rounding, lights nothing: highlights would come and go at random.
+    const double above = cosine_[i] * distance_[i];
+    if (above > 0 && above > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]})) send_light_ray(light, i, step);
   }
 }
 
