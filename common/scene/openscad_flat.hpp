@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/flat_polygon.hpp"
+#include "scene/flat_rounds.hpp"
 #include "scene/openscad_program.hpp"
 
 namespace graycube {
@@ -22,6 +23,10 @@ struct FlatShape {
   FlatMap disk;
   int sides = 0;
   std::vector<FlatShape> children;
+  /// The disks and points whose hull a union is; empty where it isn't known to be one.
+  std::vector<FlatDisk> hull;
+  /// OpenSCAD's polygon for it where that isn't made of its children's.
+  FlatLoops facets;
 
   bool has_curves() const;
 };

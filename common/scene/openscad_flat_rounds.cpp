@@ -1,0 +1,241 @@
+#include "scene/openscad_flat_rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scene/flat_offset.hpp"
+
+namespace graycube {
+namespace {
+
+using Kind = FlatShape::Kind;
+
+FlatShape shape_of(const FlatDisk& disk) {
+  const double r = disk.radius;
+  return {Kind::kDisk, {}, {{{{r, 0, disk.center.x}, {0, r, disk.center.y}}}}, disk.sides, {}, {}, {}};
+}
+
+FlatShape shape_of(FlatLoops loops) { return {Kind::kPolygon, std::move(loops), {}, 0, {}, {}, {}}; }
+
+std::optional<FlatDisk> disk_of(const FlatMap& map, int sides) {
+  const auto radius = written_similarity(map);
+  if (!radius) return std::nullopt;
+  return FlatDisk{{map.m[0][2], map.m[1][2]}, *radius, sides};
+}
+
+bool is_convex(const FlatLoops& loops) {
+  if (loops.size() != 1) return false;
+  const FlatLoop& loop = loops.front();
+  const std::size_t n = loop.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orientation(loop[i], loop[(i + 1) % n], loop[(i + 2) % n]) < 0) return false;
+  }
+  return true;
+}
+
+bool are_few(std::span<const FlatDisk> disks) {
+  const auto round = static_cast<std::size_t>(
+      std::count_if(disks.begin(), disks.end(), [](const FlatDisk& d) { return d.radius > 0; }));
+  return round <= kMaxRoundCorners && round * disks.size() <= kMaxFlatDiskPairs;
+}
+
+/// The image of the hull under the map.
+ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
+  if (!are_few(disks)) return {};
+  const FlatRoundHull hull = flat_round_hull(disks);
+  FlatShape result{Kind::kUnion, {}, {}, 0, {}, {}, {}};
+  for (const std::size_t i : hull.disks) {
+    FlatShape disk = shape_of(disks[i]);
+    disk.disk = compose(map, disk.disk);
+    result.children.push_back(std::move(disk));
+    result.hull.push_back(disks[i]);
+  }
+  if (hull.polygon.size() >= 3) {
+    result.children.push_back(shape_of(mapped(map, FlatLoops{hull.polygon})));
+    for (const FlatPoint& p : hull.polygon) {
+      const FlatDisk point{p, 0, 0};
+      if (std::find(disks.begin(), disks.end(), point) != disks.end()) result.hull.push_back(point);
+    }
+  }
+  if (result.children.empty()) return {true, std::nullopt};
+  if (result.children.size() == 1) return {true, std::move(result.children.front())};
+  if (!(map == FlatMap{})) result.hull.clear();
+  return {true, std::move(result)};
+}
+
+const FlatShape* first_disk(const FlatShape& shape) {
+  if (shape.kind == Kind::kDisk) return &shape;
+  for (const FlatShape& child : shape.children) {
+    if (const FlatShape* found = first_disk(child)) return found;
+  }
+  return nullptr;
+}
+
+FlatMap inverse_of_linear(const FlatMap& map) {
+  const double det = map.determinant();
+  return {{{{map.m[1][1] / det, -map.m[0][1] / det, 0}, {-map.m[1][0] / det, map.m[0][0] / det, 0}}}};
+}
+
+FlatShape united(std::vector<FlatShape> shapes) {
+  if (shapes.size() == 1) return std::move(shapes.front());
+  return {Kind::kUnion, {}, {}, 0, std::move(shapes), {}, {}};
+}
+
+ExactFlat offset_of_disk(const FlatShape& shape, double distance) {
+  auto disk = disk_of(shape.disk, shape.sides);
+  if (!disk) return {};
+  // What remains of the map is its rotation, so that only the radius changes.
+  if (!(disk->radius + distance > 0)) return {true, std::nullopt};
+  disk->radius += distance;
+  return {true, shape_of(*disk)};
+}
+
+ExactFlat offset_of_polygon(const FlatShape& shape, double distance, int sides) {
+  auto offset = round_offset(shape.loops, distance);
+  if (!offset) return {};
+  std::vector<FlatShape> parts;
+  if (!offset->polygon.empty()) parts.push_back(shape_of(std::move(offset->polygon)));
+  if (distance < 0 && parts.empty()) return {true, std::nullopt};
+  for (const FlatPoint& center : offset->centers) parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
+  if (distance > 0 || parts.size() == 1) return {true, united(std::move(parts))};
+  return {true, FlatShape{Kind::kDifference, {}, {}, 0, std::move(parts), {}, {}}};
+}
+
+/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B shrunk is A shrunk − B grown.
+ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides) {
+  if (shape.kind == Kind::kUnion && distance < 0) return {};
+  if (shape.kind != Kind::kUnion && distance > 0) return {};
+  FlatShape result{shape.kind, {}, {}, 0, {}, {}, {}};
+  for (std::size_t i = 0; i < shape.children.size(); ++i) {
+    const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
+    ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides);
+    if (!child.is_exact) return {};
+    if (child.shape) {
+      result.children.push_back(*std::move(child.shape));
+    } else if (!is_taken_off && shape.kind != Kind::kUnion) {
+      return {true, std::nullopt};
+    }
+  }
+  if (result.children.empty()) return {true, std::nullopt};
+  if (result.children.size() == 1) return {true, std::move(result.children.front())};
+  return {true, std::move(result)};
+}
+
+ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDisk>& b) {
+  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundCorners) return {};
+  std::vector<FlatDisk> sums;
+  for (const FlatDisk& p : a) {
+    for (const FlatDisk& q : b) {
+      const FlatPoint center{p.center.x + q.center.x, p.center.y + q.center.y};
+      sums.push_back({center, p.radius + q.radius, std::max(p.sides, q.sides)});
+    }
+  }
+  return hull_of(sums, {});
+}
+
+/// Sums distribute over unions.
+ExactFlat sum_with_union(const FlatShape& whole, const FlatShape& other) {
+  std::vector<FlatShape> parts;
+  for (const FlatShape& child : whole.children) {
+    ExactFlat part = exact_flat_sum(child, other);
+    if (!part.is_exact) return {};
+    if (part.shape) parts.push_back(*std::move(part.shape));
+  }
+  if (parts.empty()) return {true, std::nullopt};
+  return {true, united(std::move(parts))};
+}
+
+}  // namespace
+
+FlatShape mapped(const FlatMap& map, FlatShape shape) {
+  if (map == FlatMap{}) return shape;
+  shape.loops = mapped(map, std::move(shape.loops));
+  shape.facets = mapped(map, std::move(shape.facets));
+  if (shape.kind == Kind::kDisk) shape.disk = compose(map, shape.disk);
+  const auto scale = written_similarity(map);
+  if (!scale) shape.hull.clear();
+  for (FlatDisk& disk : shape.hull) disk = {map(disk.center), *scale * disk.radius, disk.sides};
+  for (FlatShape& child : shape.children) child = mapped(map, std::move(child));
+  return shape;
+}
+
+std::vector<FlatDisk> disks_of_convex(const FlatShape& shape) {
+  if (!shape.hull.empty()) return shape.hull;
+  std::vector<FlatDisk> disks;
+  if (shape.kind == Kind::kDisk) {
+    if (const auto disk = disk_of(shape.disk, shape.sides)) disks.push_back(*disk);
+  } else if (shape.kind == Kind::kPolygon && is_convex(shape.loops)) {
+    for (const FlatPoint& p : shape.loops.front()) disks.push_back({p, 0, 0});
+  }
+  return disks;
+}
+
+bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<FlatDisk>& disks) {
+  if (shape.kind == Kind::kPolygon) {
+    for (const FlatLoop& loop : shape.loops) {
+      for (const FlatPoint& p : loop) disks.push_back({map(p), 0, 0});
+    }
+    return true;
+  }
+  if (shape.kind == Kind::kDisk) {
+    const auto disk = disk_of(compose(map, shape.disk), shape.sides);
+    if (disk) disks.push_back(*disk);
+    return disk.has_value();
+  }
+  if (shape.kind != Kind::kUnion) return false;
+  return std::all_of(shape.children.begin(), shape.children.end(),
+                     [&](const FlatShape& child) { return add_hull_disks(child, map, disks); });
+}
+
+ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks) { return hull_of(disks, {}); }
+
+ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
+  const auto as_seen_from = [&](const FlatMap& map, const FlatMap& back) -> ExactFlat {
+    std::vector<FlatDisk> disks;
+    const bool is_known =
+        std::all_of(parts.begin(), parts.end(), [&](const FlatShape& part) { return add_hull_disks(part, back, disks); });
+    return is_known ? hull_of(disks, map) : ExactFlat{};
+  };
+  if (ExactFlat hull = as_seen_from({}, {}); hull.is_exact) return hull;
+  // Ellipses that are one map's images of circles.
+  for (const FlatShape& part : parts) {
+    const FlatShape* disk = first_disk(part);
+    if (disk == nullptr || disk->disk.determinant() == 0) continue;
+    FlatMap linear = disk->disk;
+    linear.m[0][2] = linear.m[1][2] = 0;
+    return as_seen_from(linear, inverse_of_linear(linear));
+  }
+  return {};
+}
+
+ExactFlat exact_offset(const FlatShape& shape, double distance, int sides) {
+  if (distance == 0) return {true, shape};
+  if (shape.kind == Kind::kDisk) return offset_of_disk(shape, distance);
+  std::vector<FlatDisk> disks = disks_of_convex(shape);
+  const auto stays = [&](const FlatDisk& d) { return d.radius + distance >= 0; };
+  if (!disks.empty() && std::all_of(disks.begin(), disks.end(), stays)) {
+    for (FlatDisk& d : disks) d = {d.center, d.radius + distance, d.sides > 0 ? d.sides : sides};
+    return hull_of(disks, {});
+  }
+  if (shape.kind == Kind::kPolygon) return offset_of_polygon(shape, distance, sides);
+  return offset_of_operation(shape, distance, sides);
+}
+
+ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b) {
+  const std::vector<FlatDisk> first = disks_of_convex(a), second = disks_of_convex(b);
+  if (!first.empty() && !second.empty()) return sum_of_disks(first, second);
+  for (const auto& [whole, disk] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+    const auto round = disk->kind == Kind::kDisk ? disk_of(disk->disk, disk->sides) : std::nullopt;
+    if (!round) continue;
+    ExactFlat grown = exact_offset(*whole, round->radius, round->sides);
+    const FlatMap shift{{{{1, 0, round->center.x}, {0, 1, round->center.y}}}};
+    if (grown.shape) grown.shape = mapped(shift, *std::move(grown.shape));
+    return grown;
+  }
+  if (a.kind == Kind::kUnion && a.hull.empty()) return sum_with_union(a, b);
+  if (b.kind == Kind::kUnion && b.hull.empty()) return sum_with_union(b, a);
+  return {};
+}
+
+}  // namespace graycube

@@ -1,0 +1,188 @@
+// hull(), minkowski() and offset() of what is round, as OpenSCAD means them.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "scene/openscad.hpp"
+#include "scene/openscad/reading.hpp"
+#include "scene/scene_membership.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace graycube::testing;
+
+/// The distance of a point from a solid, 0 inside.
+using Distance = std::function<double(const Vec3&)>;
+
+double from_box(const Vec3& p, const Vec3& lo, const Vec3& hi) {
+  Vec3 d;
+  for (int a = 0; a < 3; ++a) d[a] = std::max({lo[a] - p[a], 0.0, p[a] - hi[a]});
+  return length(d);
+}
+
+/// The scene must be everything within `radius` of the solid.
+void check_within(const std::string& text, const Distance& distance, double radius) {
+  INFO(text);
+  CHECK(warnings_of(text).empty());
+  const Scene scene = scene_of(text);
+  constexpr std::uint64_t kSeed = 17;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> place(-4, 16);
+  int wrong = 0, inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p{place(random), place(random), place(random)};
+    const double d = distance(p) - radius;
+    if (std::fabs(d) < 1e-9) continue;
+    inside += d < 0 ? 1 : 0;
+    wrong += any_object_holds(scene, p) == (d < 0) ? 0 : 1;
+  }
+  INFO("seed " << kSeed);
+  CHECK(wrong == 0);
+  CHECK(inside > 100);
+}
+
+const std::string kMoved = "multmatrix([[1, 0, 0, 8], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) ";
+const std::string kAngle = "polygon(points = [[0, 0], [10, 0], [10, 3], [3, 3], [3, 10], [0, 10]])";
+
+double from_angle(const Vec3& p) { return std::min(from_box(p, {0, 0, 0}, {10, 3, 5}), from_box(p, {0, 0, 0}, {3, 10, 5})); }
+double from_flat_angle(const Vec3& p) { return from_angle({p.x, p.y, 1}); }
+
+TEST_CASE("a solid and a ball give all that is within its radius") {
+  check_within("minkowski() { cube(size = [8, 6, 4]); sphere(r = 1.5); }",
+               [](const Vec3& p) { return from_box(p, {0, 0, 0}, {8, 6, 4}); }, 1.5);
+  check_within("minkowski() { sphere(r = 1.5); union() { cube(size = [8, 2, 2]); cube(size = [2, 8, 2]); } }",
+               [](const Vec3& p) { return std::min(from_box(p, {}, {8, 2, 2}), from_box(p, {}, {2, 8, 2})); }, 1.5);
+  check_within("minkowski() { linear_extrude(height = 5) " + kAngle + "; sphere(r = 1.25); }", from_angle, 1.25);
+  check_within("minkowski() { sphere(r = 1); cube(size = [3, 4, 5]); cube(size = [5, 2, 1]); sphere(r = 0.5); }",
+               [](const Vec3& p) { return from_box(p, {}, {8, 6, 6}); }, 1.5);
+}
+
+TEST_CASE("a cylinder and a ball give a cylinder with round rims") {
+  check_within("minkowski() { cylinder(h = 6, r1 = 3, r2 = 3); sphere(r = 1); }",
+               [](const Vec3& p) {
+                 const double out = std::max(0.0, std::hypot(p.x, p.y) - 3), up = std::max({-p.z, 0.0, p.z - 6});
+                 return std::hypot(out, up);
+               },
+               1);
+}
+
+TEST_CASE("a prism and an upright cylinder give the prism with round corners, as high as both") {
+  const auto both = [](const Vec3& p) { return p.z < 0 || p.z > 7 ? 100 : from_flat_angle(p); };
+  check_within("minkowski() { linear_extrude(height = 5) " + kAngle + "; cylinder(h = 2, r1 = 1.5, r2 = 1.5); }", both, 1.5);
+  const auto box = [](const Vec3& p) { return p.z < 0 || p.z > 5 ? 100 : from_box({p.x, p.y, 1}, {}, {8, 6, 4}); };
+  check_within("minkowski() { cube(size = [8, 6, 4]); cylinder(h = 1, r1 = 1.5, r2 = 1.5); }", box, 1.5);
+}
+
+TEST_CASE("two boxes give a box") {
+  const Scene scene = scene_of("minkowski() { cube(size = [1, 2, 3]); cube(size = 4, center = true); }");
+  REQUIRE(scene.objects.size() == 1);
+  for (const auto& [p, inside] : {std::pair{Vec3{-1.9, -1.9, -1.9}, true}, {Vec3{2.9, 3.9, 4.9}, true},
+                                  {Vec3{3.1, 0, 0}, false}, {Vec3{0, 0, -2.1}, false}}) {
+    CHECK(any_object_holds(scene, p) == inside);
+  }
+}
+
+TEST_CASE("flat shapes grow by exact arcs") {
+  const auto flat = [](double low, double high, const Distance& d) {
+    return [=](const Vec3& p) { return p.z < low || p.z > high ? 100 : d(p); };
+  };
+  const std::string extrude = "linear_extrude(height = 3) ";
+  check_within(extrude + "offset(r = 1.5) " + kAngle + ";", flat(0, 3, from_flat_angle), 1.5);
+  check_within(extrude + "minkowski() { circle(r = 1.5); " + kAngle + "; }", flat(0, 3, from_flat_angle), 1.5);
+  check_within(extrude + "offset(r = 1) offset(r = 0.5) " + kAngle + ";", flat(0, 3, from_flat_angle), 1.5);
+  check_within(extrude + "offset(r = 1.5) square(size = [6, 4]);",
+               flat(0, 3, [](const Vec3& p) { return from_box({p.x, p.y, 0}, {}, {6, 4, 0}); }), 1.5);
+  check_within(extrude + "offset(delta = 1.5) circle(r = 2);",
+               flat(0, 3, [](const Vec3& p) { return std::max(0.0, std::hypot(p.x, p.y) - 2); }), 1.5);
+}
+
+TEST_CASE("flat shapes shrink by exact arcs") {
+  // What is left is all whose distance from the outside is more than 1: the outside is what is near the angle's boundary.
+  const Scene scene = scene_of("linear_extrude(height = 3) offset(r = -1) " + kAngle + ";");
+  for (const auto& [p, inside] :
+       {std::pair{Vec3{1.01, 1.01, 1}, true}, {Vec3{0.99, 2, 1}, false}, {Vec3{8.99, 1.99, 1}, true},
+        {Vec3{9.01, 1.5, 1}, false}, {Vec3{2.28, 2.28, 1}, true}, {Vec3{2.3, 2.3, 1}, false}, {Vec3{1.9, 2.9, 1}, true}}) {
+    INFO(p.x << " " << p.y);
+    CHECK(any_object_holds(scene, p) == inside);
+  }
+}
+
+TEST_CASE("an offset in and out again rounds the corners that point outwards") {
+  const auto core = [](const Vec3& p) {
+    if (p.z < 0 || p.z > 3) return 100.0;
+    return from_box({p.x, p.y, 0}, {2, 2, 0}, {8, 6, 0});
+  };
+  check_within("linear_extrude(height = 3) offset(r = 2) offset(r = -2) square(size = [10, 8]);", core, 2);
+  check_within("linear_extrude(height = 3) offset(r = 2) offset(delta = -2) square(size = [10, 8]);", core, 2);
+}
+
+TEST_CASE("a hull whose ends are cylinders has the very cylinders") {
+  const std::string post = "cylinder(h = 4, r1 = 2.7, r2 = 2.7);";
+  const Scene scene = scene_of("hull() { " + post + kMoved + post + " }");
+  const auto& pieces = std::get<OperationNode>(scene.objects[0].csg.value).children;
+  REQUIRE(pieces.size() == 3);
+  CHECK(std::get<BoxShape>(pieces[0].value) == BoxShape{{0, -2.7, 0}, {8, 2.7, 4}});
+  CHECK(std::get<CylinderShape>(pieces[1].value) == CylinderShape{{0, 0, 0}, {0, 0, 4}, 2.7});
+  CHECK(std::get<CylinderShape>(pieces[2].value) == CylinderShape{{8, 0, 0}, {8, 0, 4}, 2.7});
+}
+
+TEST_CASE("turned cylinders are hulled in their own frame") {
+  const std::string turned = "multmatrix([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]) ";
+  const std::string post = "cylinder(h = 4, r1 = 2, r2 = 2);";
+  const Scene inside = scene_of("hull() { " + turned + post + kMoved + turned + post + " }");
+  const Scene outside = scene_of(turned + "hull() { " + post + kMoved + post + " }");
+  CHECK(inside.objects == outside.objects);
+}
+
+TEST_CASE("the hull of a ball and a cylinder on one axis is turned about it") {
+  const std::string up = "multmatrix([[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 8], [0, 0, 0, 1]]) ";
+  const std::string text = "hull() { " + up + "sphere(r = 1); multmatrix([[1, 0, 0, 1], [0, 1, 0, 2]]) "
+                           "cylinder(h = 2, r1 = 3, r2 = 3); }";
+  CHECK(warnings_of(text).empty());
+  const Scene scene = scene_of(text);
+  const auto in = [&](double out, double z) { return any_object_holds(scene, {1 + out, 2, z}); };
+  // The side touches the ball and the upper rim: distance 1 from (0, 8), through (3, 2).
+  CHECK((in(0, 8.99) && !in(0, 9.01) && in(2.99, 1) && !in(3.01, 1) && in(0.99, 8) && in(1, 6.8) && !in(2.2, 6.8)));
+}
+
+TEST_CASE("circles in a hull under one uneven scale stay exact") {
+  const std::string text = "linear_extrude(height = 1) multmatrix([[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0]]) hull() { circle(r = 2); " +
+                           kMoved + "circle(r = 1); }";
+  CHECK(warnings_of(text).empty());
+  const Scene scene = scene_of(text);
+  CHECK((any_object_holds(scene, {0, 3.999, 0.5}) && !any_object_holds(scene, {0, 4.1, 0.5}) &&
+         any_object_holds(scene, {8.999, 0, 0.5})));
+}
+
+TEST_CASE("what has no exact form is said to have OpenSCAD's sides, and few sides or facets asked for are kept") {
+  const std::string mixed = "hull() { sphere(r = 1); " + kMoved + "cylinder(h = 2, r1 = 1, r2 = 1); }";
+  CHECK(warnings_of(mixed) == std::vector<std::string>{"line 1: hull() takes what is round by OpenSCAD's sides"});
+  const Scene few = scene_of("hull() { cylinder(h = 1, r1 = 2, r2 = 2, $fn = 6); " + kMoved + "cube(1); }");
+  CHECK(std::holds_alternative<PolyhedronShape>(few.objects[0].csg.value));
+  const Scene facets = scene_of("hull() { sphere(r = 1); " + kMoved + "sphere(r = 1); }", {.facets = true});
+  CHECK_FALSE(std::holds_alternative<OperationNode>(facets.objects[0].csg.value));
+  CHECK(warnings_of("linear_extrude(height = 1) offset(r = 1, $fn = 6) square(size = 3);").empty());
+}
+
+TEST_CASE("a sum that has no exact form asks for OpenSCAD") {
+  CHECK(errors_of("minkowski() { difference() { cube(3); cube(1); } sphere(r = 1); }") ==
+        std::vector<std::string>{"1: minkowski() needs the program openscad, which is not there"});
+}
+
+TEST_CASE("a hull takes a sum's operands for what they are") {
+  check_within("hull() { minkowski() { cube(size = [4, 6, 4]); sphere(r = 1); } " + kMoved +
+                   "minkowski() { cube(size = [0.5, 6, 4]); sphere(r = 1); } }",
+               [](const Vec3& p) { return from_box(p, {}, {8.5, 6, 4}); }, 1);
+}
+
+TEST_CASE("the camera is framed for corners that a round hull keeps") {
+  const Scene scene = scene_of("hull() { cube(size = [30, 1, 1]); sphere(r = 1); }");
+  CHECK(scene.settings.camera.look_at.x > 10);
+}
+
+}  // namespace
+}  // namespace graycube
