@@ -1,11 +1,10 @@
 #include "scene/openscad_prism_sums.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
-#include "scene/flat_offset.hpp"
 #include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_parts.hpp"
 #include "scene/openscad_primitives.hpp"
@@ -109,34 +108,68 @@ bool add_prisms(std::vector<Prism>& sums, const std::vector<Prism>& operand) {
   return true;
 }
 
-/// A prism of a polygon and everything within the ball's radius of it: taller, wider, and a cylinder along each side at
-/// both ends, a ball at each corner that points outwards.
-std::optional<std::vector<CsgNode>> rounded(const Prism& prism, const Ball& ball, ScadImport& import, int line) {
-  if (prism.figure.kind != FlatShape::Kind::kPolygon) return std::nullopt;
-  const double r = ball.radius;
-  const auto offset = round_offset(prism.figure.loops, r);
-  const ExactFlat wide = exact_offset(prism.figure, r, 0);
-  if (!offset || !wide.shape) return std::nullopt;
-  std::vector<CsgNode> parts;
-  auto tall = extruded(prism.figure, prism.low - r, prism.high + r, import, line);
-  auto broad = extruded(*wide.shape, prism.low, prism.high, import, line);
-  if (!tall || !broad) return std::nullopt;
-  parts.push_back(*std::move(tall));
-  parts.push_back(*std::move(broad));
-  for (const double z : {prism.low, prism.high}) {
-    for (const FlatLoop& loop : prism.figure.loops) {
+/// A prism and everything within a distance of it, as a union: taller, wider, and round rims.
+class RoundedPrism {
+ public:
+  RoundedPrism(double low, double high, double distance, ScadImport& import, int line)
+      : low_(low), high_(high), distance_(distance), import_(import), line_(line) {}
+
+  /// False where the figure has no exact form.
+  bool add(const FlatShape& figure) {
+    if (figure.kind == FlatShape::Kind::kUnion) {
+      return std::all_of(figure.children.begin(), figure.children.end(), [&](const FlatShape& s) { return add(s); });
+    }
+    if (figure.kind == FlatShape::Kind::kPolygon) {
+      add_rims(figure.loops);
+    } else if (figure.kind != FlatShape::Kind::kDisk || !add_rims(figure.disk)) {
+      return false;
+    }
+    const ExactFlat wide = exact_offset(figure, distance_, 0);
+    auto tall = extruded(figure, low_ - distance_, high_ + distance_, import_, line_);
+    auto broad = wide.shape ? extruded(*wide.shape, low_, high_, import_, line_) : std::nullopt;
+    if (!tall || !broad) return false;
+    parts_.push_back(*std::move(tall));
+    parts_.push_back(*std::move(broad));
+    return true;
+  }
+  std::vector<CsgNode> take() { return std::move(parts_); }
+
+ private:
+  /// A cylinder along each side, a ball at each corner that points outwards.
+  void add_rims(const FlatLoops& loops) {
+    for (const FlatLoop& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-        parts.push_back(leaf(CylinderShape{{a.x, a.y, z}, {b.x, b.y, z}, r}));
+        const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()], &c = loop[(i + 2) % loop.size()];
+        for (const double z : {low_, high_}) {
+          parts_.push_back(leaf(CylinderShape{{a.x, a.y, z}, {b.x, b.y, z}, distance_}));
+          if (orientation(a, b, c) > 0) parts_.push_back(leaf(SphereShape{{b.x, b.y, z}, distance_}));
+        }
       }
     }
-    for (const FlatPoint& p : offset->centers) parts.push_back(leaf(SphereShape{{p.x, p.y, z}, r}));
   }
-  for (CsgNode& part : parts) {
-    if (ball.center == Vec3{}) break;
-    const Affine shift = translation(ball.center);
-    part.transform = part.transform ? compose(shift, *part.transform) : shift;
+  /// A torus, which the axis must not reach.
+  bool add_rims(const FlatMap& disk) {
+    const auto radius = written_similarity(disk);
+    if (!radius || !(*radius > distance_)) return false;
+    for (const double z : {low_, high_}) {
+      parts_.push_back(leaf(TorusShape{{disk.m[0][2], disk.m[1][2], z}, {0, 0, 1}, *radius, distance_}));
+    }
+    return true;
   }
+
+  double low_, high_, distance_;
+  ScadImport& import_;
+  int line_;
+  std::vector<CsgNode> parts_;
+};
+
+std::optional<std::vector<CsgNode>> rounded(const Prism& prism, const Ball& ball, ScadImport& import, int line) {
+  RoundedPrism rounded_prism(prism.low, prism.high, ball.radius, import, line);
+  if (!rounded_prism.add(prism.figure)) return std::nullopt;
+  std::vector<CsgNode> parts = rounded_prism.take();
+  if (ball.center == Vec3{}) return parts;
+  const Affine shift = translation(ball.center);
+  for (CsgNode& part : parts) part.transform = part.transform ? compose(shift, *part.transform) : shift;
   return parts;
 }
 

@@ -9,6 +9,7 @@
 #include "scene/openscad_prism_sums.hpp"
 #include "scene/openscad_round_pieces.hpp"
 #include "scene/openscad_sweep.hpp"
+#include "scene/round_caps.hpp"
 
 namespace graycube {
 namespace {
@@ -63,6 +64,23 @@ ExactSolid solid_of_points(const RoundPiece& items, const ScadModule& module, Sc
   return RoundSolid{std::move(solid->leaf), std::move(solid->corners)};
 }
 
+ExactSolid in_frame(RoundSolid solid, const Affine& frame) {
+  solid.node = placed(std::move(solid.node), frame);
+  for (Vec3& corner : solid.corners) corner = frame.point(corner);
+  return solid;
+}
+
+ExactSolid capped(const RoundPiece& items, const FramedPiece& piece) {
+  std::vector<BallOrDisc> both;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    both.push_back({piece.points[i], items[i].kind == RoundItem::Kind::kDisc});
+  }
+  bool is_too_large = false;
+  auto solid = capped_solid(both, is_too_large);
+  if (!solid) return NoExactForm{};
+  return in_frame(*std::move(solid), piece.frame);
+}
+
 ExactSolid solid_of(const RoundPiece& items, const ScadModule& module, ScadImport& import) {
   const bool is_round = std::any_of(items.begin(), items.end(),
                                     [](const RoundItem& item) { return item.kind != RoundItem::Kind::kPoint; });
@@ -71,7 +89,7 @@ ExactSolid solid_of(const RoundPiece& items, const ScadModule& module, ScadImpor
   if (!piece) return NoExactForm{};
   if (piece->has_balls && piece->has_discs) {
     const auto profile = profile_of(items, *piece);
-    if (profile.empty()) return NoExactForm{};
+    if (profile.empty()) return capped(items, *piece);
     return turned_about(profile, piece->points.front().center, piece->frame, import, module.line);
   }
   bool is_too_large = false;
@@ -79,9 +97,7 @@ ExactSolid solid_of(const RoundPiece& items, const ScadModule& module, ScadImpor
   auto solid = round_solid(kind, piece->points, is_too_large);
   if (is_too_large) return NoExactForm{};
   if (!solid) return EmptySolid{};
-  solid->node = placed(std::move(solid->node), piece->frame);
-  for (Vec3& corner : solid->corners) corner = piece->frame.point(corner);
-  return *std::move(solid);
+  return in_frame(*std::move(solid), piece->frame);
 }
 
 ExactSolid united(const std::vector<RoundPiece>& pieces, const ScadModule& module, ScadImport& import) {

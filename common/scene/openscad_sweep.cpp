@@ -119,12 +119,20 @@ std::optional<CsgNode> turned_disk(const FlatMap& map) {
   return leaf(EllipticTorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, e.outward, e.upward, e.across});
 }
 
+bool has_turned_form(const FlatShape& shape) {
+  if (shape.kind == Kind::kDisk) return turned_disk(shape.disk).has_value();
+  return std::all_of(shape.children.begin(), shape.children.end(), has_turned_form);
+}
+
 std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, int line) {
   if (shape.kind == Kind::kPolygon) return turned(shape.loops);
-  if (shape.kind != Kind::kDisk) {
+  // Disks that others are tangent to get facets together with these.
+  if (shape.kind != Kind::kDisk && (shape.facets.empty() || has_turned_form(shape))) {
     return operated(shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
   }
-  if (auto solid = turned_disk(shape.disk)) return solid;
+  if (shape.kind == Kind::kDisk) {
+    if (auto solid = turned_disk(shape.disk)) return solid;
+  }
   import.warn_once(line, "rotate_extrude() takes circles that reach the axis by OpenSCAD's sides");
   const auto loops = polygon_of(shape, import, line);
   return loops ? turned(*loops) : std::nullopt;
@@ -315,8 +323,7 @@ std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, Sc
   FlatShape& shape = *hull.shape;
   const auto is_mirror_image = [](const FlatShape& s) { return s.kind == Kind::kDisk && center_of(s.disk).x < 0; };
   std::erase_if(shape.children, is_mirror_image);
-  const auto has_no_form = [](const FlatShape& s) { return s.kind == Kind::kDisk && !turned_disk(s.disk); };
-  if (has_no_form(shape) || std::any_of(shape.children.begin(), shape.children.end(), has_no_form)) return std::nullopt;
+  if (!has_turned_form(shape)) return std::nullopt;
   return turned_shape(shape, import, line);
 }
 
