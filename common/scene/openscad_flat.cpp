@@ -86,9 +86,9 @@ class FlatReader {
     const bool intersects = kind == Kind::kIntersection;
     auto loops = combined_loops(intersects ? FlatOperation::kIntersection : FlatOperation::kUnion, straight, line);
     if (intersects && !straight.empty() && !loops) return std::nullopt;
-    if (loops) parts.push_back({Kind::kPolygon, std::move(*loops), {}, 0, {}, {}, {}});
+    if (loops) parts.push_back({Kind::kPolygon, std::move(*loops), {}, 0});
     if (parts.size() == 1) return std::move(parts.front());
-    return FlatShape{kind, {}, {}, 0, std::move(parts), {}, {}};
+    return FlatShape{kind, {}, {}, 0, std::move(parts)};
   }
 
   /// Nothing when the result is empty, or when there is too much of it, with an error.
@@ -109,7 +109,7 @@ class FlatReader {
  private:
   static std::optional<FlatShape> of_loops(std::optional<FlatLoops> loops) {
     if (!loops || loops->empty()) return std::nullopt;
-    return FlatShape{Kind::kPolygon, std::move(*loops), {}, 0, {}, {}, {}};
+    return FlatShape{Kind::kPolygon, std::move(*loops), {}, 0};
   }
   std::optional<FlatShape> of_loops(const FlatLoops& loops, const FlatMap& map, int line) {
     const FlatLoops placed = mapped(map, loops);
@@ -167,10 +167,10 @@ class FlatReader {
     const double r = arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
     const ScadFineness fineness = fineness_of(arguments);
     if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive")) return std::nullopt;
-    FlatShape disk{Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness), {}, {}, {}};
+    FlatShape disk{Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness)};
     const int few = asked_sides(fineness);
     if (!import_.options.facets && few == 0) return disk;
-    return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0, {}, {}, {}};
+    return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0};
   }
 
   std::optional<FlatShape> polygon(const ScadModule& module, ScadArguments& arguments, const FlatMap& map) {
@@ -246,8 +246,10 @@ class FlatReader {
       return join == FlatJoin::kMiter ? on_lines(std::move(result), *loops, distance) : result;
     };
     const bool may_be_round = is_round && asked_sides(fineness) == 0;
-    if (!import_.options.facets && (may_be_round || inner->kind == Kind::kDisk)) {
-      if (auto exact = exact_offset(*inner, distance, sides); exact.is_exact) {
+    const bool may_be_moved = may_be_round || inner->kind == Kind::kDisk || (join == FlatJoin::kMiter && inner->has_curves());
+    if (!import_.options.facets && may_be_moved) {
+      const FlatCorners corners = is_round ? FlatCorners::kRound : FlatCorners::kSharp;
+      if (auto exact = exact_offset(*inner, distance, sides, corners); exact.is_exact) {
         return with_own_facets(std::move(exact.shape), with_facets, map);
       }
     }

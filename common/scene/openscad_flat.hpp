@@ -10,6 +10,7 @@
 #include "scene/flat_polygon.hpp"
 #include "scene/flat_rounds.hpp"
 #include "scene/openscad_program.hpp"
+#include "scene/rounded_polygon.hpp"
 
 namespace graycube {
 
@@ -22,11 +23,13 @@ struct FlatShape {
   /// A disk is the image of the unit disk; OpenSCAD gives it so many sides.
   FlatMap disk;
   int sides = 0;
-  std::vector<FlatShape> children;
+  std::vector<FlatShape> children{};
   /// The disks and points whose hull a union is; empty where it isn't known to be one.
-  std::vector<FlatDisk> hull;
+  std::vector<FlatDisk> hull{};
   /// OpenSCAD's polygon for it where that isn't made of its children's.
-  FlatLoops facets;
+  FlatLoops facets{};
+  /// The shape as a polygon with rounded corners; empty where it isn't known as one. Polygons are such themselves.
+  RoundedPolygon rounded{};
 
   bool has_curves() const;
 };

@@ -11,12 +11,16 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
+/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is wider than that.
+constexpr double kFineFacets = 1e-3;
+constexpr double kMissingWidth = 0.02;
+
 FlatShape shape_of(const FlatDisk& disk) {
   const double r = disk.radius;
-  return {Kind::kDisk, {}, {{{{r, 0, disk.center.x}, {0, r, disk.center.y}}}}, disk.sides, {}, {}, {}};
+  return {Kind::kDisk, {}, {{{{r, 0, disk.center.x}, {0, r, disk.center.y}}}}, disk.sides, {}};
 }
 
-FlatShape shape_of(FlatLoops loops) { return {Kind::kPolygon, std::move(loops), {}, 0, {}, {}, {}}; }
+FlatShape shape_of(FlatLoops loops) { return {Kind::kPolygon, std::move(loops), {}, 0, {}}; }
 
 std::optional<FlatDisk> disk_of(const FlatMap& map, int sides) {
   const auto radius = written_similarity(map);
@@ -44,7 +48,7 @@ bool are_few(std::span<const FlatDisk> disks) {
 ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
   if (!are_few(disks)) return {};
   const FlatRoundHull hull = flat_round_hull(disks);
-  FlatShape result{Kind::kUnion, {}, {}, 0, {}, {}, {}};
+  FlatShape result{Kind::kUnion, {}, {}, 0, {}};
   for (const std::size_t i : hull.disks) {
     FlatShape disk = shape_of(disks[i]);
     disk.disk = compose(map, disk.disk);
@@ -79,7 +83,7 @@ FlatMap inverse_of_linear(const FlatMap& map) {
 
 FlatShape united(std::vector<FlatShape> shapes) {
   if (shapes.size() == 1) return std::move(shapes.front());
-  return {Kind::kUnion, {}, {}, 0, std::move(shapes), {}, {}};
+  return {Kind::kUnion, {}, {}, 0, std::move(shapes)};
 }
 
 ExactFlat offset_of_disk(const FlatShape& shape, double distance) {
@@ -99,14 +103,44 @@ ExactFlat offset_of_polygon(const FlatShape& shape, double distance, int sides) 
   if (distance < 0 && parts.empty()) return {true, std::nullopt};
   for (const FlatPoint& center : offset->centers) parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
   if (distance > 0 || parts.size() == 1) return {true, united(std::move(parts))};
-  return {true, FlatShape{Kind::kDifference, {}, {}, 0, std::move(parts), {}, {}}};
+  return {true, FlatShape{Kind::kDifference, {}, {}, 0, std::move(parts)}};
+}
+
+FlatShape shape_of(RoundedPolygon rounded, int sides) {
+  RoundedParts parts = parts_of(rounded, sides);
+  std::vector<FlatShape> added;
+  added.push_back(shape_of(resolved(parts.polygon)));
+  for (const FlatDisk& disk : parts.added) added.push_back(shape_of(disk));
+  FlatShape result = united(std::move(added));
+  if (!parts.removed.empty()) {
+    std::vector<FlatShape> all;
+    all.push_back(std::move(result));
+    for (const FlatDisk& disk : parts.removed) all.push_back(shape_of(disk));
+    result = {Kind::kDifference, {}, {}, 0, std::move(all)};
+  }
+  if (result.kind != Kind::kPolygon) result.rounded = std::move(rounded);
+  return result;
+}
+
+/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it meet. That is seen from
+/// Clipper's offset, with facets much finer than what could be missing.
+RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_round) {
+  const RoundedPolygon given = shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
+  if (given.empty()) return {};
+  auto result = moved(given, distance, is_round);
+  if (!result) return {};
+  const double fine = kFineFacets * std::fabs(distance);
+  const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
+  const FlatLoops expected = offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
+  if (!are_alike(after, expected, kMissingWidth * std::fabs(distance))) return {};
+  return *std::move(result);
 }
 
 /// Growing distributes over unions, shrinking over intersections and what is taken off: A − B shrunk is A shrunk − B grown.
 ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides) {
   if (shape.kind == Kind::kUnion && distance < 0) return {};
   if (shape.kind != Kind::kUnion && distance > 0) return {};
-  FlatShape result{shape.kind, {}, {}, 0, {}, {}, {}};
+  FlatShape result{shape.kind, {}, {}, 0, {}};
   for (std::size_t i = 0; i < shape.children.size(); ++i) {
     const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
     ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides);
@@ -156,6 +190,11 @@ FlatShape mapped(const FlatMap& map, FlatShape shape) {
   const auto scale = written_similarity(map);
   if (!scale) shape.hull.clear();
   for (FlatDisk& disk : shape.hull) disk = {map(disk.center), *scale * disk.radius, disk.sides};
+  if (!scale || map.determinant() < 0) shape.rounded.clear();
+  for (RoundedLoop& loop : shape.rounded) {
+    for (FlatPoint& corner : loop.corners) corner = map(corner);
+    for (double& radius : loop.radii) radius *= *scale;
+  }
   for (FlatShape& child : shape.children) child = mapped(map, std::move(child));
   return shape;
 }
@@ -209,15 +248,21 @@ ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
   return {};
 }
 
-ExactFlat exact_offset(const FlatShape& shape, double distance, int sides) {
+ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatCorners corners) {
   if (distance == 0) return {true, shape};
   if (shape.kind == Kind::kDisk) return offset_of_disk(shape, distance);
-  std::vector<FlatDisk> disks = disks_of_convex(shape);
+  const bool is_round = corners == FlatCorners::kRound;
+  RoundedPolygon rounded = moved_outline(shape, distance, is_round);
+  std::vector<FlatDisk> disks = is_round ? disks_of_convex(shape) : std::vector<FlatDisk>{};
   const auto stays = [&](const FlatDisk& d) { return d.radius + distance >= 0; };
   if (!disks.empty() && std::all_of(disks.begin(), disks.end(), stays)) {
     for (FlatDisk& d : disks) d = {d.center, d.radius + distance, d.sides > 0 ? d.sides : sides};
-    return hull_of(disks, {});
+    ExactFlat hull = hull_of(disks, {});
+    if (hull.shape && hull.shape->kind == Kind::kUnion) hull.shape->rounded = std::move(rounded);
+    return hull;
   }
+  if (!rounded.empty()) return {true, shape_of(std::move(rounded), sides)};
+  if (!is_round) return {};
   if (shape.kind == Kind::kPolygon) return offset_of_polygon(shape, distance, sides);
   return offset_of_operation(shape, distance, sides);
 }

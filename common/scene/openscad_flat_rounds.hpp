@@ -24,8 +24,10 @@ bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<Flat
 ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks);
 /// The hull of all shapes together.
 ExactFlat exact_flat_hull(std::span<const FlatShape> parts);
-/// offset(r = distance); what becomes round has `sides` sides in OpenSCAD.
-ExactFlat exact_offset(const FlatShape& shape, double distance, int sides);
+/// offset(r = distance), or offset(delta = distance) where sharp corners stay sharp; what becomes round has `sides`
+/// sides in OpenSCAD.
+enum class FlatCorners : std::uint8_t { kRound, kSharp };
+ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatCorners corners = FlatCorners::kRound);
 /// The Minkowski sum.
 ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b);
 

@@ -120,6 +120,54 @@ TEST_CASE("an offset in and out again rounds the corners that point outwards") {
   check_within("linear_extrude(height = 3) offset(r = 2) offset(delta = -2) square(size = [10, 8]);", core, 2);
 }
 
+/// The angle with some of its corners rounded by the radius, between z = 0 and 3.
+bool in_rounded_angle(const Vec3& p, double radius, bool rounds_outer, bool fills_inner) {
+  if (p.z < 0 || p.z > 3) return false;
+  const auto beyond_arc = [&](double x, double y, int towards_x, int towards_y) {
+    // The square between the corner and the arc's centre, but for the disk.
+    const double dx = towards_x * (p.x - x), dy = towards_y * (p.y - y);
+    return dx >= 0 && dx <= radius && dy >= 0 && dy <= radius && std::hypot(dx - radius, dy - radius) > radius;
+  };
+  if (fills_inner && beyond_arc(3, 3, 1, 1)) return true;
+  if (from_flat_angle(p) > 0) return false;
+  if (!rounds_outer) return true;
+  return !beyond_arc(0, 0, 1, 1) && !beyond_arc(10, 0, -1, 1) && !beyond_arc(10, 3, -1, -1) &&
+         !beyond_arc(3, 10, -1, -1) && !beyond_arc(0, 10, 1, -1);
+}
+
+void check_rounded(const std::string& offsets, double radius, bool rounds_outer, bool fills_inner) {
+  const std::string text = "linear_extrude(height = 3) " + offsets + " " + kAngle + ";";
+  INFO(text);
+  CHECK(warnings_of(text).empty());
+  const Scene scene = scene_of(text);
+  std::mt19937_64 random(18);
+  std::uniform_real_distribution<double> place(-1, 11);
+  int wrong = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p{place(random), place(random), 1};
+    wrong += any_object_holds(scene, p) == in_rounded_angle(p, radius, rounds_outer, fills_inner) ? 0 : 1;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("offsets in and out round the corners that point outwards, out and in fill the others") {
+  check_rounded("offset(r = 1.2) offset(r = -1.2)", 1.2, true, false);
+  check_rounded("offset(r = -1.2) offset(r = 1.2)", 1.2, false, true);
+  check_rounded("offset(r = -1.2) offset(r = 2.4) offset(r = -1.2)", 1.2, true, true);
+  check_rounded("offset(r = 1.2) offset(delta = -1.2)", 1.2, true, false);
+  check_rounded("offset(delta = -1.2) offset(r = 1.2)", 0, false, false);
+  check_rounded("offset(r = -1.5) offset(r = 0.5) offset(delta = 1)", 1.5, false, true);
+}
+
+TEST_CASE("a slit that an offset closes stays closed") {
+  // Two arms 1 apart: grown by 1 they are one, so that 1 back leaves the slit filled.
+  const std::string text = "linear_extrude(height = 3) offset(r = -1) offset(r = 1) polygon(points = [[0, 0], [10, 0], [10, 4], "
+                           "[0, 4], [0, 2.5], [8, 2.5], [8, 1.5], [0, 1.5]]);";
+  CHECK_FALSE(warnings_of(text).empty());
+  const Scene scene = scene_of(text);
+  CHECK((any_object_holds(scene, {4, 2, 1}) && any_object_holds(scene, {1, 2, 1}) && !any_object_holds(scene, {-0.5, 2, 1})));
+}
+
 TEST_CASE("a hull whose ends are cylinders has the very cylinders") {
   const std::string post = "cylinder(h = 4, r1 = 2.7, r2 = 2.7);";
   const Scene scene = scene_of("hull() { " + post + kMoved + post + " }");
