@@ -38,7 +38,19 @@ bool is_convex(const FlatLoops& loops) {
   return true;
 }
 
-bool are_few(std::span<const FlatDisk> disks) {
+/// Whether squares and products of such numbers can be told from 0 and infinity.
+bool is_sensible(double v) { return v == 0 || (std::fabs(v) >= 1 / kMaxOpenscadCoordinate && std::fabs(v) <= kMaxOpenscadCoordinate); }
+
+bool are_sensible(const FlatLoops& loops) {
+  if (loops.empty()) return false;
+  const auto [lo, hi] = flat_bounds(loops);
+  return is_sensible(std::max({std::fabs(lo.x), std::fabs(lo.y), std::fabs(hi.x), std::fabs(hi.y)}));
+}
+
+bool are_few_and_sensible(std::span<const FlatDisk> disks) {
+  for (const FlatDisk& d : disks) {
+    if (!is_sensible(d.radius) || !(std::max(std::fabs(d.center.x), std::fabs(d.center.y)) <= kMaxOpenscadCoordinate)) return false;
+  }
   const auto round = static_cast<std::size_t>(
       std::count_if(disks.begin(), disks.end(), [](const FlatDisk& d) { return d.radius > 0; }));
   return round <= kMaxRoundCorners && round * disks.size() <= kMaxFlatDiskPairs;
@@ -46,7 +58,7 @@ bool are_few(std::span<const FlatDisk> disks) {
 
 /// The image of the hull under the map.
 ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
-  if (!are_few(disks)) return {};
+  if (!are_few_and_sensible(disks)) return {};
   const FlatRoundHull hull = flat_round_hull(disks);
   FlatShape result{Kind::kUnion, {}, {}, 0, {}};
   for (const std::size_t i : hull.disks) {
@@ -96,6 +108,7 @@ ExactFlat offset_of_disk(const FlatShape& shape, double distance) {
 }
 
 ExactFlat offset_of_polygon(const FlatShape& shape, double distance, int sides) {
+  if (!are_sensible(shape.loops)) return {};
   auto offset = round_offset(shape.loops, distance);
   if (!offset) return {};
   std::vector<FlatShape> parts;
@@ -125,6 +138,7 @@ FlatShape shape_of(RoundedPolygon rounded, int sides) {
 /// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it meet. That is seen from
 /// Clipper's offset, with facets much finer than what could be missing.
 RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_round) {
+  if (shape.kind == Kind::kPolygon && !are_sensible(shape.loops)) return {};
   const RoundedPolygon given = shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
   if (given.empty()) return {};
   auto result = moved(given, distance, is_round);
@@ -250,6 +264,7 @@ ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
 
 ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatCorners corners) {
   if (distance == 0) return {true, shape};
+  if (!is_sensible(distance)) return {};
   if (shape.kind == Kind::kDisk) return offset_of_disk(shape, distance);
   const bool is_round = corners == FlatCorners::kRound;
   RoundedPolygon rounded = moved_outline(shape, distance, is_round);

@@ -76,6 +76,10 @@ ScadMesh convex_hull(const std::vector<Vec3>& points) {
   ScadMesh mesh;
   mesh.points = points;
   if (points.size() < 4) return mesh;
+  // Qhull crashes when its products overflow.
+  for (const Vec3& p : points) {
+    if (!is_finite(p) || max_abs(p) > kMaxOpenscadCoordinate) return mesh;
+  }
   Hull hull;
   std::vector<Vec3> given = points;
   if (!hull.build(given)) return mesh;

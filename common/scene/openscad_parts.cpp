@@ -262,6 +262,10 @@ class Importer {
     if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
     ScadMesh mesh = convex_hull(corners);
     if (mesh.faces.empty()) {
+      const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
+      if (std::any_of(corners.begin(), corners.end(), is_far)) {
+        return report_.error(module.line, "hull() reaches beyond the largest coordinate, 1e30");
+      }
       return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
     }
     ScadArguments arguments(module, report_);

@@ -47,13 +47,19 @@ std::optional<RoundPoint> framed_item(const RoundItem& item, const Affine& map) 
   return RoundPoint{center, *scale * item.round.radius};
 }
 
+/// Whether squares and products can be told from 0 and infinity.
+bool is_sensible(const RoundPoint& p) {
+  return max_abs(p.center) <= kMaxOpenscadCoordinate && p.radius <= kMaxOpenscadCoordinate &&
+         (p.radius == 0 || p.radius >= 1 / kMaxOpenscadCoordinate);
+}
+
 std::optional<FramedPiece> framed_by(const RoundPiece& items, const Affine& frame) {
   const auto inverse = frame.inverse();
   if (!inverse) return std::nullopt;
   FramedPiece result{frame, {}, false, false};
   for (const RoundItem& item : items) {
     const auto point = framed_item(item, seen_from(frame, *inverse, item.map));
-    if (!point) return std::nullopt;
+    if (!point || !is_sensible(*point)) return std::nullopt;
     result.points.push_back(*point);
     result.has_balls = result.has_balls || item.kind == Kind::kBall;
     result.has_discs = result.has_discs || item.kind == Kind::kDisc;

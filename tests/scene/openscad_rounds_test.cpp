@@ -9,6 +9,7 @@
 #include "scene/openscad.hpp"
 #include "scene/openscad/reading.hpp"
 #include "scene/scene_membership.hpp"
+#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -195,6 +196,50 @@ TEST_CASE("the hull of a ball and a cylinder on one axis is turned about it") {
   const auto in = [&](double out, double z) { return any_object_holds(scene, {1 + out, 2, z}); };
   // The side touches the ball and the upper rim: distance 1 from (0, 8), through (3, 2).
   CHECK((in(0, 8.99) && !in(0, 9.01) && in(2.99, 1) && !in(3.01, 1) && in(0.99, 8) && in(1, 6.8) && !in(2.2, 6.8)));
+}
+
+TEST_CASE("columns that are round below and flat on top have a flat top and vertical sides") {
+  std::string text = "hull() {";
+  for (const char* at : {"0, 0, 0", "0, 6, 0", "8, 0, 0", "8, 6, 0"}) {
+    const std::string x(1, at[0]), y(1, at[3]);
+    text += " multmatrix([[1, 0, 0, " + x + "], [0, 1, 0, " + y + "]]) { sphere(r = 1.5); cylinder(h = 5, r1 = 1.5, r2 = 1.5); }";
+  }
+  const auto distance = [](const Vec3& p) { return p.z > 5 ? 100 : from_box(p, {0, 0, 0}, {8, 6, 5}); };
+  check_within(text + " }", distance, 1.5);
+  const Scene scene = scene_of(text + " }");
+  CHECK(std::get<BoxShape>(std::get<OperationNode>(scene.objects[0].csg.value).children[1].value).max.z == 5);
+}
+
+TEST_CASE("a cap that something sticks out of sideways has no exact form") {
+  const std::string text = "hull() { sphere(r = 3); cylinder(h = 5, r1 = 1, r2 = 1); " + kMoved + "sphere(r = 1); }";
+  CHECK(warnings_of(text).size() == 1);
+}
+
+TEST_CASE("a box, a cylinder and a ball give a plate with round corners and rims") {
+  const auto rounded = [](const Vec3& p) {
+    const double out = std::max(0.0, from_box({p.x, p.y, 1}, {}, {8, 6, 4}) - 2), up = std::max({-p.z, 0.0, p.z - 5});
+    return std::hypot(out, up);
+  };
+  check_within("minkowski() { cube(size = [8, 6, 4]); cylinder(h = 1, r1 = 2, r2 = 2); sphere(r = 1); }", rounded, 1);
+}
+
+TEST_CASE("numbers beyond reason end in no scene that can't be written") {
+  for (const char* size : {"1e-300", "1e-160", "1e-31", "1e29", "1e160", "1e300"}) {
+    const std::string r(size);
+    for (const std::string& text :
+         {"hull() { sphere(r = " + r + "); " + kMoved + "sphere(r = 1); cube(size = " + r + "); }",
+          "minkowski() { cube(size = 2); cylinder(h = 1, r1 = " + r + ", r2 = 1); }",
+          "minkowski() { cube(size = [1, 2, " + r + "]); sphere(r = 1); }",
+          "linear_extrude(height = 1) offset(r = " + r + ") " + kAngle + ";",
+          "linear_extrude(height = 1) offset(r = -1) offset(r = 2) square(size = [1, " + r + "]);",
+          "linear_extrude(height = 1) hull() { circle(r = " + r + "); " + kMoved + "circle(r = 1); }"}) {
+      INFO(text);
+      const OpenscadResult result = read_openscad_csg(text);
+      if (!result.scene) continue;
+      const std::string written = write_scene_text(*result.scene);
+      CHECK(written.find("nan") == std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("circles in a hull under one uneven scale stay exact") {
