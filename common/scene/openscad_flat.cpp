@@ -253,7 +253,7 @@ class FlatReader {
         return with_own_facets(std::move(exact.shape), with_facets, map);
       }
     }
-    if (inner->has_curves() || (may_be_round && !import_.options.facets)) warn_of_sides(module);
+    if (inner->has_curves() || (may_be_round && !import_.options.facets)) import_.warn_of_sides(module.name, module.line);
     return of_loops(with_facets(), map, module.line);
   }
 
@@ -264,10 +264,6 @@ class FlatReader {
     if (!shape) return std::nullopt;
     if (shape->kind != Kind::kDisk && shape->has_curves()) shape->facets = with_facets();
     return mapped(map, *std::move(shape));
-  }
-
-  void warn_of_sides(const ScadModule& module) {
-    import_.warn_once(module.line, module.name + "() takes what is round by OpenSCAD's sides");
   }
 
   std::vector<FlatShape> operands(const ScadModule& module, const FlatMap& map) {
@@ -294,7 +290,7 @@ class FlatReader {
     if (std::any_of(parts.begin(), parts.end(), [](const FlatShape& part) { return part.has_curves(); })) {
       auto exact = exact_flat_hull(parts);
       if (exact.is_exact) return with_own_facets(std::move(exact.shape), with_facets, {});
-      warn_of_sides(module);
+      import_.warn_of_sides(module.name, module.line);
     }
     return of_loops(with_facets());
   }

@@ -45,6 +45,11 @@ struct ScadImport {
   void warn_once(int line, const std::string& message) {
     if (told.insert(message).second) report.warning(line, message);
   }
+  /// Of a module that gives facets to what is round in it.
+  void warn_of_sides(const std::string& name, int line) {
+    const char* around = options.facets ? "" : "; what is round around it is exact";
+    warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
+  }
 };
 
 /// The figure of a module under a map; nothing where it is empty or wrong, which is reported.

@@ -101,7 +101,7 @@ bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
   }
   if (!is_openscad_primitive(module)) return false;
   if (module.name == "sphere" || module.name == "cylinder") {
-    import.warn_once(module.line, "hull() takes what is round by OpenSCAD's sides");
+    import.warn_of_sides("hull", module.line);
   }
   if (const auto solid = openscad_primitive(module, import.report, true)) {
     for (const Vec3& p : solid->corners) corners.push_back(map.point(p));

@@ -253,7 +253,8 @@ TEST_CASE("circles in a hull under one uneven scale stay exact") {
 
 TEST_CASE("what has no exact form is said to have OpenSCAD's sides, and few sides or facets asked for are kept") {
   const std::string mixed = "hull() { sphere(r = 1); " + kMoved + "cylinder(h = 2, r1 = 1, r2 = 1); }";
-  CHECK(warnings_of(mixed) == std::vector<std::string>{"line 1: hull() takes what is round by OpenSCAD's sides"});
+  CHECK(warnings_of(mixed) == std::vector<std::string>{"line 1: hull() takes what is round by OpenSCAD's sides; "
+                                                       "what is round around it is exact"});
   const Scene few = scene_of("hull() { cylinder(h = 1, r1 = 2, r2 = 2, $fn = 6); " + kMoved + "cube(1); }");
   CHECK(std::holds_alternative<PolyhedronShape>(few.objects[0].csg.value));
   const Scene facets = scene_of("hull() { sphere(r = 1); " + kMoved + "sphere(r = 1); }", {.facets = true});
