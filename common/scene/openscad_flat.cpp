@@ -8,6 +8,7 @@
 #include "scene/flat_offset.hpp"
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_flat_rounds.hpp"
+#include "scene/openscad_flat_sums.hpp"
 #include "scene/openscad_primitives.hpp"
 
 namespace graycube {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/flat_offset.hpp"
+#include "scene/openscad_flat_contact.hpp"
 
 namespace graycube {
 namespace {
@@ -12,8 +13,8 @@ namespace {
 using Kind = FlatShape::Kind;
 
 /// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is wider than that.
-constexpr double kFineFacets = 1e-3;
-constexpr double kMissingWidth = 0.02;
+constexpr double kFineFacets = 1e-4;
+constexpr double kMissingWidth = 1e-3;
 
 FlatShape shape_of(const FlatDisk& disk) {
   const double r = disk.radius;
@@ -145,15 +146,24 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   if (!result) return {};
   const double fine = kFineFacets * std::fabs(distance);
   const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
+  // Sides that cross, however little, are parts that have met.
+  if (!crossings_are_few(std::span(&after, 1)) || resolved(after).size() != after.size()) return {};
   const FlatLoops expected = offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
   if (!are_alike(after, expected, kMissingWidth * std::fabs(distance))) return {};
   return *std::move(result);
 }
 
 /// Growing distributes over unions, shrinking over intersections and what is taken off: A − B shrunk is A shrunk − B grown.
+/// Shrinking distributes over a union of what is apart, and growing over holes that are apart and reach the outline nowhere.
+bool distributes(const FlatShape& shape, double distance) {
+  if (shape.kind == Kind::kUnion) return distance > 0 || are_apart(shape.children);
+  if (distance < 0) return true;
+  const std::span<const FlatShape> all(shape.children);
+  return shape.kind == Kind::kDifference && are_within_first(all) && are_apart(all.subspan(1));
+}
+
 ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides) {
-  if (shape.kind == Kind::kUnion && distance < 0) return {};
-  if (shape.kind != Kind::kUnion && distance > 0) return {};
+  if (!distributes(shape, distance)) return {};
   FlatShape result{shape.kind, {}, {}, 0, {}};
   for (std::size_t i = 0; i < shape.children.size(); ++i) {
     const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
@@ -168,30 +178,6 @@ ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides
   if (result.children.empty()) return {true, std::nullopt};
   if (result.children.size() == 1) return {true, std::move(result.children.front())};
   return {true, std::move(result)};
-}
-
-ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDisk>& b) {
-  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundCorners) return {};
-  std::vector<FlatDisk> sums;
-  for (const FlatDisk& p : a) {
-    for (const FlatDisk& q : b) {
-      const FlatPoint center{p.center.x + q.center.x, p.center.y + q.center.y};
-      sums.push_back({center, p.radius + q.radius, std::max(p.sides, q.sides)});
-    }
-  }
-  return hull_of(sums, {});
-}
-
-/// Sums distribute over unions.
-ExactFlat sum_with_union(const FlatShape& whole, const FlatShape& other) {
-  std::vector<FlatShape> parts;
-  for (const FlatShape& child : whole.children) {
-    ExactFlat part = exact_flat_sum(child, other);
-    if (!part.is_exact) return {};
-    if (part.shape) parts.push_back(*std::move(part.shape));
-  }
-  if (parts.empty()) return {true, std::nullopt};
-  return {true, united(std::move(parts))};
 }
 
 }  // namespace
@@ -280,22 +266,6 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
   if (!is_round) return {};
   if (shape.kind == Kind::kPolygon) return offset_of_polygon(shape, distance, sides);
   return offset_of_operation(shape, distance, sides);
-}
-
-ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b) {
-  const std::vector<FlatDisk> first = disks_of_convex(a), second = disks_of_convex(b);
-  if (!first.empty() && !second.empty()) return sum_of_disks(first, second);
-  for (const auto& [whole, disk] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-    const auto round = disk->kind == Kind::kDisk ? disk_of(disk->disk, disk->sides) : std::nullopt;
-    if (!round) continue;
-    ExactFlat grown = exact_offset(*whole, round->radius, round->sides);
-    const FlatMap shift{{{{1, 0, round->center.x}, {0, 1, round->center.y}}}};
-    if (grown.shape) grown.shape = mapped(shift, *std::move(grown.shape));
-    return grown;
-  }
-  if (a.kind == Kind::kUnion && a.hull.empty()) return sum_with_union(a, b);
-  if (b.kind == Kind::kUnion && b.hull.empty()) return sum_with_union(b, a);
-  return {};
 }
 
 }  // namespace graycube

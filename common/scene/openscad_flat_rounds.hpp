@@ -1,4 +1,4 @@
-// hull(), offset() and minkowski() of flat shapes with what is round exact, where that has a form in disks and polygons.
+// hull() and offset() of flat shapes with what is round exact, where that has a form in disks and polygons.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,6 @@ ExactFlat exact_flat_hull(std::span<const FlatShape> parts);
 /// sides in OpenSCAD.
 enum class FlatCorners : std::uint8_t { kRound, kSharp };
 ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatCorners corners = FlatCorners::kRound);
-/// The Minkowski sum.
-ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b);
-
 FlatShape mapped(const FlatMap& map, FlatShape shape);
 
 }  // namespace graycube

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/openscad_flat_rounds.hpp"
+#include "scene/openscad_flat_sums.hpp"
 #include "scene/openscad_parts.hpp"
 #include "scene/openscad_primitives.hpp"
 #include "scene/openscad_sweep.hpp"

@@ -25,6 +25,9 @@ double from_box(const Vec3& p, const Vec3& lo, const Vec3& hi) {
   return length(d);
 }
 
+/// For a solid that is the scene itself: more than the rounding that is allowed.
+constexpr double kItself = 2e-9;
+
 /// The scene must be everything within `radius` of the solid.
 void check_within(const std::string& text, const Distance& distance, double radius) {
   INFO(text);
@@ -160,6 +163,46 @@ TEST_CASE("offsets in and out round the corners that point outwards, out and in 
   check_rounded("offset(r = -1.5) offset(r = 0.5) offset(delta = 1)", 1.5, false, true);
 }
 
+TEST_CASE("holes shrink when a plate grows, and parts that are apart shrink each for itself") {
+  const auto extruded = [](const Distance& d) { return [=](const Vec3& p) { return p.z < 0 || p.z > 3 ? 100 : d(p); }; };
+  const std::string hole = "multmatrix([[1, 0, 0, 5], [0, 1, 0, 4]]) circle(r = 3);";
+  check_within("linear_extrude(height = 3) offset(r = 1.5) difference() { square(size = [10, 8]); " + hole + " }",
+               extruded([](const Vec3& p) {
+                 return std::max(from_box({p.x, p.y, 0}, {}, {10, 8, 0}), 3 - std::hypot(p.x - 5, p.y - 4));
+               }),
+               1.5);
+  check_within("linear_extrude(height = 3) offset(r = -1.5) { square(size = [6, 5]); multmatrix([[1, 0, 0, 11], [0, 1, 0, 9]]) "
+               "circle(r = 3); }",
+               extruded([](const Vec3& p) {
+                 return std::min(from_box({p.x, p.y, 0}, {1.5, 1.5, 0}, {4.5, 3.5, 0}),
+                                 std::max(0.0, std::hypot(p.x - 11, p.y - 9) - 1.5));
+               }),
+               kItself);
+  CHECK(warnings_of("linear_extrude(height = 3) offset(r = -1) { square(size = [6, 5]); circle(r = 3); }").size() == 1);
+}
+
+TEST_CASE("any polygon and a convex figure add up") {
+  const auto grown = [](double low, double high, double margin_x, double margin_y) {
+    return [=](const Vec3& p) {
+      if (p.z < low || p.z > high) return 100.0;
+      const auto from = [&](double x, double y) {
+        return from_box({p.x, p.y, 0}, {-margin_x, -margin_y, 0}, {x + margin_x, y + margin_y, 0});
+      };
+      return std::min(from(10, 3), from(3, 10));
+    };
+  };
+  const std::string flat = "linear_extrude(height = 5) minkowski() { " + kAngle + "; ";
+  check_within(flat + "square(size = [2, 1], center = true); }", grown(0, 5, 1, 0.5), kItself);
+  check_within(flat + "hull() { circle(r = 1); multmatrix([[1, 0, 0, 2], [0, 1, 0, 0]]) circle(r = 1); } }",
+               [](const Vec3& p) {
+                 if (p.z < 0 || p.z > 5) return 100.0;
+                 return std::min(from_box({p.x, p.y, 0}, {}, {12, 3, 0}), from_box({p.x, p.y, 0}, {}, {5, 10, 0}));
+               },
+               1);
+  check_within("minkowski() { linear_extrude(height = 5) " + kAngle + "; cube(size = 1, center = true); }",
+               grown(-0.5, 5.5, 0.5, 0.5), kItself);
+}
+
 TEST_CASE("a slit that an offset closes stays closed") {
   // Two arms 1 apart: grown by 1 they are one, so that 1 back leaves the slit filled.
   const std::string text = "linear_extrude(height = 3) offset(r = -1) offset(r = 1) polygon(points = [[0, 0], [10, 0], [10, 4], "
@@ -167,6 +210,10 @@ TEST_CASE("a slit that an offset closes stays closed") {
   CHECK_FALSE(warnings_of(text).empty());
   const Scene scene = scene_of(text);
   CHECK((any_object_holds(scene, {4, 2, 1}) && any_object_holds(scene, {1, 2, 1}) && !any_object_holds(scene, {-0.5, 2, 1})));
+  // Just so.
+  CHECK_FALSE(warnings_of("linear_extrude(height = 3) offset(r = -1) offset(r = 1) polygon(points = [[0, 0], [10, 0], [10, 4], "
+                          "[0, 4], [0, 2.999], [8, 2.999], [8, 1], [0, 1]]);")
+                  .empty());
 }
 
 TEST_CASE("a hull whose ends are cylinders has the very cylinders") {
