@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "geometry/portable_math.hpp"
+#include "scene/flat_offset.hpp"
 #include "scene/openscad_arguments.hpp"
+#include "scene/openscad_flat_rounds.hpp"
+#include "scene/openscad_flat_sums.hpp"
 #include "scene/openscad_primitives.hpp"
 
 namespace graycube {
@@ -54,6 +57,7 @@ class FlatReader {
     if (name == "polygon") return polygon(module, arguments, map);
     if (name == "offset") return offset_of(module, arguments, map);
     if (name == "hull") return hull(module, map);
+    if (name == "minkowski") return minkowski(module, map);
     return by_program(module, map);
   }
 
@@ -83,7 +87,7 @@ class FlatReader {
     const bool intersects = kind == Kind::kIntersection;
     auto loops = combined_loops(intersects ? FlatOperation::kIntersection : FlatOperation::kUnion, straight, line);
     if (intersects && !straight.empty() && !loops) return std::nullopt;
-    if (loops) parts.push_back({Kind::kPolygon, std::move(*loops), {}, 0, {}});
+    if (loops) parts.push_back({Kind::kPolygon, std::move(*loops), {}, 0});
     if (parts.size() == 1) return std::move(parts.front());
     return FlatShape{kind, {}, {}, 0, std::move(parts)};
   }
@@ -106,7 +110,7 @@ class FlatReader {
  private:
   static std::optional<FlatShape> of_loops(std::optional<FlatLoops> loops) {
     if (!loops || loops->empty()) return std::nullopt;
-    return FlatShape{Kind::kPolygon, std::move(*loops), {}, 0, {}};
+    return FlatShape{Kind::kPolygon, std::move(*loops), {}, 0};
   }
   std::optional<FlatShape> of_loops(const FlatLoops& loops, const FlatMap& map, int line) {
     const FlatLoops placed = mapped(map, loops);
@@ -164,10 +168,10 @@ class FlatReader {
     const double r = arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
     const ScadFineness fineness = fineness_of(arguments);
     if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive")) return std::nullopt;
-    FlatShape disk{Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness), {}};
+    FlatShape disk{Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness)};
     const int few = asked_sides(fineness);
     if (!import_.options.facets && few == 0) return disk;
-    return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0, {}};
+    return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0};
   }
 
   std::optional<FlatShape> polygon(const ScadModule& module, ScadArguments& arguments, const FlatMap& map) {
@@ -227,47 +231,84 @@ class FlatReader {
     const bool chamfer = arguments.boolean("chamfer", -1);
     const ScadFineness fineness = fineness_of(arguments);
     if (!arguments.ok()) return std::nullopt;
-    auto inner = united(module.children, {}, module.line);
-    if (!inner) return std::nullopt;
-    const auto scale = inner->kind == Kind::kDisk ? written_similarity(inner->disk) : std::nullopt;
-    if (is_round && scale && !import_.options.facets) {
-      if (!(*scale + distance > 0)) return std::nullopt;
-      FlatMap& disk = inner->disk;
-      for (auto& row : disk.m) {
-        for (std::size_t j = 0; j < 2; ++j) row[j] *= (*scale + distance) / *scale;
-      }
-      disk = compose(map, disk);
-      return inner;
-    }
-    if (inner->has_curves()) import_.warn_once(module.line, "offset() takes what is round by OpenSCAD's sides");
-    const auto loops = polygon_of(*inner, import_, module.line);
-    if (!loops || distance == 0) return loops ? of_loops(*loops, map, module.line) : std::nullopt;
     if (!(std::fabs(distance) <= kMaxOpenscadCoordinate)) {
       arguments.fail("the distance is not a number of sensible size");
       return std::nullopt;
     }
+    const auto inner = united(module.children, {}, module.line);
+    if (!inner) return std::nullopt;
     const int sides = fragments(std::fabs(distance), fineness);
     const double tolerance = std::fabs(distance) * (1 - cos_degrees(180.0 / sides));
     const FlatJoin join = is_round ? FlatJoin::kRound : chamfer ? FlatJoin::kSquare : FlatJoin::kMiter;
-    return of_loops(offset(*loops, distance, join, tolerance), map, module.line);
+    const auto with_facets = [&]() -> FlatLoops {
+      const auto loops = polygon_of(*inner, import_, module.line);
+      if (!loops || distance == 0) return loops ? *loops : FlatLoops{};
+      FlatLoops result = offset(*loops, distance, join, tolerance);
+      return join == FlatJoin::kMiter ? on_lines(std::move(result), *loops, distance) : result;
+    };
+    const bool may_be_round = is_round && asked_sides(fineness) == 0;
+    const bool may_be_moved = may_be_round || inner->kind == Kind::kDisk || (join == FlatJoin::kMiter && inner->has_curves());
+    if (!import_.options.facets && may_be_moved) {
+      const FlatCorners corners = is_round ? FlatCorners::kRound : FlatCorners::kSharp;
+      if (auto exact = exact_offset(*inner, distance, sides, corners); exact.is_exact) {
+        return with_own_facets(std::move(exact.shape), with_facets, map);
+      }
+    }
+    if (inner->has_curves() || (may_be_round && !import_.options.facets)) import_.warn_of_sides(module.name, module.line);
+    return of_loops(with_facets(), map, module.line);
+  }
+
+  /// A shape with curves keeps the polygon that OpenSCAD makes of it.
+  template <typename WithFacets>
+  static std::optional<FlatShape> with_own_facets(std::optional<FlatShape> shape, const WithFacets& with_facets,
+                                                  const FlatMap& map) {
+    if (!shape) return std::nullopt;
+    if (shape->kind != Kind::kDisk && shape->has_curves()) shape->facets = with_facets();
+    return mapped(map, *std::move(shape));
+  }
+
+  std::vector<FlatShape> operands(const ScadModule& module, const FlatMap& map) {
+    std::vector<FlatShape> parts;
+    for (const ScadModule& child : module.children) {
+      if (!takes_part(child)) continue;
+      if (auto part = shape(child, map)) parts.push_back(std::move(*part));
+    }
+    return parts;
   }
 
   std::optional<FlatShape> hull(const ScadModule& module, const FlatMap& map) {
-    std::vector<FlatPoint> points;
-    bool round = false;
-    for (const ScadModule& child : module.children) {
-      if (!takes_part(child)) continue;
-      const auto part = shape(child, map);
-      if (!part) continue;
-      round = round || part->has_curves();
-      const auto loops = polygon_of(*part, import_, module.line);
-      if (!loops) continue;
-      for (const FlatLoop& loop : *loops) points.insert(points.end(), loop.begin(), loop.end());
+    const std::vector<FlatShape> parts = operands(module, map);
+    const auto with_facets = [&]() -> FlatLoops {
+      std::vector<FlatPoint> points;
+      for (const FlatShape& part : parts) {
+        const auto loops = polygon_of(part, import_, module.line);
+        if (!loops) continue;
+        for (const FlatLoop& loop : *loops) points.insert(points.end(), loop.begin(), loop.end());
+      }
+      FlatLoop loop = flat_hull(std::move(points));
+      return loop.size() < 3 ? FlatLoops{} : FlatLoops{std::move(loop)};
+    };
+    if (std::any_of(parts.begin(), parts.end(), [](const FlatShape& part) { return part.has_curves(); })) {
+      auto exact = exact_flat_hull(parts);
+      if (exact.is_exact) return with_own_facets(std::move(exact.shape), with_facets, {});
+      import_.warn_of_sides(module.name, module.line);
     }
-    if (round) import_.warn_once(module.line, "hull() takes what is round by OpenSCAD's sides");
-    FlatLoop loop = flat_hull(std::move(points));
-    if (loop.size() < 3) return std::nullopt;
-    return of_loops(FlatLoops{std::move(loop)});
+    return of_loops(with_facets());
+  }
+
+  /// Exact where each operand is convex, or all but one are circles; else by the program.
+  std::optional<FlatShape> minkowski(const ScadModule& module, const FlatMap& map) {
+    if (import_.options.facets) return by_program(module, map);
+    std::vector<FlatShape> parts = operands(module, {});
+    if (parts.empty()) return std::nullopt;
+    FlatShape sum = std::move(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      auto next = exact_flat_sum(sum, parts[i]);
+      if (!next.is_exact) return by_program(module, map);
+      if (!next.shape) return std::nullopt;
+      sum = *std::move(next.shape);
+    }
+    return mapped(map, std::move(sum));
   }
 
   std::optional<FlatShape> by_program(const ScadModule& module, const FlatMap& map) {
@@ -305,6 +346,7 @@ std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, cons
 
 std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line) {
   if (shape.kind == Kind::kPolygon) return shape.loops;
+  if (!shape.facets.empty()) return shape.facets;
   if (shape.kind == Kind::kDisk) return FlatLoops{circle_of(shape.disk, shape.sides)};
   std::vector<FlatLoops> operands;
   for (const FlatShape& child : shape.children) {

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "scene/flat_polygon.hpp"
+#include "scene/flat_rounds.hpp"
 #include "scene/openscad_program.hpp"
+#include "scene/rounded_polygon.hpp"
 
 namespace graycube {
 
@@ -21,7 +23,13 @@ struct FlatShape {
   /// A disk is the image of the unit disk; OpenSCAD gives it so many sides.
   FlatMap disk;
   int sides = 0;
-  std::vector<FlatShape> children;
+  std::vector<FlatShape> children{};
+  /// The disks and points whose hull a union is; empty where it isn't known to be one.
+  std::vector<FlatDisk> hull{};
+  /// OpenSCAD's polygon for it where that isn't made of its children's.
+  FlatLoops facets{};
+  /// The shape as a polygon with rounded corners; empty where it isn't known as one. Polygons are such themselves.
+  RoundedPolygon rounded{};
 
   bool has_curves() const;
 };
@@ -36,6 +44,11 @@ struct ScadImport {
 
   void warn_once(int line, const std::string& message) {
     if (told.insert(message).second) report.warning(line, message);
+  }
+  /// Of a module that gives facets to what is round in it.
+  void warn_of_sides(const std::string& name, int line) {
+    const char* around = options.facets ? "" : "; what is round around it is exact";
+    warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
   }
 };
 

@@ -76,6 +76,10 @@ ScadMesh convex_hull(const std::vector<Vec3>& points) {
   ScadMesh mesh;
   mesh.points = points;
   if (points.size() < 4) return mesh;
+  // Qhull crashes when its products overflow.
+  for (const Vec3& p : points) {
+    if (!is_finite(p) || max_abs(p) > kMaxOpenscadCoordinate) return mesh;
+  }
   Hull hull;
   std::vector<Vec3> given = points;
   if (!hull.build(given)) return mesh;
@@ -97,7 +101,7 @@ bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
   }
   if (!is_openscad_primitive(module)) return false;
   if (module.name == "sphere" || module.name == "cylinder") {
-    import.warn_once(module.line, "hull() takes what is round by OpenSCAD's sides");
+    import.warn_of_sides("hull", module.line);
   }
   if (const auto solid = openscad_primitive(module, import.report, true)) {
     for (const Vec3& p : solid->corners) corners.push_back(map.point(p));

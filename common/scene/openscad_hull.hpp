@@ -9,7 +9,8 @@
 
 namespace graycube {
 
-/// The triangles of the convex hull; no faces when the points lie in a plane.
+/// The triangles of the convex hull; no faces when the points lie in a plane, or one lies beyond
+/// kMaxOpenscadCoordinate.
 ScadMesh convex_hull(const std::vector<Vec3>& points);
 
 /// The corners of OpenSCAD's facets of everything in a module; false when it holds something whose corners aren't known

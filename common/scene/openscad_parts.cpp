@@ -12,6 +12,7 @@
 #include "scene/openscad_hull.hpp"
 #include "scene/openscad_palette.hpp"
 #include "scene/openscad_primitives.hpp"
+#include "scene/openscad_rounds.hpp"
 #include "scene/openscad_sweep.hpp"
 #include "scene/read_scene.hpp"
 
@@ -31,19 +32,6 @@ constexpr double kHalfSlab = 0.5;
 Affine lifted(const FlatMap& map) {
   const auto& m = map.m;
   return {{{{m[0][0], m[0][1], 0, m[0][2]}, {m[1][0], m[1][1], 0, m[1][2]}, {0, 0, 1, 0}}}};
-}
-
-/// The factor of a similarity, as far as the written digits tell.
-std::optional<double> written_similarity(const Affine& map) {
-  std::array<Vec3, 3> column;
-  for (std::size_t j = 0; j < 3; ++j) column[j] = {map.m[0][j], map.m[1][j], map.m[2][j]};
-  const double scale = (length(column[0]) + length(column[1]) + length(column[2])) / 3;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const double shear = std::fabs(dot(column[j], column[(j + 1) % 3]));
-    if (!(std::fabs(length(column[j]) - scale) <= kRotationPrecision * scale)) return std::nullopt;
-    if (!(shear <= kRotationPrecision * scale * scale)) return std::nullopt;
-  }
-  return scale;
 }
 
 struct Surroundings {
@@ -71,7 +59,7 @@ bool is_gathering(const std::string& name) {
 
 /// What the program `openscad` is asked for; all else is no module of .csg files.
 bool is_for_program(const std::string& name) {
-  return name == "minkowski" || name == "resize" || name == "import" || name == "surface" || name == "hull" ||
+  return name == "resize" || name == "import" || name == "surface" || name == "hull" ||
          name == "roof" || name == "fill" || name == "intersection_for";
 }
 
@@ -130,6 +118,8 @@ class Importer {
       if (auto solid = openscad_sweep(module, import_)) add_solid(std::move(*solid), {}, module, around, parts);
     } else if (name == "hull") {
       add_hull(module, around, parts);
+    } else if (name == "minkowski") {
+      if (!add_exact(module, exact_minkowski(module, import_), around, parts)) add_by_program(module, around, parts);
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
     } else {
@@ -255,11 +245,27 @@ class Importer {
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
+  /// False where there is no exact form.
+  bool add_exact(const ScadModule& module, ExactSolid exact, const Surroundings& around, std::vector<Part>& parts) {
+    if (std::holds_alternative<NoExactForm>(exact)) return false;
+    if (auto* solid = std::get_if<RoundSolid>(&exact)) {
+      add_solid(std::move(solid->node), solid->corners, module, around, parts);
+    } else {
+      report_.warning(module.line, module.name + "() is left out: it encloses no volume");
+    }
+    return true;
+  }
+
   void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    if (add_exact(module, exact_hull(module, import_), around, parts)) return;
     std::vector<Vec3> corners;
     if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
     ScadMesh mesh = convex_hull(corners);
     if (mesh.faces.empty()) {
+      const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
+      if (std::any_of(corners.begin(), corners.end(), is_far)) {
+        return report_.error(module.line, "hull() reaches beyond the largest coordinate, 1e30");
+      }
       return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
     }
     ScadArguments arguments(module, report_);
@@ -281,10 +287,15 @@ class Importer {
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
-  /// `corners` are needed of polyhedra only.
+  /// `corners` are those of all polyhedra in it, in the module's coordinates.
   void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module, const Surroundings& around,
                  std::vector<Part>& parts) {
-    const Reach reach = reach_of(solid, corners, around.to_world, directions_);
+    Reach reach = reach_of(solid, corners, around.to_world, directions_);
+    if (solid.transform || std::holds_alternative<OperationNode>(solid.value)) {
+      const CsgNode all_corners{PolyhedronShape{}, std::nullopt, kInheritMaterial};
+      reach = union_of(reach_of(solid, {}, around.to_world, directions_),
+                       reach_of(all_corners, corners, around.to_world, directions_));
+    }
     const Aabb box = reach.box();
     if (!(std::max(max_abs(box.lo), max_abs(box.hi)) <= kMaxOpenscadCoordinate)) {
       report_.error(module.line, module.name + "() reaches beyond the largest coordinate, 1e30");
@@ -337,6 +348,18 @@ OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();
   return result;
+}
+
+std::optional<double> written_similarity(const Affine& map) {
+  std::array<Vec3, 3> column;
+  for (std::size_t j = 0; j < 3; ++j) column[j] = {map.m[0][j], map.m[1][j], map.m[2][j]};
+  const double scale = (length(column[0]) + length(column[1]) + length(column[2])) / 3;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double shear = std::fabs(dot(column[j], column[(j + 1) % 3]));
+    if (!(std::fabs(length(column[j]) - scale) <= kRotationPrecision * scale)) return std::nullopt;
+    if (!(shear <= kRotationPrecision * scale * scale)) return std::nullopt;
+  }
+  return scale;
 }
 
 Reach reach_of(const std::vector<Part>& parts) {

@@ -7,8 +7,10 @@
 #include "geometry/portable_math.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/openscad_arguments.hpp"
+#include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_sweep_mesh.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/round_solid.hpp"
 
 namespace graycube {
 namespace {
@@ -117,12 +119,20 @@ std::optional<CsgNode> turned_disk(const FlatMap& map) {
   return leaf(EllipticTorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, e.outward, e.upward, e.across});
 }
 
+bool has_turned_form(const FlatShape& shape) {
+  if (shape.kind == Kind::kDisk) return turned_disk(shape.disk).has_value();
+  return std::all_of(shape.children.begin(), shape.children.end(), has_turned_form);
+}
+
 std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, int line) {
   if (shape.kind == Kind::kPolygon) return turned(shape.loops);
-  if (shape.kind != Kind::kDisk) {
+  // Disks that others are tangent to get facets together with these.
+  if (shape.kind != Kind::kDisk && (shape.facets.empty() || has_turned_form(shape))) {
     return operated(shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
   }
-  if (auto solid = turned_disk(shape.disk)) return solid;
+  if (shape.kind == Kind::kDisk) {
+    if (auto solid = turned_disk(shape.disk)) return solid;
+  }
   import.warn_once(line, "rotate_extrude() takes circles that reach the axis by OpenSCAD's sides");
   const auto loops = polygon_of(shape, import, line);
   return loops ? turned(*loops) : std::nullopt;
@@ -167,12 +177,19 @@ std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& im
   return sweep;
 }
 
-/// A circle about the origin shrinks to a cone.
-std::optional<CsgNode> cone_of(const FlatShape& shape, const LinearSweep& sweep) {
-  if (shape.kind != Kind::kDisk || sweep.scale.x != sweep.scale.y) return std::nullopt;
-  const auto radius = written_similarity(shape.disk);
-  if (!radius || !(center_of(shape.disk) == FlatPoint{})) return std::nullopt;
-  return leaf(ConeShape{{0, 0, sweep.low}, *radius, {0, 0, sweep.high}, sweep.scale.x * *radius});
+/// What is convex and shrinks evenly is the hull of its two ends: a cone for a circle.
+std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep) {
+  if (sweep.scale.x != sweep.scale.y) return std::nullopt;
+  std::vector<RoundPoint> ends;
+  for (const FlatDisk& d : disks_of_convex(shape)) {
+    ends.push_back({{d.center.x, d.center.y, sweep.low}, d.radius});
+    ends.push_back({{sweep.scale.x * d.center.x, sweep.scale.x * d.center.y, sweep.high}, sweep.scale.x * d.radius});
+  }
+  if (ends.empty()) return std::nullopt;
+  bool is_too_large = false;
+  auto solid = round_solid(RoundKind::kDiscs, std::move(ends), is_too_large);
+  if (!solid) return std::nullopt;
+  return std::move(solid->node);
 }
 
 std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions, const ScadModule& module,
@@ -211,8 +228,8 @@ std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   const auto shape = sweep ? figure_of(module, import) : std::nullopt;
   if (!shape) return std::nullopt;
   if (sweep->is_straight()) return extruded(*shape, sweep->low, sweep->high, import, module.line);
-  if (sweep->twist == 0 && !import.options.facets) {
-    if (auto cone = cone_of(*shape, *sweep)) return cone;
+  if (sweep->twist == 0 && shape->has_curves()) {
+    if (auto cone = tapered(*shape, *sweep)) return cone;
   }
   if (shape->has_curves()) import.warn_once(module.line, "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);
@@ -282,6 +299,32 @@ std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& modu
 
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import) {
   return module.name == "linear_extrude" ? linear(module, import) : rotated(module, import);
+}
+
+bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep) {
+  const auto along = linear_sweep(module, import);
+  if (along && along->twist != 0) return false;
+  auto shape = along ? figure_of(module, import) : std::nullopt;
+  if (shape) sweep = PlainSweep{*std::move(shape), along->low, along->high, along->scale};
+  return true;
+}
+
+std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& import) {
+  auto shape = figure_of(module, import);
+  const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
+  const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
+  if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0) return std::nullopt;
+  return shape;
+}
+
+std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import, int line) {
+  ExactFlat hull = hull_of_disks(profile);
+  if (!hull.shape) return std::nullopt;
+  FlatShape& shape = *hull.shape;
+  const auto is_mirror_image = [](const FlatShape& s) { return s.kind == Kind::kDisk && center_of(s.disk).x < 0; };
+  std::erase_if(shape.children, is_mirror_image);
+  if (!has_turned_form(shape)) return std::nullopt;
+  return turned_shape(shape, import, line);
 }
 
 bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec3>& corners) {

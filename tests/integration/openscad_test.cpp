@@ -77,6 +77,8 @@ multmatrix([[1, 0, 0, 14], [0, 0.8, -0.6, 0], [0, 0.6, 0.8, 0], [0, 0, 0, 1]]) {
 }
 multmatrix([[1, 0, 0, 0], [0, 1, 0, 14], [0, 0, 1, 0], [0, 0, 0, 1]]) color([0.2, 0.5, 1, 0.5]) {
   hull() { cube(size = [4, 4, 1], center = true); multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]) sphere(r = 1); }
+  hull() { cylinder(h = 1, r1 = 2, r2 = 1); multmatrix([[1, 0, 0, -5], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, 0, 1]]) cylinder(h = 2, r1 = 1, r2 = 1); }
+  minkowski() { linear_extrude(height = 1) polygon(points = [[-9, 0], [-6, 0], [-8, 1], [-9, 4]]); sphere(r = 0.5); }
 }
 multmatrix([[1, 0, 0, 12], [0, 1, 0, 14], [0, 0, 1, 0], [0, 0, 0, 1]]) {
   polyhedron(points = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [2, 2, 1], [2, 2, 4]],
@@ -147,7 +149,7 @@ constexpr const char* kTetrahedron =
 TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves nothing behind") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "echo run >> runs\n" + std::string(kTetrahedron));
-  sandbox.write("m.csg", "minkowski() { cube(1); sphere(1); }\nminkowski() { cube(1); sphere(1); }\n");
+  sandbox.write("m.csg", "minkowski() { surface(); sphere(1); }\nminkowski() { surface(); sphere(1); }\n");
   const Outcome o = fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
   INFO(o.err);
   REQUIRE(o.status == 0);
@@ -160,7 +162,7 @@ TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves noth
 TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was asked for") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "echo 'ERROR: it is broken' >&2\nexit 1\n");
-  sandbox.write("m.csg", "cube(1);\ntext(text = \"a\");\nminkowski() { cube(1); }\n");
+  sandbox.write("m.csg", "cube(1);\ntext(text = \"a\");\nminkowski() { surface(); }\n");
   const Outcome o = fake.run({"check", "m.csg"});
   CHECK(o.status == 2);
   CHECK(o.err.find("graycube: scene: m.csg:3: minkowski(): openscad: ERROR: it is broken\n") != std::string::npos);
@@ -174,7 +176,7 @@ TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was ask
 TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "exec sleep 100\n");
-  sandbox.write("m.csg", "minkowski() { cube(1); }\n");
+  sandbox.write("m.csg", "minkowski() { surface(); }\n");
   const Outcome o = fake.run({"render", "m.csg", "-o", "m.exr"}, {"timeout", "--signal=INT", "2"});
   CHECK(o.status == 124);
   CHECK(o.err.find("SIGINT: interrupted") != std::string::npos);
@@ -205,7 +207,7 @@ TEST_CASE("text, Minkowski sums and files of the model's folder come through Ope
   std::filesystem::create_directory(sandbox / "folder");
   sandbox.write("folder/part.off", "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   sandbox.write("folder/m.scad",
-                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { cube(4); cylinder(1); }\n"
+                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { difference() { cube(4); cube(2); } cylinder(1); }\n"
                 "translate([20, 0, 0]) import(\"part.off\");\n");
   const Outcome o = sandbox.run({"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
   INFO(o.err);
