@@ -150,7 +150,7 @@ void import_mesh(const fs::path& path, const control::JobOptions& options, Scene
   how.image.width = options.width.value_or(how.image.width);
   how.image.height = options.height.value_or(how.image.height);
   how.max_depth = options.max_depth.value_or(how.max_depth);
-  input.scene = scene_of_mesh(std::move(std::get<TriangleMesh>(read)), how);
+  input.scene = scene_of_mesh(std::move(std::get<MeshShape>(read)), how);
   input.text = write_scene_text(input.scene);
 }
 

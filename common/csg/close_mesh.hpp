@@ -17,6 +17,8 @@ struct PolygonMesh {
   /// All faces' corners, one face behind the other, and where each face's end.
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> face_ends;
+  /// Significant decimal digits that the points were written with; 0: all that a double has.
+  std::uint32_t digits = 0;
 
   void add_face(std::span<const std::uint32_t> face) {
     corners.insert(corners.end(), face.begin(), face.end());

@@ -238,7 +238,7 @@ bool is_mesh_file(const fs::path& path) {
   return ending == ".stl" || ending == ".off";
 }
 
-std::variant<TriangleMesh, MeshFault> read_mesh_file(const fs::path& path) {
+std::variant<MeshShape, MeshFault> read_mesh_file(const fs::path& path) {
   const auto here = [&](MeshFault fault) { return MeshFault{path.string() + ": " + fault.why}; };
   if (!is_mesh_file(path)) return here({"expected a name ending in .stl or .off"});
   std::optional<MeshFault> fault;
@@ -248,7 +248,7 @@ std::variant<TriangleMesh, MeshFault> read_mesh_file(const fs::path& path) {
   if (auto* wrong = std::get_if<MeshFault>(&polygons)) return here(std::move(*wrong));
   auto closed = closed_mesh(std::get<PolygonMesh>(polygons));
   if (auto* wrong = std::get_if<MeshFault>(&closed)) return here(std::move(*wrong));
-  return closed;
+  return MeshShape{std::get<TriangleMesh>(std::move(closed)), std::get<PolygonMesh>(polygons).digits};
 }
 
 MeshLoader mesh_files_beside(const fs::path& scene_file) {

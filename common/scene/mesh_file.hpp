@@ -8,13 +8,14 @@
 #include <variant>
 
 #include "csg/close_mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace graycube {
 
 inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
 
-/// The mesh in a file as a mesh leaf of a scene names it, or why there is none.
-using MeshLoader = std::function<std::variant<TriangleMesh, MeshFault>(std::string_view file)>;
+/// The mesh in a file as a mesh leaf of a scene names it, with its digits, or why there is none.
+using MeshLoader = std::function<std::variant<MeshShape, MeshFault>(std::string_view file)>;
 
 /// Opens files relative to the folder of `scene_file`.
 MeshLoader mesh_files_beside(const std::filesystem::path& scene_file);
@@ -23,7 +24,7 @@ MeshLoader mesh_files_beside(const std::filesystem::path& scene_file);
 bool is_mesh_file(const std::filesystem::path& path);
 
 /// Reads the file, by its name's ending.
-std::variant<TriangleMesh, MeshFault> read_mesh_file(const std::filesystem::path& path);
+std::variant<MeshShape, MeshFault> read_mesh_file(const std::filesystem::path& path);
 
 /// STL: facets' normals are ignored, the order of their corners counts. Faults of ASCII files begin with "line N: ".
 std::variant<PolygonMesh, MeshFault> read_stl(std::string_view bytes);

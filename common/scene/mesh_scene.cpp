@@ -7,15 +7,16 @@
 
 namespace graycube {
 
-Scene scene_of_mesh(TriangleMesh mesh, const OpenscadOptions& options) {
+Scene scene_of_mesh(MeshShape mesh, const OpenscadOptions& options) {
   Scene scene;
+  scene.digits = mesh.digits;
   // A mesh reaches as far as its points do.
   CsgNode hull;
   hull.value = PolyhedronShape{};
-  scene.settings = framed_settings(reach_of(hull, mesh.points, Affine{}, reach_directions(options)), options);
+  scene.settings = framed_settings(reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(options)), options);
   OpenscadPalette palette;
   SceneObject object{"mesh", palette.index_of(ScadColor{}), {}};
-  object.csg.value = MeshShape{std::move(mesh)};
+  object.csg.value = std::move(mesh);
   scene.materials = std::move(palette).take();
   scene.objects.push_back(std::move(object));
   return scene;

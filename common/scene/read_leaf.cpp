@@ -56,8 +56,8 @@ constexpr std::array kRules{
     NodeRules{"mesh",
               "a mesh",
               NodeType::kMesh,
-              kOwn + 3,
-              {{{"type", true}, {"transform"}, {"material"}, {"points"}, {"faces"}, {"file"}}}},
+              kOwn + 4,
+              {{{"type", true}, {"transform"}, {"material"}, {"points"}, {"faces"}, {"file"}, {"digits"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another word.

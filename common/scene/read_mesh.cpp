@@ -1,11 +1,12 @@
 // The mesh leaf: points and faces, or a file.
 #include "csg/close_mesh.hpp"
 #include "scene/read_leaf.hpp"
+#include "scene/read_scene.hpp"
 
 namespace graycube {
 namespace {
 
-enum MeshKey : std::size_t { kPoints = kCommonKeys, kFaces, kFile };
+enum MeshKey : std::size_t { kPoints = kCommonKeys, kFaces, kFile, kDigits };
 
 bool read_points(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   if (!json.is_array(at)) return false;
@@ -53,12 +54,28 @@ bool read_faces(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   return good;
 }
 
-void take(JsonAccess& json, JsonIndex at, std::variant<TriangleMesh, MeshFault> closed, MeshShape& out) {
-  if (auto* mesh = std::get_if<TriangleMesh>(&closed)) {
-    out.mesh = std::move(*mesh);
+/// Takes the mesh, or reports why there is none.
+template <typename Mesh>
+void take(JsonAccess& json, JsonIndex at, std::variant<Mesh, MeshFault> read, Mesh& out) {
+  if (auto* mesh = std::get_if<Mesh>(&read)) {
+    out = std::move(*mesh);
   } else {
-    json.errors.add(at, std::get<MeshFault>(closed).why);
+    json.errors.add(at, std::get<MeshFault>(read).why);
   }
+}
+
+void read_polygons(JsonAccess& json, JsonIndex points, JsonIndex faces, TriangleMesh& out) {
+  PolygonMesh polygons;
+  if (read_points(json, points, polygons) && read_faces(json, faces, polygons)) {
+    take(json, faces, closed_mesh(polygons), out);
+  }
+}
+
+void read_named_file(JsonAccess& json, JsonIndex file, const MeshLoader& load, MeshShape& out) {
+  std::string_view name;
+  if (!json.read(file, name)) return;
+  if (load) return take(json, file, load(name), out);
+  json.errors.add(file, "no file is opened here: the mesh must be in the scene itself, as graycube sends it");
 }
 
 }  // namespace
@@ -71,16 +88,12 @@ void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxN
     return;
   }
   if (file != 0) {
-    std::string_view name;
-    if (!json.read(file, name)) return;
-    if (load) return take(json, file, load(name), out);
-    json.errors.add(file, "no file is opened here: the mesh must be in the scene itself, as graycube sends it");
-    return;
+    read_named_file(json, file, load, out);
+  } else {
+    read_polygons(json, points, faces, out.mesh);
   }
-  PolygonMesh polygons;
-  if (read_points(json, points, polygons) && read_faces(json, faces, polygons)) {
-    take(json, faces, closed_mesh(polygons), out);
-  }
+  // What is said in the scene counts more than how the file's numbers look.
+  json.read_optional(members[kDigits], out.digits, 1u, kMaxDigits);
 }
 
 }  // namespace graycube

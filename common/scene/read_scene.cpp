@@ -26,6 +26,7 @@ constexpr std::size_t kLeastObjectBytes = 12;
 /// The keys of the file's root.
 enum RootKey : std::size_t {
   kGraycube,
+  kDigits,
   kImage,
   kCamera,
   kBackground,
@@ -39,6 +40,7 @@ enum RootKey : std::size_t {
   kRootKeys
 };
 constexpr std::array<KeyRule, kRootKeys> kRootRules{{{"graycube", true},
+                                                     {"digits"},
                                                      {"image", true},
                                                      {"camera", true},
                                                      {"background"},
@@ -106,6 +108,7 @@ class SceneReader {
     RenderSettings& s = scene_.settings;
     std::uint32_t version = 0;
     json_.read_optional(root_[kGraycube], version, kFormatVersion, kFormatVersion);
+    json_.read_optional(root_[kDigits], scene_.digits, 1u, kMaxDigits);
     if (root_[kImage] != 0) read_image(json_, root_[kImage], s.image);
     if (root_[kCamera] != 0) read_camera(json_, root_[kCamera], s.camera);
     json_.read_optional(root_[kBackground], s.background);

@@ -27,6 +27,8 @@ inline constexpr std::uint32_t kMaxObjects = 1u << 24;
 inline constexpr std::uint32_t kMaxPlanes = 1u << 16;
 /// Points of a prism, and corners of its paths.
 inline constexpr std::uint32_t kMaxPrismPoints = 4096;
+/// Significant digits that a double may need to be told from its neighbours.
+inline constexpr std::uint32_t kMaxDigits = 17;
 /// Further errors are only counted.
 inline constexpr std::size_t kMaxReportedErrors = 100;
 

@@ -102,6 +102,7 @@ struct PrismShape {
 /// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals outward.
 struct MeshShape {
   TriangleMesh mesh;
+  std::uint32_t digits = 0;  ///< As Scene::digits, of the mesh's own numbers.
   friend bool operator==(const MeshShape&, const MeshShape&) = default;
 };
 
@@ -157,6 +158,9 @@ struct Scene {
   std::vector<NamedMaterial> materials;
   std::vector<NamedShape> shapes;
   std::vector<SceneObject> objects;
+  /// Significant decimal digits of the numbers that the scene was made from; 0: all that a double has. What coincides
+  /// within them coincides (docs/coincidence.md).
+  std::uint32_t digits = 0;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 

@@ -24,6 +24,10 @@ class SceneWriter {
     text_ = "{\n";
     key("graycube");
     text_ += '1';
+    if (scene_.digits != 0) {
+      start_line("digits");
+      write(scene_.digits);
+    }
     write_settings();
     start_line("materials");
     list('{', '}', scene_.materials,
@@ -351,6 +355,7 @@ class SceneWriter {
       before = ',';
     }
     text_ += ']';
+    if (m.digits != 0) member("digits", m.digits);
   }
   void write_value(const PolyhedronShape& p) {
     text_ += "\"polyhedron\", \"planes\": ";

@@ -47,7 +47,7 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
   for (const Vec3& p : mesh.points) {
     if (!(max_abs(p) < 1e100)) return;
   }
-  const Scene scene = scene_of_mesh(mesh);
+  const Scene scene = scene_of_mesh({mesh});
   const ReadResult again = read_scene_text(write_scene_text(scene));
   for (const SceneError& e : again.errors) {
     GRAYCUBE_CHECK(e.pointer.starts_with("/camera"), "%s: %s", e.pointer.c_str(), e.message.c_str());

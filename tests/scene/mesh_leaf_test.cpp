@@ -94,6 +94,20 @@ TEST_CASE("a mesh leaf is read, written and read again as it was") {
   CHECK(*again.scene == *read.scene);
 }
 
+TEST_CASE("a mesh leaf says how many digits its numbers have") {
+  const auto with_digits = [](const std::string& digits) {
+    std::string csg = kTetrahedron;
+    csg.insert(csg.size() - 1, R"(, "digits": )" + digits);
+    return csg;
+  };
+  const ReadResult read = read_scene_text(SceneText::of_csg(with_digits("7")).text());
+  REQUIRE(read.scene);
+  CHECK(std::get<MeshShape>(read.scene->objects.at(0).csg.value).digits == 7);
+  CHECK(read.scene->digits == 0);
+  CHECK(first_error(with_digits("18")) == "/objects/0/csg/digits: expected a whole number from 1 to 17, found 18");
+  CHECK(first_error(with_digits("0")).find("found 0") != std::string::npos);
+}
+
 TEST_CASE("a mesh goes to POV-Ray with an inside") {
   const ReadResult read = read_scene_text(SceneText::of_csg(kTetrahedron).text());
   REQUIRE(read.scene);

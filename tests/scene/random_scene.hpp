@@ -32,6 +32,7 @@ class RandomScene {
     const auto objects = below(6);
     for (std::size_t i = 0; i < objects; ++i)
       scene_.objects.push_back({below(3) == 0 ? "" : name("object", i), some_material(), tree(3)});
+    if (below(2) == 0) scene_.digits = static_cast<std::uint32_t>(1 + below(17));
     return std::move(scene_);
   }
 
@@ -160,7 +161,8 @@ class RandomScene {
                                   corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
         return;
       case 11:
-        node.value = MeshShape{closed(box_polygons(corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}))};
+        node.value = MeshShape{closed(box_polygons(corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
+                               static_cast<std::uint32_t>(below(18))};
         return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};

@@ -63,6 +63,7 @@ TEST_CASE("what a scene leaves out takes its default") {
   CHECK(s.ambient == Rgb{1, 1, 1});
   CHECK(s.max_depth == 5);
   CHECK(s.min_weight == 0);
+  CHECK(scene.digits == 0);
   CHECK(s.image == ImageSize{8, 6, 1});
   CHECK(s.camera.handedness == Handedness::kRight);
   const Material& m = scene.materials.at(0).material;
@@ -88,6 +89,7 @@ TEST_CASE("every setting is read") {
           .with("ambient", "[0.5,1,0]")
           .with("max_depth", "12")
           .with("min_weight", "0.125")
+          .with("digits", "6")
           .with(
               "lights",
               R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
@@ -107,6 +109,7 @@ TEST_CASE("every setting is read") {
   CHECK(s.ambient == Rgb{0.5, 1, 0});
   CHECK(s.max_depth == 12);
   CHECK(s.min_weight == 0.125);
+  CHECK(scene.digits == 6);
   REQUIRE(s.lights.size() == 2);
   CHECK(s.lights[0] == PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::kInverseSquare});
   CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone});

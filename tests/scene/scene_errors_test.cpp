@@ -90,6 +90,10 @@ TEST_CASE("top-level values of the wrong kind are refused") {
   check_key("max_depth", {{"-1", "/max_depth", "a whole number from 0 to 1000, found -1"},
                           {"2.5", "/max_depth", "found 2.5"},
                           {"1001", "/max_depth", "found 1001"}});
+  check_key("digits", {{"0", "/digits", "a whole number from 1 to 17, found 0"},
+                       {"18", "/digits", "found 18"},
+                       {"6.5", "/digits", "found 6.5"},
+                       {"\"6\"", "/digits", "found \"6\""}});
   check_key("min_weight", {{"-0.1", "/min_weight", ">= 0"}});
   check_key("lights", {{"{}", "/lights", "expected an array, found an object"}});
   check_key("materials", {{"[]", "/materials", "expected an object"}});
