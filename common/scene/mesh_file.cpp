@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "scene/written_digits.hpp"
+
 namespace graycube {
 namespace {
 
@@ -46,7 +48,9 @@ class Words {
     std::string_view word = next();
     if (word.starts_with('+')) word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), out);
-    return error == std::errc{} && end == word.data() + word.size() && !word.empty();
+    if (error != std::errc{} || end != word.data() + word.size() || word.empty()) return false;
+    digits_.see(word, out);
+    return true;
   }
   bool read(std::uint32_t& out) {
     const std::string_view word = next();
@@ -55,6 +59,8 @@ class Words {
   }
   MeshFault fault(const std::string& why) const { return {"line " + std::to_string(line_) + ": " + why}; }
   std::size_t left() const { return text_.size() - at_; }
+  /// Of all doubles so far.
+  std::uint32_t digits() const { return digits_.most(); }
 
  private:
   void skip() {
@@ -75,6 +81,7 @@ class Words {
   char comment_;
   std::size_t at_ = 0;
   std::uint64_t line_ = 1;
+  WrittenDigits digits_;
 };
 
 std::uint32_t little_u32(std::string_view bytes) {
@@ -103,6 +110,7 @@ std::variant<PolygonMesh, MeshFault> read_binary_stl(std::string_view bytes) {
   }
   if (facets > kMaxFacets) return too_many_facets(facets);
   PolygonMesh mesh;
+  mesh.digits = kSinglePrecisionDigits;
   mesh.points.reserve(3 * facets);
   for (std::size_t f = 0; f < facets; ++f) {
     std::string_view at = bytes.substr(kStlHeadBytes + f * kStlFacetBytes + kStlNormalBytes);
@@ -153,6 +161,7 @@ std::variant<PolygonMesh, MeshFault> read_ascii_stl(std::string_view text) {
       return words.fault("expected \"facet\" or \"endsolid\"");
     }
   }
+  mesh.digits = words.digits();
   return mesh;
 }
 
@@ -226,6 +235,7 @@ std::variant<PolygonMesh, MeshFault> read_off(std::string_view text) {
       if (!words.read(p[a])) return words.fault("expected a point's three numbers");
     }
   }
+  mesh.digits = words.digits();
   std::vector<std::uint32_t> face;
   for (std::uint32_t f = 0; f < faces; ++f) {
     if (auto fault = read_off_face(words, mesh, face)) return *std::move(fault);

@@ -27,6 +27,8 @@ inline constexpr std::size_t kMaxOpenscadFaces = std::size_t{1} << 20;
 /// Errors and warnings that are kept; one more line counts the rest.
 inline constexpr std::size_t kMaxOpenscadErrors = 100;
 inline constexpr std::size_t kMaxOpenscadWarnings = 100;
+/// Significant digits of the numbers in a .csg file: of OpenSCAD's `%g`.
+inline constexpr std::uint32_t kOpenscadDigits = 6;
 /// Coordinates beyond this are an error; solids thinner than its inverse count as empty.
 inline constexpr double kMaxOpenscadCoordinate = 1e30;
 

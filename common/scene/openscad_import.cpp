@@ -79,6 +79,7 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
   }
   auto [parts, materials] = openscad_parts(modules, options, report);
   Scene scene;
+  scene.digits = kOpenscadDigits;
   if (report.has_errors()) return scene;
   scene.settings = framed_settings(reach_of(parts), options);
   scene.materials = std::move(materials);

@@ -138,6 +138,8 @@ std::variant<PolygonMesh, std::string> OpenscadDelegate::solid(const ScadModule&
   if (r.text.empty()) return PolygonMesh{};
   auto mesh = read_off(r.text);
   if (auto* fault = std::get_if<MeshFault>(&mesh)) return "OpenSCAD's mesh: " + fault->why;
+  // However they are written: they were computed from a .csg file's numbers.
+  std::get<PolygonMesh>(mesh).digits = kOpenscadDigits;
   return std::get<PolygonMesh>(std::move(mesh));
 }
 

@@ -277,7 +277,7 @@ std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& modu
     report.error(module.line, module.name + "(): its faces enclose no solid: " + fault->why);
     return std::nullopt;
   }
-  return leaf(MeshShape{std::get<TriangleMesh>(std::move(closed))});
+  return leaf(MeshShape{std::get<TriangleMesh>(std::move(closed)), mesh.digits});
 }
 
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import) {

@@ -157,6 +157,8 @@ TEST_CASE("STL of both kinds and OFF give the same mesh") {
       "4 0 2 3 1 255 0 0\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5");
   REQUIRE(why(off).empty());
   CHECK(closed(std::get<PolygonMesh>(off)) == box);
+  CHECK(std::get<PolygonMesh>(from_bytes).digits == 7);
+  CHECK(std::get<PolygonMesh>(from_text).digits == 7);
 }
 
 TEST_CASE("broken mesh files are refused with the line") {
@@ -180,9 +182,13 @@ TEST_CASE("a scene's mesh file lies beside it, and travels in its text") {
   REQUIRE(read.scene);
   CHECK(read.used_files);
   CHECK(mesh_of(*read.scene) == box);
+  CHECK(std::get<MeshShape>(read.scene->objects.at(0).csg.value).digits == 7);
   const ReadResult again = read_scene_text(write_scene_text(*read.scene));
   REQUIRE(again.scene);
   CHECK(*again.scene == *read.scene);
+  const auto measured = folder.write(
+      "measured.json", SceneText::of_csg(R"({"type": "mesh", "file": "part.STL", "digits": 5})").text());
+  CHECK(std::get<MeshShape>(read_scene_file(measured).scene.value().objects.at(0).csg.value).digits == 5);
   const auto missing = folder.write("missing.json", SceneText::of_csg(R"({"type": "mesh", "file": "none.off"})").text());
   const ReadResult refused = read_scene_file(missing);
   REQUIRE(refused.errors.size() == 1);
