@@ -51,7 +51,7 @@ FlatPoint center_of(const FlatMap& map) { return {map.m[0][2], map.m[1][2]}; }
 
 CsgNode extruded_disk(const FlatMap& map, double low, double high) {
   const FlatPoint c = center_of(map);
-  if (const auto radius = written_similarity(map)) {
+  if (const auto radius = similarity_scale(map)) {
     return leaf(CylinderShape{{c.x, c.y, low}, {c.x, c.y, high}, *radius});
   }
   CsgNode node = leaf(CylinderShape{{0, 0, low}, {0, 0, high}, 1});
@@ -104,7 +104,7 @@ Ellipse ellipse_of(const FlatMap& map) {
 /// A disk turned about the y axis, which becomes z; nothing when it is no torus and no sphere.
 std::optional<CsgNode> turned_disk(const FlatMap& map) {
   const FlatPoint c = center_of(map);
-  const auto radius = written_similarity(map);
+  const auto radius = similarity_scale(map);
   if (radius) {
     if (std::fabs(c.x) <= 1e-12 * *radius) return leaf(SphereShape{{0, 0, c.y}, *radius});
     if (*radius < c.x) return leaf(TorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, *radius});
@@ -170,7 +170,7 @@ std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& im
 /// A circle about the origin shrinks to a cone.
 std::optional<CsgNode> cone_of(const FlatShape& shape, const LinearSweep& sweep) {
   if (shape.kind != Kind::kDisk || sweep.scale.x != sweep.scale.y) return std::nullopt;
-  const auto radius = written_similarity(shape.disk);
+  const auto radius = similarity_scale(shape.disk);
   if (!radius || !(center_of(shape.disk) == FlatPoint{})) return std::nullopt;
   return leaf(ConeShape{{0, 0, sweep.low}, *radius, {0, 0, sweep.high}, sweep.scale.x * *radius});
 }
