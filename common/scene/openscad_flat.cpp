@@ -16,8 +16,8 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// Rotations are written with six digits.
-constexpr double kRotationPrecision = 2e-6;
+/// What some hundred rotations inside one another may be off.
+constexpr double kRotationPrecision = 1e-13;
 
 FlatLoop circle_of(const FlatMap& map, int sides) {
   FlatLoop loop;
@@ -361,7 +361,7 @@ std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, 
   return FlatReader(import).combined_loops(operation_of(shape.kind), operands, line);
 }
 
-std::optional<double> written_similarity(const FlatMap& map) {
+std::optional<double> similarity_scale(const FlatMap& map) {
   const double a = map.m[0][0], b = map.m[0][1], c = map.m[1][0], d = map.m[1][1];
   const double first = std::sqrt(a * a + c * c), second = std::sqrt(b * b + d * d);
   const double scale = 0.5 * (first + second);

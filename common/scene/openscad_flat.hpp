@@ -61,7 +61,7 @@ std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, cons
 /// The figure with OpenSCAD's sides for what is round, resolved; nothing where it is empty. `line` for an error.
 std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line);
 
-/// The factor of a similarity, as far as the six digits tell that OpenSCAD writes.
-std::optional<double> written_similarity(const FlatMap& map);
+/// The factor of a similarity, to within rounding.
+std::optional<double> similarity_scale(const FlatMap& map);
 
 }  // namespace graycube

@@ -24,7 +24,7 @@ FlatShape shape_of(const FlatDisk& disk) {
 FlatShape shape_of(FlatLoops loops) { return {Kind::kPolygon, std::move(loops), {}, 0, {}}; }
 
 std::optional<FlatDisk> disk_of(const FlatMap& map, int sides) {
-  const auto radius = written_similarity(map);
+  const auto radius = similarity_scale(map);
   if (!radius) return std::nullopt;
   return FlatDisk{{map.m[0][2], map.m[1][2]}, *radius, sides};
 }
@@ -187,7 +187,7 @@ FlatShape mapped(const FlatMap& map, FlatShape shape) {
   shape.loops = mapped(map, std::move(shape.loops));
   shape.facets = mapped(map, std::move(shape.facets));
   if (shape.kind == Kind::kDisk) shape.disk = compose(map, shape.disk);
-  const auto scale = written_similarity(map);
+  const auto scale = similarity_scale(map);
   if (!scale) shape.hull.clear();
   for (FlatDisk& disk : shape.hull) disk = {map(disk.center), *scale * disk.radius, disk.sides};
   if (!scale || map.determinant() < 0) shape.rounded.clear();

@@ -1,7 +1,6 @@
 #include "scene/openscad_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -19,9 +18,6 @@
 namespace graycube {
 namespace {
 
-/// OpenSCAD writes matrices with six digits, so a rotation's columns are off by this much in length
-/// and angle.
-constexpr double kRotationPrecision = 2e-6;
 /// The largest difference of levels between a part and its object: a union around all parts.
 constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
 
@@ -315,13 +311,12 @@ class Importer {
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
   }
 
-  /// Spheres under rotations stay spheres, though the written digits make them ellipsoids by a
-  /// hair.
+  /// Spheres under rotations stay spheres.
   static void place(CsgNode& leaf, const Surroundings& around) {
     if (!around.transformed) return;
     auto* sphere = std::get_if<SphereShape>(&leaf.value);
     const std::optional<double> scale =
-        sphere != nullptr ? written_similarity(around.to_world) : std::nullopt;
+        sphere != nullptr ? around.to_world.similarity_scale() : std::nullopt;
     if (scale) {
       *sphere = {around.to_world.point(sphere->center), *scale * sphere->radius};
     } else if (leaf.transform) {
@@ -348,18 +343,6 @@ OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();
   return result;
-}
-
-std::optional<double> written_similarity(const Affine& map) {
-  std::array<Vec3, 3> column;
-  for (std::size_t j = 0; j < 3; ++j) column[j] = {map.m[0][j], map.m[1][j], map.m[2][j]};
-  const double scale = (length(column[0]) + length(column[1]) + length(column[2])) / 3;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const double shear = std::fabs(dot(column[j], column[(j + 1) % 3]));
-    if (!(std::fabs(length(column[j]) - scale) <= kRotationPrecision * scale)) return std::nullopt;
-    if (!(shear <= kRotationPrecision * scale * scale)) return std::nullopt;
-  }
-  return scale;
 }
 
 Reach reach_of(const std::vector<Part>& parts) {

@@ -29,9 +29,6 @@ struct OpenscadParts {
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
                              const OpenscadOptions& options, OpenscadReport& report);
 
-/// The factor of a similarity, as far as the written digits tell.
-std::optional<double> written_similarity(const Affine& map);
-
 Reach reach_of(const std::vector<Part>& parts);
 /// The union of at least one part, as one.
 Part united(std::vector<Part> parts);

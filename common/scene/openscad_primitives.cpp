@@ -7,6 +7,7 @@
 
 #include "geometry/aabb.hpp"
 #include "scene/openscad_mesh.hpp"
+#include "scene/recovered_rotation.hpp"
 
 namespace graycube {
 namespace {
@@ -194,6 +195,10 @@ std::optional<Affine> written_matrix(const ScadModule& module, ScadArguments& ar
   return map;
 }
 
+FlatMap flat_part(const Affine& map) {
+  return {{{{map.m[0][0], map.m[0][1], map.m[0][3]}, {map.m[1][0], map.m[1][1], map.m[1][3]}}}};
+}
+
 }  // namespace
 
 std::optional<Affine> openscad_matrix(const ScadModule& module, OpenscadReport& report) {
@@ -202,16 +207,21 @@ std::optional<Affine> openscad_matrix(const ScadModule& module, OpenscadReport& 
   if (!map || arguments.empty_unless(map->inverse().has_value(), "its matrix flattens everything in it")) {
     return std::nullopt;
   }
-  return map;
+  return recovered_rotation(*map, kOpenscadDigits);
 }
 
 std::optional<FlatMap> flat_matrix(const ScadModule& module, OpenscadReport& report) {
   ScadArguments arguments(module, report);
   const auto map = written_matrix(module, arguments);
   if (!map) return std::nullopt;
-  const FlatMap flat{{{{map->m[0][0], map->m[0][1], map->m[0][3]}, {map->m[1][0], map->m[1][1], map->m[1][3]}}}};
+  const FlatMap flat = flat_part(*map);
   if (arguments.empty_unless(flat.determinant() != 0, "its matrix flattens everything in it")) return std::nullopt;
-  return flat;
+  // Whatever it does to heights: turned about z, and scaled along z as in the plane, it may be a rotation.
+  const double a = flat.m[0][0], b = flat.m[1][0];
+  const Affine upright{{{{a, flat.m[0][1], 0, flat.m[0][2]},
+                         {b, flat.m[1][1], 0, flat.m[1][2]},
+                         {0, 0, std::sqrt(a * a + b * b), 0}}}};
+  return flat_part(recovered_rotation(upright, kOpenscadDigits));
 }
 
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {

@@ -30,8 +30,8 @@ bool is_openscad_primitive(const ScadModule& module);
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
                                             bool facets = false);
 
-/// The map of a multmatrix(); entries that are missing are those of the identity, and a fourth row
-/// [0, 0, 0, w] divides by w. Nothing with an error or, for a singular one, a warning.
+/// The map of a multmatrix(), a rotation where its digits can be one's; entries that are missing are those of the
+/// identity, and a fourth row [0, 0, 0, w] divides by w. Nothing with an error or, for a singular one, a warning.
 std::optional<Affine> openscad_matrix(const ScadModule& module, OpenscadReport& report);
 
 /// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a singular one.

@@ -50,7 +50,7 @@ bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& impo
   const auto solid = openscad_primitive(module, import.report);
   if (!solid) return true;
   if (const auto* sphere = std::get_if<SphereShape>(&solid->leaf.value)) {
-    const auto scale = written_similarity(map);
+    const auto scale = map.similarity_scale();
     if (!scale || operand.ball || !operand.prisms.empty()) return false;
     operand.ball = Ball{map.point(sphere->center), *scale * sphere->radius};
     return true;
@@ -150,7 +150,7 @@ class RoundedPrism {
   }
   /// A torus, which the axis must not reach.
   bool add_rims(const FlatMap& disk) {
-    const auto radius = written_similarity(disk);
+    const auto radius = similarity_scale(disk);
     if (!radius || !(*radius > distance_)) return false;
     for (const double z : {low_, high_}) {
       parts_.push_back(leaf(TorusShape{{disk.m[0][2], disk.m[1][2], z}, {0, 0, 1}, *radius, distance_}));

@@ -15,7 +15,7 @@ namespace {
 using Kind = RoundItem::Kind;
 
 /// Rotations are written with six digits.
-constexpr double kRotationPrecision = 2e-6;
+constexpr double kRotationPrecision = 1e-13;
 
 bool is_container(const std::string& name) {
   return name == "group" || name == "union" || name == "color" || name == "render";
@@ -37,12 +37,12 @@ std::optional<RoundPoint> framed_item(const RoundItem& item, const Affine& map) 
   const Vec3 center = map.point(item.round.center);
   if (item.kind == Kind::kPoint) return RoundPoint{center, 0};
   if (item.kind == Kind::kBall) {
-    const auto scale = written_similarity(map);
+    const auto scale = map.similarity_scale();
     if (!scale) return std::nullopt;
     return RoundPoint{center, *scale * item.round.radius};
   }
   const FlatMap level{{{{map.m[0][0], map.m[0][1], 0}, {map.m[1][0], map.m[1][1], 0}}}};
-  const auto scale = written_similarity(level);
+  const auto scale = similarity_scale(level);
   if (!scale || std::max(std::fabs(map.m[2][0]), std::fabs(map.m[2][1])) > kRotationPrecision * *scale) return std::nullopt;
   return RoundPoint{center, *scale * item.round.radius};
 }

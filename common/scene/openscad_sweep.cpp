@@ -53,7 +53,7 @@ FlatPoint center_of(const FlatMap& map) { return {map.m[0][2], map.m[1][2]}; }
 
 CsgNode extruded_disk(const FlatMap& map, double low, double high) {
   const FlatPoint c = center_of(map);
-  if (const auto radius = written_similarity(map)) {
+  if (const auto radius = similarity_scale(map)) {
     return leaf(CylinderShape{{c.x, c.y, low}, {c.x, c.y, high}, *radius});
   }
   CsgNode node = leaf(CylinderShape{{0, 0, low}, {0, 0, high}, 1});
@@ -106,7 +106,7 @@ Ellipse ellipse_of(const FlatMap& map) {
 /// A disk turned about the y axis, which becomes z; nothing when it is no torus and no sphere.
 std::optional<CsgNode> turned_disk(const FlatMap& map) {
   const FlatPoint c = center_of(map);
-  const auto radius = written_similarity(map);
+  const auto radius = similarity_scale(map);
   if (radius) {
     if (std::fabs(c.x) <= 1e-12 * *radius) return leaf(SphereShape{{0, 0, c.y}, *radius});
     if (*radius < c.x) return leaf(TorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, *radius});
