@@ -58,7 +58,7 @@ TEST_CASE("of two objects with faces in one plane the first in the file shows wh
       add_objects(scene, std::move(solids));
     };
     add(flush, 0);
-    add(lower, 1e-4);
+    add(lower, 1e-6);
     tally.add("seed " + std::to_string(seed), picture_of(flush), picture_of(lower));
   }
   tally.check();
