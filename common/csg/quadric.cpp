@@ -1,5 +1,7 @@
 #include "csg/quadric.hpp"
 
+#include "csg/cylinder.hpp"
+
 namespace graycube::csg {
 namespace {
 
@@ -55,6 +57,11 @@ Spans quadric_spans(const Primitive& p, std::span<const Plane> faces, const Ray&
   }
   const Vec3 o = p.to_local.point(ray.origin);
   const Vec3 d = p.to_local.vector(ray.direction);
+  if (is_tube(p)) {
+    const Interval side = tube_interval(o, d);
+    whole.clip(side.enter, side.leave);
+    return spans_of(whole);
+  }
   const double nearest = -dot(o, d) / dot(d, d);
   const Vec3 q = o + nearest * d;
   const double a = d.x * d.x + p.v[0] * d.y * d.y + p.v[1] * d.z * d.z;

@@ -10,6 +10,9 @@ inline double quadric_value(const Primitive& p, const Vec3& l) {
   return l.x * l.x + p.v[0] * l.y * l.y + (p.v[1] * l.z + p.v[2]) * l.z + p.v[3];
 }
 
+/// A quadric that is a round cylinder in its frame, whose side is solved as a cylinder's is, by the same expressions.
+inline bool is_tube(const Primitive& p) { return p.v[0] == 1 && p.v[1] == 0 && p.v[2] == 0 && p.v[3] == -1; }
+
 Spans quadric_spans(const Primitive& p, std::span<const Plane> faces, const Ray& ray);
 bool quadric_contains(const Primitive& p, std::span<const Plane> faces, const Vec3& q);
 Vec3 quadric_normal(const Primitive& p, std::span<const Plane> faces, const Ray& ray, double t);

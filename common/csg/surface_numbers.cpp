@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "csg/quadric.hpp"
 #include "geometry/check.hpp"
 
 namespace graycube::csg {
@@ -179,7 +180,7 @@ void quadric_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 }
 
 void give_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  switch (family_of(p.kind)) {
+  switch (family_of(p)) {
     case SurfaceFamily::kBall: return ball_numbers(p, e, n);
     case SurfaceFamily::kCylinder: return cylinder_numbers(p, e, n);
     case SurfaceFamily::kCone: return cone_numbers(p, e, n);
@@ -193,8 +194,8 @@ void give_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 
 }  // namespace
 
-SurfaceFamily family_of(PrimitiveKind kind) {
-  switch (kind) {
+SurfaceFamily family_of(const Primitive& p) {
+  switch (p.kind) {
     case PrimitiveKind::kSphere:
     case PrimitiveKind::kEllipsoid: return SurfaceFamily::kBall;
     case PrimitiveKind::kCylinder: return SurfaceFamily::kCylinder;
@@ -202,7 +203,7 @@ SurfaceFamily family_of(PrimitiveKind kind) {
     case PrimitiveKind::kTorus: return SurfaceFamily::kTorus;
     case PrimitiveKind::kEllipticTorus: return SurfaceFamily::kEllipticTorus;
     case PrimitiveKind::kEllipticCone: return SurfaceFamily::kEllipticCone;
-    case PrimitiveKind::kQuadric: return SurfaceFamily::kQuadric;
+    case PrimitiveKind::kQuadric: return is_tube(p) ? SurfaceFamily::kCylinder : SurfaceFamily::kQuadric;
     default: return SurfaceFamily::kNone;
   }
 }

@@ -14,7 +14,7 @@ namespace graycube::csg {
 enum class SurfaceFamily : std::uint8_t { kBall, kCylinder, kCone, kTorus, kEllipticTorus, kEllipticCone, kQuadric, kNone };
 inline constexpr std::size_t kSurfaceFamilies = 7;
 
-SurfaceFamily family_of(PrimitiveKind kind);
+SurfaceFamily family_of(const Primitive& p);
 int number_count(SurfaceFamily family);
 /// Number `which` of number_count, and what it may be off by. The first one differs for nearly all surfaces that differ.
 Measured surface_number(const Primitive& p, const Exactness& exactness, int which);

@@ -29,9 +29,37 @@ bool is_on_same_nappe(const Primitive& cone, const Primitive& other) {
   return 1 + cone.v[5] * inside.z > 0;
 }
 
+void divide_row(Affine& map, std::size_t row, double by) {
+  for (double& x : map.m[row]) x /= by;
+}
+
+/// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a cylinder what they are, up to
+/// `tolerance` in the world.
+void simplify(Primitive& p, double tolerance) {
+  // In the frame, across the axis.
+  const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
+  if (p.kind == PrimitiveKind::kCone && std::fabs(p.v[5]) <= local) {
+    p.kind = PrimitiveKind::kCylinder;
+    p.v[5] = 0;
+  }
+  if (p.kind == PrimitiveKind::kEllipticTorus) {
+    const double minor = 1 / std::sqrt(larger(p.v[0], p.v[2]));
+    const double off = 2 * local / (minor * minor * minor);
+    if (std::fabs(p.v[0] - p.v[2]) <= off && std::fabs(p.v[1]) <= off) {
+      p.kind = PrimitiveKind::kTorus;
+      p.v = {minor, 0, 0, 0, 0, 0};
+    }
+  }
+  if (p.kind == PrimitiveKind::kQuadric && p.v[0] > 0 && p.v[1] == 0 && p.v[2] == 0 && p.v[3] < 0) {
+    divide_row(p.to_local, 0, std::sqrt(-p.v[3]));
+    divide_row(p.to_local, 1, std::sqrt(-p.v[3] / p.v[0]));
+    p.v = {1, 0, 0, -1, 0, 0};
+  }
+}
+
 /// Gives the primitive the other's surface; its caps and faces stay its own.
 void take_surface(const Primitive& from, Primitive& p) {
-  switch (csg::family_of(p.kind)) {
+  switch (csg::family_of(p)) {
     case SurfaceFamily::kBall:
     case SurfaceFamily::kTorus:
     case SurfaceFamily::kEllipticTorus:
@@ -63,8 +91,8 @@ class SurfaceUnifier {
   void run() {
     std::array<std::vector<Extent>, csg::kSurfaceFamilies> families;
     for (std::uint32_t i = 0; i < model_.primitives.size(); ++i) {
-      straighten(i);
-      const SurfaceFamily family = csg::family_of(model_.primitives[i].kind);
+      simplify(model_.primitives[i], exactness_[i].distance());
+      const SurfaceFamily family = csg::family_of(model_.primitives[i]);
       if (family != SurfaceFamily::kNone) families[static_cast<std::size_t>(family)].push_back({0, 0, i});
     }
     const auto measure = [&](std::uint32_t i, int which) {
@@ -78,16 +106,6 @@ class SurfaceUnifier {
   }
 
  private:
-  /// A cone whose ends are equal but for rounding is a cylinder.
-  void straighten(std::uint32_t i) {
-    Primitive& p = model_.primitives[i];
-    if (p.kind != PrimitiveKind::kCone) return;
-    const double widest = larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
-    if (!(std::fabs(p.v[5]) <= widest * exactness_[i].distance())) return;
-    p.kind = PrimitiveKind::kCylinder;
-    p.v[5] = 0;
-  }
-
   /// Simpler kinds first, then what is known best; the rest is a choice among bits.
   bool is_better(std::uint32_t a, std::uint32_t b) const {
     const Primitive &p = model_.primitives[a], &q = model_.primitives[b];
