@@ -58,6 +58,10 @@ class Clusters {
 
   void split(std::span<Extent> items, int dimension, int agreeing, int passes) {
     if (items.size() < 2) return;
+    if (items.size() == 2) {
+      if (agree(items[0].item, items[1].item)) visit_(items);
+      return;
+    }
     if (agreeing == dimensions_ || passes == kMostRounds * dimensions_) return visit_(items);
     for (Extent& e : items) {
       const Measured m = measure_(e.item, dimension);
@@ -68,6 +72,15 @@ class Clusters {
     for_each_run(items, [&](std::span<Extent> run) {
       split(run, next, run.size() == items.size() ? agreeing + 1 : 1, passes + 1);
     });
+  }
+
+  /// Of two, which mostly is all there are, each number is looked at once.
+  bool agree(std::uint32_t a, std::uint32_t b) const {
+    for (int i = 0; i < dimensions_; ++i) {
+      const Measured x = measure_(a, i), y = measure_(b, i);
+      if (!(std::fabs(x.value - y.value) <= x.tolerance + y.tolerance)) return false;
+    }
+    return true;
   }
 
   int dimensions_;

@@ -16,8 +16,4 @@ namespace graycube {
 /// Object bounds, trees and delta are left alone: compute them afterwards.
 void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness);
 
-/// The two halves of it.
-void unify_planes(Model& model, std::span<const Exactness> exactness);
-void unify_curved_surfaces(Model& model, std::span<const Exactness> exactness);
-
 }  // namespace graycube

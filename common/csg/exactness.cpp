@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace graycube {
 namespace {
@@ -20,16 +21,34 @@ Affine magnitude_of(const Affine& map) {
   return r;
 }
 
+/// A similarity's inverse is its transposed, but for a factor: cheaper, and near enough to measure by.
+std::optional<Affine> inverse_of(const Affine& map) {
+  constexpr double kNearEnough = 1e-3;
+  const Vec3 x = map.row(0), y = map.row(1), z = map.row(2);
+  const double square = dot(x, x);
+  const auto is_near = [&](double a, double b) { return std::fabs(a - b) <= kNearEnough * square; };
+  if (!is_near(dot(y, y), square) || !is_near(dot(z, z), square) || !is_near(dot(x, y), 0) || !is_near(dot(y, z), 0) ||
+      !is_near(dot(z, x), 0)) {
+    return map.inverse();
+  }
+  Affine r;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = map.m[j][i] / square;
+  }
+  return r;
+}
+
 /// By how much more a normal may turn than the map's entries are off, as a share: normals go by the inverse transposed, and
 /// the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
 double turn_of(const MeasuredMap& map) {
-  const auto inverse = map.map.inverse();
+  const auto inverse = inverse_of(map.map);
   if (!inverse) return 1;
   double most = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     double sum = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) sum += std::fabs(inverse->m[i][k]) * map.magnitude.m[k][j];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& row = map.magnitude.m[k];
+      sum += std::fabs(inverse->m[i][k]) * (row[0] + row[1] + row[2]);
     }
     most = std::max(most, sum);
   }
@@ -59,8 +78,9 @@ MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
 
 Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share) {
   Exactness e;
-  e.position = share * map.magnitude.point(reach);
-  e.direction = share * turn * (keeps_directions(map.map) ? 1 : turn_of(map));
+  const Vec3 position = share * map.magnitude.point(reach);
+  e.along = {static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
+  e.direction = static_cast<float>(share * turn * (keeps_directions(map.map) ? 1 : turn_of(map)));
   return e;
 }
 

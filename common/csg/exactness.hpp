@@ -3,6 +3,8 @@
 // model (csg/coincidence.hpp).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "geometry/affine.hpp"
@@ -30,12 +32,16 @@ struct MeasuredMap {
 /// The map that applies `first`, then `then`.
 MeasuredMap compose(const MeasuredMap& then, const Affine& first);
 
+/// Floats, since there is one for each primitive.
 struct Exactness {
-  /// How far off points of the surface may be along each axis of the world, and in any direction.
-  Vec3 position;
-  double distance() const { return max_abs(position); }
+  /// How far off points of the surface may be along each axis of the world.
+  std::array<float, 3> along{};
   /// How far off a plane's normal may be, in radians.
-  double direction = 0;
+  float direction = 0;
+
+  Vec3 position() const { return {along[0], along[1], along[2]}; }
+  /// How far off points may be in any direction, along one axis.
+  double distance() const { return std::max(along[0], std::max(along[1], along[2])); }
 };
 
 /// Of a shape whose points have local coordinates of at most `reach` along each axis, and whose directions are known

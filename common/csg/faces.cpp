@@ -52,22 +52,6 @@ void become_box(Primitive& p) {
 
 }  // namespace
 
-std::uint32_t face_count(const Primitive& p) {
-  switch (p.kind) {
-    case PrimitiveKind::kBox:
-    case PrimitiveKind::kParallelepiped: return 6;
-    case PrimitiveKind::kCylinder:
-    case PrimitiveKind::kCone:
-    case PrimitiveKind::kEllipticCone: return 2;
-    case PrimitiveKind::kHalfSpace: return 1;
-    case PrimitiveKind::kPolyhedron:
-    case PrimitiveKind::kQuadric: return p.plane_count;
-    default: return 0;
-  }
-}
-
-bool has_opposite_faces(const Primitive& p) { return p.kind != PrimitiveKind::kQuadric && face_count(p) % 2 == 0 && p.plane_count == 0; }
-
 Face face_of(const Model& model, std::uint32_t primitive, std::uint32_t slot) {
   const Primitive& p = model.primitives[primitive];
   const auto axis = static_cast<std::size_t>(axis_of(slot));
@@ -119,10 +103,10 @@ Vec3 anchor_of(const Primitive& p, const Plane& plane) {
   return middle + (plane.offset - dot(plane.normal, middle)) * plane.normal;
 }
 
-double direction_tolerance(const Primitive& p, const Plane& plane, const Exactness& exactness) {
+double direction_tolerance(const Primitive& p, const Vec3& normal, const Exactness& exactness) {
   const bool has_planes = p.kind == PrimitiveKind::kPolyhedron || p.kind == PrimitiveKind::kQuadric;
   if (!has_planes || !p.bounds.is_finite()) return exactness.direction;
-  const Vec3 n{std::fabs(plane.normal.x), std::fabs(plane.normal.y), std::fabs(plane.normal.z)};
+  const Vec3 n{std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
   const int along = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
   const Vec3 size = p.bounds.hi - p.bounds.lo;
   const double across = std::min(size[(along + 1) % 3], size[(along + 2) % 3]);

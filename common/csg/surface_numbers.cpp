@@ -4,14 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "csg/heading.hpp"
 #include "csg/quadric.hpp"
 #include "geometry/check.hpp"
 
 namespace graycube::csg {
 namespace {
-
-/// A direction that no model is likely to have two different things across.
-constexpr Vec3 kGeneric{0.5359, 0.6411, 0.5497};
 
 /// A symmetric matrix: xx, yy, zz, xy, yz, zx.
 struct Form {
@@ -36,9 +34,12 @@ class Numbers {
   void number(double value, double tolerance) {
     if (wanted_-- == 0) found_ = {value, tolerance};
   }
-  void point(const Vec3& p, double tolerance) {
-    number(dot(kGeneric, p), 2 * tolerance);
+  /// Whether that was enough.
+  bool point(const Vec3& p, double tolerance) {
+    number(dot(kGenericDirection, p), 2 * tolerance);
+    if (is_done()) return true;
     for (int a = 0; a < 3; ++a) number(p[a], tolerance);
+    return is_done();
   }
   void form(const Form& f, double tolerance) {
     for (const double v : f.m) number(v, tolerance);
@@ -63,7 +64,7 @@ double form_tolerance(const Exactness& e, double square) {
 void ball_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const bool is_sphere = p.kind == PrimitiveKind::kSphere;
   const Vec3 center = is_sphere ? Vec3{p.v[0], p.v[1], p.v[2]} : p.bounds.center();
-  n.point(center, e.distance());
+  if (n.point(center, e.distance())) return;
   const double r = p.v[3];
   const Vec3 reach = is_sphere ? Vec3{r, r, r} : 0.5 * (p.bounds.hi - p.bounds.lo);
   for (int a = 0; a < 3; ++a) n.number(reach[a], e.distance());
@@ -84,7 +85,7 @@ void cylinder_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const Vec3 foot = (1 / square(along)) *
                     (-column(p.to_local, 0) * cross(y, along) - column(p.to_local, 1) * cross(along, x));
   const double beside = p.bounds.is_finite() ? length(p.bounds.center() - foot) : 0;
-  n.point(foot, e.distance() + e.direction * beside);
+  if (n.point(foot, e.distance() + e.direction * beside)) return;
   Form across = form_of(x);
   across.add(y, 1);
   n.form(across, form_tolerance(e, larger(square(x), square(y))));
@@ -101,7 +102,7 @@ void cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const double angle = e.direction + e.distance() / size;
   const double off = e.distance() + angle * length(p.bounds.center() - apex);
   const double slope = std::sqrt(square(w) / larger(square(x), square(y)));
-  n.point(apex, off * (1 + 1 / slope));
+  if (n.point(apex, off * (1 + 1 / slope))) return;
   const double norm = square(x) + square(y) + square(w);
   Form f;
   f.add(x, 1 / norm);
@@ -112,7 +113,7 @@ void cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 
 /// Of tori of both kinds.
 void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  n.point(p.bounds.center(), e.distance());
+  if (n.point(p.bounds.center(), e.distance())) return;
   const Vec3 x = p.to_local.row(0), y = p.to_local.row(1), z = p.to_local.row(2);
   Form across = form_of(x);
   across.add(y, 1);
@@ -145,11 +146,11 @@ SemiAxis semi_axis_of(const Primitive& p, int row, double k) {
 void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, p.v[5]);
   // Which of them is x depends on where the frame begins.
-  if (std::fabs(dot(kGeneric, first.normal)) < std::fabs(dot(kGeneric, second.normal))) std::swap(first, second);
+  if (std::fabs(dot(kGenericDirection, first.normal)) < std::fabs(dot(kGenericDirection, second.normal))) std::swap(first, second);
   const double size = length(p.bounds.hi - p.bounds.lo), away = length(p.bounds.center()) + size;
   const double angle = e.direction + e.distance() / size;
   for (const SemiAxis& a : {first, second}) {
-    n.point(a.foot, e.distance() + angle * away);
+    if (n.point(a.foot, e.distance() + angle * away)) return;
     n.form(form_of(a.normal), 2 * angle);
     n.number(a.length_at_origin, e.distance() + angle * away);
     for (int i = 0; i < 3; ++i) n.number(a.growth[i], 2 * angle);
@@ -173,7 +174,7 @@ void quadric_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const double size = length(p.bounds.hi - p.bounds.lo), away = length(p.bounds.center()) + size;
   const double angle = e.direction + e.distance() / size;
   const double off = e.distance() + angle * away;
-  n.point((1 / norm) * slope, 4 * off);
+  if (n.point((1 / norm) * slope, 4 * off)) return;
   for (double& v : f.m) v /= norm;
   n.form(f, 4 * angle);
   n.number(constant / norm, 4 * away * off);

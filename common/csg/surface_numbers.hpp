@@ -17,6 +17,7 @@ inline constexpr std::size_t kSurfaceFamilies = 7;
 SurfaceFamily family_of(const Primitive& p);
 int number_count(SurfaceFamily family);
 /// Number `which` of number_count, and what it may be off by. The first one differs for nearly all surfaces that differ.
+/// Number 0 is quick to compute.
 Measured surface_number(const Primitive& p, const Exactness& exactness, int which);
 
 }  // namespace graycube::csg
