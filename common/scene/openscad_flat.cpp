@@ -42,7 +42,7 @@ class FlatReader {
       return united(module.children, map, module.line);
     }
     if (name == "multmatrix") {
-      const auto inner = flat_matrix(module, import_.report);
+      const auto inner = flat_matrix(module, import_.digits, import_.report);
       if (!inner) return std::nullopt;
       return united(module.children, compose(map, *inner), module.line);
     }

@@ -9,6 +9,7 @@
 
 #include "geometry/check.hpp"
 #include "geometry/portable_math.hpp"
+#include "scene/written_digits.hpp"
 
 namespace graycube {
 namespace {
@@ -38,23 +39,6 @@ Affine linear_part(Affine map, double factor = 1) {
     row[3] = 0;
   }
   return map;
-}
-
-/// Half a unit of the last one of so many digits; 0 for 0.
-double half_unit(double v, std::uint32_t digits) {
-  if (v == 0) return 0;
-  char text[40];
-  const char* end =
-      std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, static_cast<int>(digits) - 1).ptr;
-  const char* exponent = std::find(static_cast<const char*>(text), end, 'e') + 1;
-  int power = 0;
-  std::from_chars(exponent + (*exponent == '+' ? 1 : 0), end, power);
-  text[0] = '5';
-  text[1] = 'e';
-  end = std::to_chars(text + 2, text + sizeof text, power - static_cast<int>(digits)).ptr;
-  double half = 0;
-  std::from_chars(text, end, half);
-  return half;
 }
 
 /// The number of fewest digits, at most so many, within doubt of v.

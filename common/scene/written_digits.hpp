@@ -17,6 +17,10 @@ inline constexpr std::uint32_t kSinglePrecisionDigits = 7;
 /// last; zeros at the end count behind a point only. 0 for anything without digits.
 std::uint32_t significant_digits(std::string_view number);
 
+/// Half a unit in the last of so many significant digits, 1 to 17, of a finite number: what it is off at most when it is
+/// rounded to them. 0 for 0.
+double half_unit(double v, std::uint32_t digits);
+
 /// The digits of a text's numbers: those of the longest.
 class WrittenDigits {
  public:
