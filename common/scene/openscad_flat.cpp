@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/portable_math.hpp"
+#include "scene/flat_flush.hpp"
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_primitives.hpp"
 
@@ -98,7 +99,7 @@ class FlatReader {
       import_.report.error(line, "the outlines have too many corners, or cross one another too often");
       return std::nullopt;
     }
-    FlatLoops loops = combined(operation, operands);
+    FlatLoops loops = combined_flush(operation, operands, flush_tolerance(operands, import_.digits));
     if (loops.empty()) return std::nullopt;
     return loops;
   }
