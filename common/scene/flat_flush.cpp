@@ -17,12 +17,15 @@ constexpr int kGridSteps = -38;
 /// Details keep their corners.
 constexpr double kShareOfSide = 0.25;
 
-bool is_before(const FlatPoint& a, const FlatPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+bool is_before(const FlatPoint& a, const FlatPoint& b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
 double squared_distance(const FlatPoint& a, const FlatPoint& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// Where p is along the side from a to b, 0 to 1, if it is within the tolerance of it and not at its ends; else −1.
+/// Where p is along the side from a to b, 0 to 1, if it is within the tolerance of it and not at
+/// its ends; else −1.
 double place_on_side(const FlatPoint& a, const FlatPoint& b, const FlatPoint& p, double tolerance) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double along = ((p.x - a.x) * dx + (p.y - a.y) * dy) / square;
@@ -53,20 +56,23 @@ class Corners {
     const double lo_x = std::min(a.x, b.x) - tolerance_, hi_x = std::max(a.x, b.x) + tolerance_;
     const double lo_y = std::min(a.y, b.y) - tolerance_, hi_y = std::max(a.y, b.y) + tolerance_;
     std::vector<std::pair<double, FlatPoint>> found;
-    const auto begin =
-        std::lower_bound(by_x_.begin(), by_x_.end(), lo_x, [](const FlatPoint& p, double x) { return p.x < x; });
+    const auto begin = std::lower_bound(by_x_.begin(), by_x_.end(), lo_x,
+                                        [](const FlatPoint& p, double x) { return p.x < x; });
     for (auto p = begin; p != by_x_.end() && p->x <= hi_x; ++p) {
       if (p->y < lo_y || p->y > hi_y || *p == a || *p == b) continue;
       const double place = place_on_side(a, b, *p, tolerance_);
       if (place > 0) found.emplace_back(place, *p);
     }
-    std::sort(found.begin(), found.end(), [](const auto& s, const auto& t) { return s.first < t.first; });
+    std::sort(found.begin(), found.end(),
+              [](const auto& s, const auto& t) { return s.first < t.first; });
     for (const auto& [place, p] : found) out.push_back(p);
   }
 
  private:
   using Cell = std::pair<double, double>;
-  Cell cell_of(const FlatPoint& p) const { return {std::floor(p.x / tolerance_), std::floor(p.y / tolerance_)}; }
+  Cell cell_of(const FlatPoint& p) const {
+    return {std::floor(p.x / tolerance_), std::floor(p.y / tolerance_)};
+  }
   /// The first within the tolerance.
   const FlatPoint* near(const FlatPoint& p) const {
     const Cell cell = cell_of(p);
@@ -101,7 +107,9 @@ struct Met {
     }
     std::sort(shared.begin(), shared.end(), is_before);
   }
-  bool is_shared(const FlatPoint& p) const { return std::binary_search(shared.begin(), shared.end(), p, is_before); }
+  bool is_shared(const FlatPoint& p) const {
+    return std::binary_search(shared.begin(), shared.end(), p, is_before);
+  }
 };
 
 /// The loop through the corners that stay.
@@ -118,12 +126,14 @@ FlatLoop through_corners(const FlatLoop& loop, const Corners& corners, Met& met)
     out.push_back(own[i]);
     const std::size_t before = out.size();
     corners.on_side(own[i], own[(i + 1) % own.size()], out);
-    met.shared.insert(met.shared.end(), out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
+    met.shared.insert(met.shared.end(), out.begin() + static_cast<std::ptrdiff_t>(before),
+                      out.end());
   }
   return out;
 }
 
-std::vector<FlatLoops> through_corners(std::span<const FlatLoops> operands, double tolerance, Met& met) {
+std::vector<FlatLoops> through_corners(std::span<const FlatLoops> operands, double tolerance,
+                                       Met& met) {
   const Corners corners(operands, tolerance);
   std::vector<FlatLoops> result(operands.size());
   for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -135,7 +145,8 @@ std::vector<FlatLoops> through_corners(std::span<const FlatLoops> operands, doub
   return result;
 }
 
-/// How far to the right the way from a over b turns to c from going back: more than 0, at most 4, growing with the angle.
+/// How far to the right the way from a over b turns to c from going back: more than 0, at most 4,
+/// growing with the angle.
 double turn_from_back(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
   const double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
   const double left = ux * vy - uy * vx, ahead = ux * vx + uy * vy;
@@ -143,14 +154,15 @@ double turn_from_back(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c
   return left < 0 ? 1 - share : 3 + share;
 }
 
-/// Outlines by their sides. Sides that go both ways bound nothing, and cancel each other: Clipper leaves walls of no
-/// thickness, and slivers of two sides are others.
+/// Outlines by their sides. Sides that go both ways bound nothing, and cancel each other: Clipper
+/// leaves walls of no thickness, and slivers of two sides are others.
 class Sides {
  public:
   void add(const FlatLoop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()]);
   }
-  /// The loops that the sides make, each turning as far to the right as it can, so that none crosses itself.
+  /// The loops that the sides make, each turning as far to the right as it can, so that none
+  /// crosses itself.
   FlatLoops loops() {
     FlatLoops result;
     for (auto& [corner, ends] : from_) {
@@ -184,9 +196,10 @@ class Sides {
     do {
       std::vector<FlatPoint>& ends = from_[at];
       if (ends.empty()) return {};
-      const auto next = std::min_element(ends.begin(), ends.end(), [&](const FlatPoint& p, const FlatPoint& q) {
-        return turn_from_back(before, at, p) < turn_from_back(before, at, q);
-      });
+      const auto next =
+          std::min_element(ends.begin(), ends.end(), [&](const FlatPoint& p, const FlatPoint& q) {
+            return turn_from_back(before, at, p) < turn_from_back(before, at, q);
+          });
       before = std::exchange(at, *next);
       ends.erase(next);
       if (!(at == start)) loop.push_back(at);
@@ -203,7 +216,9 @@ void straighten(FlatLoop& loop, const Met& met, double tolerance) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const FlatPoint& before = out.empty() ? loop.back() : out.back();
     const FlatPoint& after = loop[(i + 1) % loop.size()];
-    const auto is_on = [&](const FlatPoint& p) { return place_on_side(before, after, p, tolerance) > 0; };
+    const auto is_on = [&](const FlatPoint& p) {
+      return place_on_side(before, after, p, tolerance) > 0;
+    };
     const bool is_straight = met.is_shared(loop[i]) && !(before == after) && is_on(loop[i]) &&
                              std::all_of(skipped.begin(), skipped.end(), is_on);
     if (is_straight) {
@@ -234,10 +249,12 @@ double flush_tolerance(std::span<const FlatLoops> operands, std::uint32_t digits
   std::frexp(largest, &exponent);
   // Neighbours in the last digit are apart.
   const double unit = 1.98 * half_unit(largest, digits);
-  return std::max(std::min(unit, kShareOfSide * std::sqrt(shortest)), std::ldexp(1.0, exponent + kGridSteps));
+  return std::max(std::min(unit, kShareOfSide * std::sqrt(shortest)),
+                  std::ldexp(1.0, exponent + kGridSteps));
 }
 
-FlatLoops combined_flush(FlatOperation operation, std::span<const FlatLoops> operands, double tolerance) {
+FlatLoops combined_flush(FlatOperation operation, std::span<const FlatLoops> operands,
+                         double tolerance) {
   if (!(tolerance > 0)) return combined(operation, operands);
   // What the result has of its own is no sign that sides met there.
   Met met, again;

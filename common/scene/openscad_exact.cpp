@@ -20,94 +20,15 @@ namespace {
 
 constexpr std::string_view kMagic = "graycube|";
 
-/// A number that isn't a whole one is written [e, p, q, r, s]: an exponent of two, and with the number's sign 12 + 16 + 16 + 16
-/// binary digits, each of these at most five decimal digits. What is no number is undef.
-///
-/// Arguments are taken as OpenSCAD 2021.01 takes them; where another version differs, the numbers don't agree with the
-/// plain file's, and it stays. A module that is given what it can't use spells out nothing that agrees.
-constexpr std::string_view kDefinitions = R"SCAD(
-function graycube_number(x) = !is_num(x) || x != x || abs(x) > 1e300 ? undef : abs(x) < 1e5 && x == floor(x) ? x :
-  abs(x) < 1e-290 ? undef :
-  let(a = abs(x), e = floor(ln(a) / ln(2)), m = a / pow(2, e) * 4096, p = floor(m), n = (m - p) * 65536, q = floor(n),
-      o = (n - q) * 65536, r = floor(o), s = floor((o - r) * 65536)) [e, x < 0 ? -p : p, q, r, s];
-function graycube_named(name, v) = str(name, "=", is_list(v) ? [for (x = v) graycube_number(x)] : [graycube_number(v)], "|");
-function graycube_points(v) = graycube_named("points", is_list(v) ? [for (p = v) each p] : v);
-function graycube_or(v, otherwise) = is_undef(v) ? otherwise : v;
-function graycube_radius(r, d, otherwise) = is_num(d) ? d / 2 : graycube_or(r, otherwise);
-function graycube_at(v, i, otherwise) = is_list(v) && len(v) > i && is_num(v[i]) ? v[i] : otherwise;
-function graycube_three(v, otherwise) = is_num(v) ? [v, v, v] : [for (i = [0:2]) graycube_at(v, i, otherwise)];
-function graycube_matrix(a, b, c) = [a[0], a[1], a[2], 0, b[0], b[1], b[2], 0, c[0], c[1], c[2], 0, 0, 0, 0, 1];
-function graycube_turns(x, y, z) = let(a = cos(x), b = sin(x), c = cos(y), d = sin(y), e = cos(z), f = sin(z))
-  graycube_matrix([c * e, b * d * e - a * f, a * d * e + b * f], [c * f, b * d * f + a * e, a * d * f - b * e], [-d, b * c, a * c]);
-function graycube_turn(angle, v) = let(n = norm(v), x = v[0] / n, y = v[1] / n, z = v[2] / n, s = sin(angle), c = cos(angle), k = 1 - c)
-  n == 0 ? graycube_turns(0, 0, 0) :
-  graycube_matrix([x * x * k + c, x * y * k - z * s, x * z * k + y * s], [y * x * k + z * s, y * y * k + c, y * z * k - x * s],
-                  [z * x * k - y * s, z * y * k + x * s, z * z * k + c]);
-function graycube_mirror(v) = let(n = norm(v), x = v[0] / n, y = v[1] / n, z = v[2] / n)
-  n == 0 ? graycube_turns(0, 0, 0) :
-  graycube_matrix([1 - 2 * x * x, -2 * x * y, -2 * x * z], [-2 * y * x, 1 - 2 * y * y, -2 * y * z], [-2 * z * x, -2 * z * y, 1 - 2 * z * z]);
-function graycube_full(m) = let(w = graycube_at(m[3], 3, 1))
-  [for (i = [0:3]) for (j = [0:3]) graycube_at(m[i], j, i == j ? 1 : 0) / w];
-function graycube_fineness() = str(graycube_named("$fn", $fn), graycube_named("$fa", $fa), graycube_named("$fs", $fs));
-module graycube_note(name, lists) { text(str("graycube|", name, "|", lists)); }
-module cube(size, center) { graycube_note("cube", graycube_named("size", graycube_three(size, 1))); }
-module sphere(r, d) {
-  graycube_note("sphere", str(graycube_fineness(), graycube_named("r", graycube_radius(r, d, 1))));
-}
-module cylinder(h, r1, r2, center, r, d, d1, d2) {
-  both = graycube_radius(r, d, 1);
-  graycube_note("cylinder", str(graycube_fineness(), graycube_named("h", graycube_or(h, 1)),
-                graycube_named("r1", graycube_radius(r1, d1, both)), graycube_named("r2", graycube_radius(r2, d2, both))));
-}
-module polyhedron(points, faces, convexity, triangles) { graycube_note("polyhedron", graycube_points(points)); }
-module square(size, center) {
-  graycube_note("square", graycube_named("size", is_num(size) ? [size, size] : [graycube_at(size, 0, 1), graycube_at(size, 1, 1)]));
-}
-module circle(r, d) { graycube_note("circle", str(graycube_fineness(), graycube_named("r", graycube_radius(r, d, 1)))); }
-module polygon(points, paths, convexity) { graycube_note("polygon", graycube_points(points)); }
-module translate(v) {
-  w = graycube_three(is_list(v) ? v : [], 0);
-  graycube_note("multmatrix", graycube_named("m", [1, 0, 0, w[0], 0, 1, 0, w[1], 0, 0, 1, w[2], 0, 0, 0, 1]));
-  children();
-}
-module rotate(a, v) {
-  graycube_note("multmatrix", graycube_named("m", is_list(a) ? graycube_turns(graycube_at(a, 0, 0), graycube_at(a, 1, 0), graycube_at(a, 2, 0))
-                : graycube_turn(graycube_or(a, 0), is_list(v) ? graycube_three(v, 0) : [0, 0, 1])));
-  children();
-}
-module scale(v) {
-  w = graycube_three(graycube_or(v, 1), 1);
-  graycube_note("multmatrix", graycube_named("m", graycube_matrix([w[0], 0, 0], [0, w[1], 0], [0, 0, w[2]])));
-  children();
-}
-module mirror(v) {
-  graycube_note("multmatrix", graycube_named("m", graycube_mirror(is_list(v) ? graycube_three(v, 0) : [1, 0, 0])));
-  children();
-}
-module multmatrix(m) { graycube_note("multmatrix", graycube_named("m", graycube_full(m))); children(); }
-module linear_extrude(file, layer, height, origin, scale, center, twist, slices, convexity) {
-  graycube_note("linear_extrude", str(graycube_fineness(), graycube_named("height", graycube_or(height, is_num(file) ? file : 100)),
-                graycube_named("twist", graycube_or(twist, 0)),
-                graycube_named("scale", is_num(scale) ? [scale, scale] : [graycube_at(scale, 0, 1), graycube_at(scale, 1, 1)])));
-  children();
-}
-module rotate_extrude(file, layer, origin, scale, convexity, angle, start) {
-  graycube_note("rotate_extrude", str(graycube_fineness(), graycube_named("angle", graycube_or(angle, 360)),
-                graycube_named("start", graycube_or(start, is_undef(angle) ? 180 : 0))));
-  children();
-}
-module offset(r, delta, chamfer) {
-  graycube_note("offset", str(graycube_fineness(), graycube_named("r", graycube_or(r, 1)), graycube_named("delta", delta)));
-  children();
-}
-)SCAD";
-
 /// Its numbers are all to be spelled out but those of kOthers.
-constexpr std::array<std::string_view, 11> kSpelledOut{"cube",    "sphere",         "cylinder",       "polyhedron", "square", "circle",
-                                                       "polygon", "multmatrix", "linear_extrude", "rotate_extrude", "offset"};
+constexpr std::array<std::string_view, 11> kSpelledOut{
+    "cube",    "sphere",     "cylinder",       "polyhedron",     "square", "circle",
+    "polygon", "multmatrix", "linear_extrude", "rotate_extrude", "offset"};
 /// Whole numbers, or none that the importer uses.
-constexpr std::array<std::string_view, 7> kOthers{"convexity", "slices", "segments", "paths", "faces", "triangles", "timestamp"};
-constexpr std::array<std::string_view, 5> kFlatBySixDigits{"text", "projection", "import", "fill", "resize"};
+constexpr std::array<std::string_view, 7> kOthers{"convexity", "slices",    "segments", "paths",
+                                                  "faces",     "triangles", "timestamp"};
+constexpr std::array<std::string_view, 5> kFlatBySixDigits{"text", "projection", "import", "fill",
+                                                           "resize"};
 
 template <std::size_t N>
 bool is_among(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -144,8 +65,9 @@ std::optional<int> whole(std::string_view text) {
 double spelled_number(std::span<const int> parts) {
   if (parts.size() == 1) return parts[0];
   constexpr int kMost = 65536;
-  const bool good = parts.size() == 5 && parts[0] >= -1000 && parts[0] <= 1000 &&
-                    std::all_of(parts.begin() + 1, parts.end(), [](int v) { return v > -kMost && v < kMost; });
+  const bool good =
+      parts.size() == 5 && parts[0] >= -1000 && parts[0] <= 1000 &&
+      std::all_of(parts.begin() + 1, parts.end(), [](int v) { return v > -kMost && v < kMost; });
   if (!good) return std::nan("");
   // No more than 53 binary digits are set, so that nothing is rounded.
   double value = 0;
@@ -210,7 +132,8 @@ std::optional<Note> note_of(const ScadModule& module) {
   return words != nullptr ? note_in(*words) : std::nullopt;
 }
 
-/// The modules in a list, groups dissolved; one that has a note stays, and so do all where `notes` is false but groups.
+/// The modules in a list, groups dissolved; one that has a note stays, and so do all where `notes`
+/// is false but groups.
 template <typename Module>
 void gather(Module& module, std::vector<Module*>& out) {
   if (module.name != "group" || note_of(module)) {
@@ -226,16 +149,18 @@ std::vector<Module*> gathered(List& modules, std::size_t from) {
   return out;
 }
 
-/// Whether six digits of `exact` are `written`, rounded either way where both are as near; or both are nothing beside
-/// numbers of the size of 1.
+/// Whether six digits of `exact` are `written`, rounded either way where both are as near; or both
+/// are nothing beside numbers of the size of 1.
 bool is_six_digits_of(double written, double exact) {
   constexpr double kNothing = 1e-14;
-  if (written == exact || (std::fabs(written) <= kNothing && std::fabs(exact) <= kNothing)) return true;
+  if (written == exact || (std::fabs(written) <= kNothing && std::fabs(exact) <= kNothing))
+    return true;
   if (!std::isfinite(written) || !std::isfinite(exact)) return false;
   return std::fabs(written - exact) <= (1 + 1e-9) * half_unit(exact, kOpenscadDigits);
 }
 
-/// Puts numbers in the place of those of a value, in order; false when they don't agree or are too few.
+/// Puts numbers in the place of those of a value, in order; false when they don't agree or are too
+/// few.
 bool replace(ScadValue& value, const std::vector<double>& numbers, std::size_t& next) {
   if (auto* number = std::get_if<double>(&value.value)) {
     if (next == numbers.size() || !is_six_digits_of(*number, numbers[next])) return false;
@@ -243,8 +168,8 @@ bool replace(ScadValue& value, const std::vector<double>& numbers, std::size_t& 
     return true;
   }
   auto* list = std::get_if<ScadList>(&value.value);
-  return list == nullptr ||
-         std::all_of(list->begin(), list->end(), [&](ScadValue& v) { return replace(v, numbers, next); });
+  return list == nullptr || std::all_of(list->begin(), list->end(),
+                                        [&](ScadValue& v) { return replace(v, numbers, next); });
 }
 
 bool spell_out(ScadModule& plain, const Note& note) {
@@ -253,41 +178,48 @@ bool spell_out(ScadModule& plain, const Note& note) {
     ScadArgument& argument = plain.arguments[i];
     if (is_among(kOthers, argument.name)) continue;
     // The only one without a name is multmatrix's.
-    const std::string_view name = argument.name.empty() ? std::string_view("m") : std::string_view(argument.name);
-    const auto list = std::find_if(note.lists.begin(), note.lists.end(), [&](const auto& l) { return l.name == name; });
+    const std::string_view name =
+        argument.name.empty() ? std::string_view("m") : std::string_view(argument.name);
+    const auto list = std::find_if(note.lists.begin(), note.lists.end(),
+                                   [&](const auto& l) { return l.name == name; });
     const static std::vector<double> kNone;
     const std::vector<double>& numbers = list != note.lists.end() ? list->numbers : kNone;
     // Newer versions write one number for several that are equal.
-    const bool is_one = argument.value.number() != nullptr && numbers.size() > 1 &&
-                        std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) == numbers.end();
+    const bool is_one =
+        argument.value.number() != nullptr && numbers.size() > 1 &&
+        std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) == numbers.end();
     std::size_t next = 0;
-    if (!replace(argument.value, numbers, next) || next != (is_one ? 1 : numbers.size())) return false;
+    if (!replace(argument.value, numbers, next) || next != (is_one ? 1 : numbers.size()))
+      return false;
   }
   return true;
 }
 
-bool spell_out_all(const std::vector<ScadModule*>& plain, const std::vector<const ScadModule*>& marked);
+bool spell_out_all(const std::vector<ScadModule*>& plain,
+                   const std::vector<const ScadModule*>& marked);
 
 bool spell_out_one(ScadModule& plain, const ScadModule& marked) {
   if (plain.left_out != marked.left_out || plain.root != marked.root) return false;
   const auto note = note_of(marked);
-  if (note ? !spell_out(plain, *note) : plain.name != marked.name || is_among(kSpelledOut, plain.name)) return false;
+  if (note ? !spell_out(plain, *note)
+           : plain.name != marked.name || is_among(kSpelledOut, plain.name))
+    return false;
   return spell_out_all(gathered<ScadModule>(plain.children, 0),
                        gathered<const ScadModule>(marked.children, note ? 1 : 0));
 }
 
-bool spell_out_all(const std::vector<ScadModule*>& plain, const std::vector<const ScadModule*>& marked) {
+bool spell_out_all(const std::vector<ScadModule*>& plain,
+                   const std::vector<const ScadModule*>& marked) {
   return std::equal(plain.begin(), plain.end(), marked.begin(), marked.end(),
                     [](ScadModule* p, const ScadModule* m) { return spell_out_one(*p, *m); });
 }
 
 }  // namespace
 
-std::string_view openscad_exact_definitions() { return kDefinitions; }
-
 bool spell_out(std::vector<ScadModule>& plain, const std::vector<ScadModule>& marked) {
   std::vector<ScadModule> result = plain;
-  if (!spell_out_all(gathered<ScadModule>(result, 0), gathered<const ScadModule>(marked, 0))) return false;
+  if (!spell_out_all(gathered<ScadModule>(result, 0), gathered<const ScadModule>(marked, 0)))
+    return false;
   plain = std::move(result);
   return true;
 }

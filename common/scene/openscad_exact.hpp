@@ -1,6 +1,7 @@
-// All digits of the numbers of an OpenSCAD model: .csg files have six. OpenSCAD evaluates the model a second time with
-// modules of ours in place of its own (`openscad -D`, which reaches used files, too). Each leaves a text() behind that spells
-// the numbers out in whole numbers; what they are is then looked for in the plain .csg file.
+// All digits of the numbers of an OpenSCAD model: .csg files have six. OpenSCAD evaluates the model
+// a second time with modules of ours in place of its own (`openscad -D`, which reaches used files,
+// too). Each leaves a text() behind that spells the numbers out in whole numbers; what they are is
+// then looked for in the plain .csg file.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +21,9 @@ inline constexpr std::uint32_t kSpelledOutDigits = 15;
 /// Definitions to evaluate a model with: `openscad -D DEFINITIONS -o MARKED.csg MODEL.scad`.
 std::string_view openscad_exact_definitions();
 
-/// Puts the numbers that `marked` spells out into `plain`, the tree of the same model. Returns false, and leaves `plain`
-/// as it was, unless the trees are the same, groups aside, every length and entry of `plain` has been spelled out, and is what
-/// its spelled-out number is in six digits.
+/// Puts the numbers that `marked` spells out into `plain`, the tree of the same model. Returns
+/// false, and leaves `plain` as it was, unless the trees are the same, groups aside, every length
+/// and entry of `plain` has been spelled out, and is what its spelled-out number is in six digits.
 bool spell_out(std::vector<ScadModule>& plain, const std::vector<ScadModule>& marked);
 
 /// Whether a tree has flat parts that only OpenSCAD itself evaluates, with six digits.

@@ -17,7 +17,8 @@ bool is_single_precision(double value, std::uint32_t digits) {
   if (!std::isfinite(single)) return false;
   char text[40];
   const auto [end, error] =
-      std::to_chars(text, text + sizeof text, single, std::chars_format::scientific, static_cast<int>(digits) - 1);
+      std::to_chars(text, text + sizeof text, single, std::chars_format::scientific,
+                    static_cast<int>(digits) - 1);
   double again = 0;
   std::from_chars(text, end, again);
   return again == value;
@@ -44,8 +45,9 @@ std::uint32_t significant_digits(std::string_view number) {
 double half_unit(double v, std::uint32_t digits) {
   if (v == 0) return 0;
   char text[40];
-  const char* end =
-      std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, static_cast<int>(digits) - 1).ptr;
+  const char* end = std::to_chars(text, text + sizeof text, v, std::chars_format::scientific,
+                                  static_cast<int>(digits) - 1)
+                        .ptr;
   const char* exponent = std::find(static_cast<const char*>(text), end, 'e') + 1;
   int power = 0;
   std::from_chars(exponent + (*exponent == '+' ? 1 : 0), end, power);
@@ -60,7 +62,8 @@ double half_unit(double v, std::uint32_t digits) {
 void WrittenDigits::see(std::string_view number, double value) {
   if (number.size() <= most_) return;
   std::uint32_t digits = significant_digits(number);
-  if (digits > kSinglePrecisionDigits && is_single_precision(value, digits)) digits = kSinglePrecisionDigits;
+  if (digits > kSinglePrecisionDigits && is_single_precision(value, digits))
+    digits = kSinglePrecisionDigits;
   most_ = std::max(most_, digits);
 }
 

@@ -33,12 +33,17 @@ std::string spelled(std::initializer_list<double> list) {
 }
 
 /// What a module of ours evaluates to.
-std::string note(const std::string& module, const std::string& lists, const std::string& children = "") {
-  return "group() { group() { text(text = \"graycube|" + module + "|" + lists + "\", size = 10); } " + children + " }";
+std::string note(const std::string& module, const std::string& lists,
+                 const std::string& children = "") {
+  return "group() { group() { text(text = \"graycube|" + module + "|" + lists +
+         "\", size = 10); } " + children + " }";
 }
-std::string note_of_cube(double x, double y, double z) { return note("cube", "size=" + spelled({x, y, z}) + "|"); }
+std::string note_of_cube(double x, double y, double z) {
+  return note("cube", "size=" + spelled({x, y, z}) + "|");
+}
 std::string note_of_shift(double x, double y, double z, const std::string& children) {
-  return note("multmatrix", "m=" + spelled({1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}) + "|", "group() {" + children + "}");
+  return note("multmatrix", "m=" + spelled({1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}) + "|",
+              "group() {" + children + "}");
 }
 std::string shift(const std::string& by, const std::string& children) {
   const std::string m = "[[1, 0, 0, " + by + "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
@@ -60,19 +65,21 @@ constexpr double kOneThird = 1.0 / 3;
 TEST_CASE("numbers that are spelled out come back to the last bit") {
   std::mt19937_64 random(19);
   for (int i = 0; i < 2000; ++i) {
-    const double v = std::ldexp(1 + std::generate_canonical<double, 53>(random), static_cast<int>(random() % 60) - 30);
+    const double v = std::ldexp(1 + std::generate_canonical<double, 53>(random),
+                                static_cast<int>(random() % 60) - 30);
     char six[40];
     std::snprintf(six, sizeof six, "%.5e", v);
     INFO("i " << i << ", " << six);
-    const Scene scene =
-        scene_of("cube(size = [" + std::string(six) + ", 2, 3], center = false);", note_of_cube(v, 2, 3));
+    const Scene scene = scene_of("cube(size = [" + std::string(six) + ", 2, 3], center = false);",
+                                 note_of_cube(v, 2, 3));
     CHECK(size_of(scene) == Vec3{v, 2, 3});
     CHECK(scene.digits == 0);
   }
 }
 
 TEST_CASE("a translation and what is in it are spelled out, negative ones too") {
-  const Scene scene = scene_of(shift("-0.142857", kThird), note_of_shift(-1.0 / 7, 0, 0, note_of_cube(kOneThird, 2, 3)));
+  const Scene scene = scene_of(shift("-0.142857", kThird),
+                               note_of_shift(-1.0 / 7, 0, 0, note_of_cube(kOneThird, 2, 3)));
   CHECK(size_of(scene).x == kOneThird);
   REQUIRE(scene.objects[0].csg.transform);
   CHECK(scene.objects[0].csg.transform->translation().x == -1.0 / 7);
@@ -80,7 +87,8 @@ TEST_CASE("a translation and what is in it are spelled out, negative ones too") 
 
 TEST_CASE("groups are no difference between the trees") {
   const std::string cube = note_of_cube(kOneThird, 2, 3);
-  for (const std::string& marked : {"group() { group() { " + cube + " } } group();", "group(); " + cube}) {
+  for (const std::string& marked :
+       {"group() { group() { " + cube + " } } group();", "group(); " + cube}) {
     CHECK(size_of(scene_of(std::string("group() { ") + kThird + " }", marked)).x == kOneThird);
   }
 }
@@ -112,7 +120,8 @@ TEST_CASE("a tree of another shape, or of other numbers, is ignored as a whole")
   // All or nothing: the first would do.
   stays(plain + plain, cube + note_of_cube(0.5, 2, 3));
   stays(plain + shift("0.142857", plain), cube + note_of_shift(0.2, 0, 0, cube));
-  stays(plain + "difference() { cube(1); cube(1); }", cube + "difference() { " + note_of_cube(1, 1, 1) + " }");
+  stays(plain + "difference() { cube(1); cube(1); }",
+        cube + "difference() { " + note_of_cube(1, 1, 1) + " }");
   CHECK(scene_of(plain, cube).digits == 0);
 }
 
@@ -125,25 +134,34 @@ TEST_CASE("a number halfway between two of six digits may be written either way"
 
 TEST_CASE("numbers of newer versions that stand for two are spelled out") {
   const auto tapered = [](double x, double y) {
-    return note("linear_extrude", "$fn=[0]|height=" + spelled({kOneThird}) + "|twist=[0]|scale=" + spelled({x, y}) + "|",
-                "group() {" + note("square", "size=" + spelled({1, 1}) + "|") + "}");
+    return note(
+        "linear_extrude",
+        "$fn=[0]|height=" + spelled({kOneThird}) + "|twist=[0]|scale=" + spelled({x, y}) + "|",
+        "group() {" + note("square", "size=" + spelled({1, 1}) + "|") + "}");
   };
-  const std::string plain = "linear_extrude(height = 0.333333, scale = 0.142857, $fn = 0) { square(size = [1, 1], center = false); }";
+  const std::string plain =
+      "linear_extrude(height = 0.333333, scale = 0.142857, $fn = 0) { square(size = [1, 1], center "
+      "= false); }";
   CHECK(scene_of(plain, tapered(1.0 / 7, 1.0 / 7)).digits == 0);
   CHECK(scene_of(plain, tapered(1.0 / 7, 0.2)).digits == 6);
 }
 
 TEST_CASE("flat shapes that OpenSCAD evaluates leave a scene its six digits") {
   struct Program : OpenscadProgram {
-    Result evaluate(const std::string&, Format) override { return {"<svg><path d=\"M 0,0 L 2,0 L 1,-3 z\"/></svg>", {}}; }
+    Result evaluate(const std::string&, Format) override {
+      return {"<svg><path d=\"M 0,0 L 2,0 L 1,-3 z\"/></svg>", {}};
+    }
   } program;
   OpenscadOptions options;
   const std::string marked =
-      note_of_cube(kOneThird, 2, 3) + note("linear_extrude", "height=[1]|", "group() { text(text = \"a\"); }");
+      note_of_cube(kOneThird, 2, 3) +
+      note("linear_extrude", "height=[1]|", "group() { text(text = \"a\"); }");
   options.spelled_out = marked;
   options.program = &program;
-  const Scene scene = testing::scene_of("cube(size = [0.333333, 2, 3], center = false); linear_extrude(height = 1) text(text = \"a\");",
-                                        options);
+  const Scene scene = testing::scene_of(
+      "cube(size = [0.333333, 2, 3], center = false); linear_extrude(height = 1) text(text = "
+      "\"a\");",
+      options);
   CHECK(size_of(scene).x == kOneThird);
   CHECK(scene.digits == 6);
 }
