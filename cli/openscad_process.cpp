@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -78,7 +77,8 @@ std::unique_ptr<OpenscadProcess> OpenscadProcess::find() {
   return nullptr;
 }
 
-pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, const fs::path& log) {
+pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, const fs::path& log,
+                             const std::vector<std::string>& options) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&actions);
@@ -92,8 +92,11 @@ pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, cons
   ::sigaddset(&signals, SIGPIPE);
   ::posix_spawnattr_setsigdefault(&attributes, &signals);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  std::array<std::string, 4> words{program_.string(), "-o", output.string(), input.string()};
-  std::array<char*, 5> argv{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  std::vector<std::string> words{program_.string(), "-o", output.string(), input.string()};
+  words.insert(words.end(), options.begin(), options.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   pid_t pid = -1;
   const int error = ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
@@ -104,8 +107,8 @@ pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, cons
   return pid;
 }
 
-std::optional<int> OpenscadProcess::wait_for_end(pid_t pid) const {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(most_seconds_);
+std::optional<int> OpenscadProcess::wait_for_end(pid_t pid, int most_seconds) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(most_seconds);
   for (;;) {
     int status = 0;
     const pid_t ended = ::waitpid(pid, &status, WNOHANG);
@@ -140,7 +143,7 @@ std::string OpenscadProcess::trouble_in(const std::string& log, int status) {
 OpenscadProgram::Result OpenscadProcess::run(const fs::path& folder, const fs::path& input,
                                              const std::string& output) {
   const fs::path written = folder / output, log = folder / "log";
-  const auto status = wait_for_end(start(input, written, log));
+  const auto status = wait_for_end(start(input, written, log), most_seconds_);
   throw_if_interrupted();
   Result result;
   if (!status) {
@@ -166,6 +169,17 @@ OpenscadProgram::Result OpenscadProcess::evaluate(const std::string& csg, Format
 OpenscadProgram::Result OpenscadProcess::evaluate_file(const fs::path& scad) {
   const Workplace place;
   return run(place.folder.path(), fs::absolute(scad), "model.csg");
+}
+
+std::string OpenscadProcess::evaluate_with(const fs::path& scad, std::string_view definitions) {
+  const Workplace place;
+  const fs::path written = place.folder / "model.csg";
+  const std::vector<std::string> options{"-D", std::string(definitions)};
+  const pid_t pid = start(fs::absolute(scad), written, place.folder / "log", options);
+  const auto status = wait_for_end(pid, most_seconds_);
+  throw_if_interrupted();
+  if (!status || !WIFEXITED(*status) || WEXITSTATUS(*status) != 0) return {};
+  return bytes_of(written, kMaxOpenscadOutputBytes).value_or("");
 }
 
 std::vector<std::string> OpenscadProcess::take_messages() { return std::exchange(messages_, {}); }

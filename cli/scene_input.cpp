@@ -15,6 +15,7 @@
 #include "scene/mesh_file.hpp"
 #include "scene/mesh_scene.hpp"
 #include "scene/openscad.hpp"
+#include "scene/openscad_exact.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
 
@@ -116,9 +117,16 @@ void import_openscad(const fs::path& path, const control::JobOptions& options, c
   how.facets = choice.facets;
   how.program = program.get();
   how.folder = fs::absolute(path).parent_path().string();
+  const bool is_tree = path.extension() == ".csg";
   // Lines are those of the evaluated tree.
-  const fs::path where = path.extension() == ".csg" ? path : fs::path(path.string() + " (as .csg)");
-  OpenscadResult read = read_openscad_csg(openscad_text(path, program.get()), how);
+  const fs::path where = is_tree ? path : fs::path(path.string() + " (as .csg)");
+  const std::string text = openscad_text(path, program.get());
+  std::string spelled_out;
+  if (!is_tree && text.size() <= kMaxSpelledOutBytes) {
+    spelled_out = program->evaluate_with(path, openscad_exact_definitions());
+  }
+  how.spelled_out = spelled_out;
+  OpenscadResult read = read_openscad_csg(text, how);
   if (program) {
     for (const std::string& line : program->take_messages()) {
       input.warnings.push_back({"openscad", path.string(), line});

@@ -69,6 +69,9 @@ struct OpenscadOptions {
   OpenscadProgram* program = nullptr;
   /// Where the names of files in the text start from.
   std::string folder{};
+  /// What OpenSCAD evaluates the same model to with openscad_exact_definitions(): it has all digits of the text's
+  /// numbers. What doesn't agree with the text is ignored. Empty: there is none.
+  std::string_view spelled_out{};
 };
 
 /// `line` counts from 1; 0 stands for the whole file.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/portable_math.hpp"
+#include "scene/flat_flush.hpp"
 #include "scene/flat_offset.hpp"
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_flat_rounds.hpp"
@@ -45,7 +46,7 @@ class FlatReader {
       return united(module.children, map, module.line);
     }
     if (name == "multmatrix") {
-      const auto inner = flat_matrix(module, import_.report);
+      const auto inner = flat_matrix(module, import_.digits, import_.report);
       if (!inner) return std::nullopt;
       return united(module.children, compose(map, *inner), module.line);
     }
@@ -102,7 +103,7 @@ class FlatReader {
       import_.report.error(line, "the outlines have too many corners, or cross one another too often");
       return std::nullopt;
     }
-    FlatLoops loops = combined(operation, operands);
+    FlatLoops loops = combined_flush(operation, operands, flush_tolerance(operands, import_.digits));
     if (loops.empty()) return std::nullopt;
     return loops;
   }

@@ -39,6 +39,8 @@ struct ScadImport {
   const OpenscadOptions& options;
   OpenscadReport& report;
   OpenscadDelegate delegate;
+  /// Significant digits of the matrices' numbers.
+  std::uint32_t digits = kOpenscadDigits;
   /// What was warned of once.
   std::set<std::string> told;
 

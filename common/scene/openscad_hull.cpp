@@ -90,7 +90,7 @@ ScadMesh convex_hull(const std::vector<Vec3>& points) {
 bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import, std::vector<Vec3>& corners) {
   if (is_container(module.name)) return corners_of_all(module.children, map, import, corners);
   if (module.name == "multmatrix") {
-    const auto inner = openscad_matrix(module, import.report);
+    const auto inner = openscad_matrix(module, import.digits, import.report);
     return !inner || corners_of_all(module.children, compose(map, *inner), import, corners);
   }
   if (module.name == "linear_extrude" || module.name == "rotate_extrude") {

@@ -6,6 +6,7 @@
 
 #include "geometry/check.hpp"
 #include "scene/openscad.hpp"
+#include "scene/openscad_exact.hpp"
 #include "scene/openscad_framing.hpp"
 #include "scene/openscad_parser.hpp"
 #include "scene/openscad_parts.hpp"
@@ -71,15 +72,25 @@ const ScadModule* root_of(const std::vector<ScadModule>& modules) {
   return nullptr;
 }
 
+/// Gives the modules' numbers all digits, where they can be had; false where they have six.
+bool improve_numbers(std::vector<ScadModule>& modules, std::string_view spelled_out) {
+  if (spelled_out.empty() || spelled_out.size() > kMaxOpenscadBytes) return false;
+  OpenscadReport unread;
+  const std::vector<ScadModule> marked = parse_openscad(spelled_out, unread);
+  return !unread.has_errors() && spell_out(modules, marked);
+}
+
 Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& options,
                      OpenscadReport& report) {
+  const bool is_exact = improve_numbers(modules, options.spelled_out);
+  const std::uint32_t digits = is_exact ? kSpelledOutDigits : kOpenscadDigits;
   if (const ScadModule* root = root_of(modules)) {
     std::vector<ScadModule> only{*root};
     modules = std::move(only);
   }
-  auto [parts, materials] = openscad_parts(modules, options, report);
+  auto [parts, materials] = openscad_parts(modules, options, digits, report);
   Scene scene;
-  scene.digits = kOpenscadDigits;
+  scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
   if (report.has_errors()) return scene;
   scene.settings = framed_settings(reach_of(parts), options);
   scene.materials = std::move(materials);

@@ -77,10 +77,11 @@ int dimension_of(const std::vector<ScadModule>& modules) {
 
 class Importer {
  public:
-  Importer(const ReachDirections& directions, const OpenscadOptions& options, OpenscadReport& report)
+  Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
+           OpenscadReport& report)
       : directions_(directions),
         report_(report),
-        import_{options, report, OpenscadDelegate(options.program, options.folder), {}} {}
+        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}} {}
 
   /// Appends the operands of the union of `modules`.
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
@@ -135,8 +136,10 @@ class Importer {
   void add_transformed(const ScadModule& module, const Surroundings& around,
                        std::vector<Part>& parts) {
     const bool is_flat = module.dimension == 2;
-    const auto flat = is_flat ? flat_matrix(module, report_) : std::nullopt;
-    const std::optional<Affine> map = flat ? lifted(*flat) : is_flat ? std::nullopt : openscad_matrix(module, report_);
+    const auto flat = is_flat ? flat_matrix(module, import_.digits, report_) : std::nullopt;
+    const std::optional<Affine> map = flat      ? lifted(*flat)
+                                      : is_flat ? std::nullopt
+                                                : openscad_matrix(module, import_.digits, report_);
     if (!map) return;
     Surroundings inner = around;
     inner.to_world = compose(around.to_world, *map);
@@ -337,8 +340,9 @@ class Importer {
 }  // namespace
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
-                             const OpenscadOptions& options, OpenscadReport& report) {
-  Importer importer(reach_directions(options), options, report);
+                             const OpenscadOptions& options, std::uint32_t digits,
+                             OpenscadReport& report) {
+  Importer importer(reach_directions(options), options, digits, report);
   OpenscadParts result;
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();

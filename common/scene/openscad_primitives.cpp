@@ -201,16 +201,16 @@ FlatMap flat_part(const Affine& map) {
 
 }  // namespace
 
-std::optional<Affine> openscad_matrix(const ScadModule& module, OpenscadReport& report) {
+std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report) {
   ScadArguments arguments(module, report);
   const auto map = written_matrix(module, arguments);
   if (!map || arguments.empty_unless(map->inverse().has_value(), "its matrix flattens everything in it")) {
     return std::nullopt;
   }
-  return recovered_rotation(*map, kOpenscadDigits);
+  return recovered_rotation(*map, digits);
 }
 
-std::optional<FlatMap> flat_matrix(const ScadModule& module, OpenscadReport& report) {
+std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report) {
   ScadArguments arguments(module, report);
   const auto map = written_matrix(module, arguments);
   if (!map) return std::nullopt;
@@ -221,7 +221,7 @@ std::optional<FlatMap> flat_matrix(const ScadModule& module, OpenscadReport& rep
   const Affine upright{{{{a, flat.m[0][1], 0, flat.m[0][2]},
                          {b, flat.m[1][1], 0, flat.m[1][2]},
                          {0, 0, std::sqrt(a * a + b * b), 0}}}};
-  return flat_part(recovered_rotation(upright, kOpenscadDigits));
+  return flat_part(recovered_rotation(upright, digits));
 }
 
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {

@@ -9,6 +9,7 @@
 
 #include "geometry/check.hpp"
 #include "geometry/portable_math.hpp"
+#include "scene/written_digits.hpp"
 
 namespace graycube {
 namespace {
@@ -17,14 +18,16 @@ namespace {
 constexpr double kLooseness = 1e-4;
 /// Entries below this, of the largest, are 0 that was reckoned.
 constexpr double kNothing = 1e-15;
-/// How far, in halves of the largest entry's last digit, entries may be from those of a rotation that was made of them:
-/// each of several. Entries that are small beside others in a matrix with a 0 keep their own size besides.
+/// How far, in halves of the largest entry's last digit, entries may be from those of a rotation
+/// that was made of them: each of several. Entries that are small beside others in a matrix with a
+/// 0 keep their own size besides.
 constexpr double kMadeOfOthers = 4;
 constexpr double kShareOfSmall = 0.01;
 /// How far a round angle may be from one that was made of the entries, degrees.
 constexpr double kAngleDoubt = 2e-4;
 constexpr int kFinestPartOfTurn = 64;
-/// How far the ratio of two numbers may be from one that was made of the entries, and the largest whole number in it.
+/// How far the ratio of two numbers may be from one that was made of the entries, and the largest
+/// whole number in it.
 constexpr double kRatioDoubt = 1e-4;
 constexpr int kLargestInRatio = 20;
 constexpr double kDegrees = 57.295779513082321;
@@ -40,30 +43,14 @@ Affine linear_part(Affine map, double factor = 1) {
   return map;
 }
 
-/// Half a unit of the last one of so many digits; 0 for 0.
-double half_unit(double v, std::uint32_t digits) {
-  if (v == 0) return 0;
-  char text[40];
-  const char* end =
-      std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, static_cast<int>(digits) - 1).ptr;
-  const char* exponent = std::find(static_cast<const char*>(text), end, 'e') + 1;
-  int power = 0;
-  std::from_chars(exponent + (*exponent == '+' ? 1 : 0), end, power);
-  text[0] = '5';
-  text[1] = 'e';
-  end = std::to_chars(text + 2, text + sizeof text, power - static_cast<int>(digits)).ptr;
-  double half = 0;
-  std::from_chars(text, end, half);
-  return half;
-}
-
 /// The number of fewest digits, at most so many, within doubt of v.
 double round_number(double v, double doubt, std::uint32_t digits) {
   double round = v;
   for (std::uint32_t n = 1; n <= digits; ++n) {
     char text[40];
     const auto precision = static_cast<int>(n) - 1;
-    const char* end = std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, precision).ptr;
+    const char* end =
+        std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, precision).ptr;
     std::from_chars(text, end, round);
     if (std::fabs(round - v) <= doubt) return round;
   }
@@ -74,8 +61,10 @@ double largest_entry(const Affine& map) {
   return std::max({max_abs(map.row(0)), max_abs(map.row(1)), max_abs(map.row(2))});
 }
 
-/// Whether every entry of the map is rounded to the one that was written, or within `more` and `share` of it.
-bool is_written_as(const Affine& map, const Affine& written, std::uint32_t digits, double more = 0, double share = 0) {
+/// Whether every entry of the map is rounded to the one that was written, or within `more` and
+/// `share` of it.
+bool is_written_as(const Affine& map, const Affine& written, std::uint32_t digits, double more = 0,
+                   double share = 0) {
   const double nothing = kNothing * largest_entry(written);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -191,7 +180,8 @@ std::optional<Affine> round_turn(const Affine& r) {
   return rotation(*whole, round_angle(angle_of(twice_cosine, length(twice_sine))));
 }
 
-/// Row i and column j, which meet in a 0, are turns in a plane each; all other entries follow from them.
+/// Row i and column j, which meet in a 0, are turns in a plane each; all other entries follow from
+/// them.
 Affine product_of_two_turns(const Affine& r, std::size_t i, std::size_t j) {
   const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   const double row = std::sqrt(r.m[i][j1] * r.m[i][j1] + r.m[i][j2] * r.m[i][j2]);
@@ -212,8 +202,9 @@ Affine product_of_two_turns(const Affine& r, std::size_t i, std::size_t j) {
   return turned;
 }
 
-/// The nearest rotation: Newton's iteration for the polar decomposition, N. J. Higham, "Computing the polar
-/// decomposition – with applications", SIAM J. Sci. Stat. Comput. 7 (1986), equation 3.4: X ← (X + X⁻ᵀ) / 2.
+/// The nearest rotation: Newton's iteration for the polar decomposition, N. J. Higham, "Computing
+/// the polar decomposition – with applications", SIAM J. Sci. Stat. Comput. 7 (1986), equation 3.4:
+/// X ← (X + X⁻ᵀ) / 2.
 Affine nearest_rotation(Affine x) {
   for (int step = 0; step < 4; ++step) {
     const Vec3 a = x.row(0), b = x.row(1), c = x.row(2);
@@ -265,9 +256,12 @@ Affine recovered_rotation(const Affine& written, std::uint32_t digits) {
     if (is_written_as(map, written, digits)) return map;
   }
   const auto zero = zero_in(r);
-  map = placed(zero ? product_of_two_turns(r, (*zero)[0], (*zero)[1]) : nearest_rotation(r), factor, written);
+  map = placed(zero ? product_of_two_turns(r, (*zero)[0], (*zero)[1]) : nearest_rotation(r), factor,
+               written);
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  return is_written_as(map, written, digits, kMadeOfOthers * doubt, zero ? kShareOfSmall : kAny) ? map : written;
+  return is_written_as(map, written, digits, kMadeOfOthers * doubt, zero ? kShareOfSmall : kAny)
+             ? map
+             : written;
 }
 
 }  // namespace graycube

@@ -217,6 +217,60 @@ TEST_CASE("text, Minkowski sums and files of the model's folder come through Ope
   CHECK(sandbox.temporary_files().empty());
 }
 
+/// A model of every kind of number that has no end in six digits; modules of the user's, and of a file that it uses.
+constexpr const char* kEndless = R"(
+use <lib.scad>
+module twice() { children(); translate([0, 0, 7 / 3]) children(); }
+module every() { for (i = [0:$children - 1]) translate([i * 10 / 7, 0, 0]) { children(i); if ($children > 1) cube(1 / 9); } }
+every() { cube([1 / 3, 2 / 7, 5]); sphere(d = 2 / 3); }
+translate([1 / 3, 1 / 7]) rotate([100 / 3, 0, 360 / 7]) mirror([1, 2, 0]) scale([1 / 3, 1, 2]) twice() cylinder(7 / 3, d1 = 1 / 3, r2 = 1 / 7);
+rotate(100 / 7, [1 / 3, 2, 1]) multmatrix([[1 / 3, 0, 0, 1 / 7], [0, 2, 0, 0]]) square([1 / 3, 1 / 7], center = true);
+linear_extrude(10 / 3, twist = 100 / 3, scale = 1 / 3) offset(1 / 7) polygon([[1 / 3, 0], [7, 0], [0, 1 / 7]]);
+rotate_extrude(angle = 1000 / 3) translate([5 / 3, 0]) circle(1 / 3);
+polyhedron([[0, 0, 1 / 3], [1 / 7, 0, 0], [0, 1, 0], [0, 0, -1]], [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]);
+difference() { peg(10 / 3); *cube(1 / 3); #cube(1 / 7, center = true); }
+)";
+constexpr const char* kPeg = "module peg(h) { translate([-h / 7, 0, 0]) cylinder(h, 2 / 3, 2 / 3, center = true, $fn = 7); }";
+
+TEST_CASE("numbers of a .scad file come with all their digits, whatever holds them") {
+  if (!find_program("openscad")) {
+    WARN("no openscad here");
+    return;
+  }
+  Sandbox sandbox;
+  sandbox.write("lib.scad", kPeg);
+  for (const std::string& model : {std::string("cube([1 / 3, 2, 3]);"), std::string(kEndless)}) {
+    sandbox.write("m.scad", model);
+    const Outcome o = sandbox.run({"convert", "m.scad", "m.json"});
+    INFO(model << "\n" << o.err);
+    REQUIRE(o.status == 0);
+    const std::string json = file_bytes(sandbox / "m.json");
+    CHECK(json.find("\"digits\"") == std::string::npos);
+    CHECK(json.find("0.3333333333333333") != std::string::npos);
+    CHECK(json.find("0.333333,") == std::string::npos);
+  }
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a model that isn't the same when it is evaluated again keeps its six digits, and its messages come once") {
+  if (!find_program("openscad")) {
+    WARN("no openscad here");
+    return;
+  }
+  Sandbox sandbox;
+  // Modules of the user's in the place of OpenSCAD's, numbers at random, what OpenSCAD doesn't take.
+  for (const char* model : {"module cube(s) { sphere(s / 3); } cube(1);", "translate(rands(0, 1, 3)) cube(1 / 3);",
+                            "echo(\"once\"); cube([1 / 3]); sphere(1 / 3);"}) {
+    sandbox.write("m.scad", model);
+    const Outcome o = sandbox.run({"convert", "m.scad", "m.json"});
+    INFO(model << "\n" << o.err);
+    REQUIRE(o.status == 0);
+    CHECK(file_bytes(sandbox / "m.json").find("\"digits\": 6") != std::string::npos);
+    const std::size_t said = o.err.find("once");
+    CHECK((said == std::string::npos || o.err.find("once", said + 1) == std::string::npos));
+  }
+}
+
 TEST_CASE("a converted OpenSCAD model is the scene that is rendered") {
   Sandbox sandbox;
   const std::string model = scene_file("openscad/dice.csg").string();

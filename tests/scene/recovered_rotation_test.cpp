@@ -20,7 +20,8 @@ constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
 /// As a text of six digits has it.
 double six_digits(double v) {
   char text[40];
-  const char* end = std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, 5).ptr;
+  const char* end =
+      std::to_chars(text, text + sizeof text, v, std::chars_format::scientific, 5).ptr;
   std::from_chars(text, end, v);
   return v;
 }
@@ -39,7 +40,8 @@ double distance(const Affine& a, const Affine& b) {
   }
   return most;
 }
-/// How far the columns of a map are from unit length and right angles, after division by the factor.
+/// How far the columns of a map are from unit length and right angles, after division by the
+/// factor.
 double unevenness(const Affine& map, double factor = 1) {
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +63,8 @@ Affine mirror(const Vec3& n) {
   Affine map;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      map.m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] -= 2 * n[i] * n[j] / dot(n, n);
+      map.m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] -=
+          2 * n[i] * n[j] / dot(n, n);
     }
   }
   return map;
@@ -83,11 +86,13 @@ TEST_CASE("a rotation by round angles is found again in six digits") {
   Numbers numbers(static_cast<std::uint64_t>(seed));
   const double unit = numbers.whole(0, 1) == 0 ? 0.5 : 0.01;
   const auto angle = [&] {
-    return numbers.whole(0, 3) == 0 ? 90.0 * numbers.whole(-2, 2) : unit * std::floor(numbers.between(-180, 180) / unit);
+    return numbers.whole(0, 3) == 0 ? 90.0 * numbers.whole(-2, 2)
+                                    : unit * std::floor(numbers.between(-180, 180) / unit);
   };
   const Affine exact = turns(angle(), angle(), angle());
   CHECK(distance(recovered(exact), exact) < 2e-15);
-  const Vec3 axis{static_cast<double>(numbers.whole(-9, 9)), static_cast<double>(numbers.whole(-9, 9)), 5};
+  const Vec3 axis{static_cast<double>(numbers.whole(-9, 9)),
+                  static_cast<double>(numbers.whole(-9, 9)), 5};
   const Affine about = rotation(axis, unit * std::floor(numbers.between(1, 179) / unit));
   CHECK(distance(recovered(about), about) < 2e-15);
   const Affine mirrored = mirror(axis);
@@ -111,10 +116,14 @@ TEST_CASE("any rotation becomes one to the last bits, as near as its digits") {
   // Mostly with a turn of nothing, a quarter, or next to nothing.
   const auto angle = [&] {
     const int kind = numbers.whole(0, 5);
-    return kind == 0 ? 0 : kind == 1 ? 90 : kind == 2 ? numbers.between(-0.1, 0.1) : numbers.between(-180, 180);
+    return kind == 0   ? 0
+           : kind == 1 ? 90
+           : kind == 2 ? numbers.between(-0.1, 0.1)
+                       : numbers.between(-180, 180);
   };
   const Affine turned = turns(angle(), angle(), angle());
-  const double factor = numbers.whole(0, 2) == 0 ? 1 : six_digits(std::exp2(numbers.between(-9, 9)));
+  const double factor =
+      numbers.whole(0, 2) == 0 ? 1 : six_digits(std::exp2(numbers.between(-9, 9)));
   Affine exact = compose(scaling({factor, factor, factor}), turned);
   if (numbers.whole(0, 1) == 0) exact = compose(exact, mirror(kY));
   const Affine map = recovered(exact);
@@ -130,13 +139,15 @@ TEST_CASE("what is no rotation stays as it is written") {
     // Sheared, or scaled unevenly, by a little more than six digits can't tell.
     Affine change;
     const double little = numbers.between(1.2e-5, 1e-3);
-    change.m[static_cast<std::size_t>(numbers.whole(0, 2))][static_cast<std::size_t>(numbers.whole(0, 2))] += little;
-    const Affine map = six_digits(compose(turns(numbers.between(-180, 180), numbers.between(-180, 180), 30), change));
+    change.m[static_cast<std::size_t>(numbers.whole(0, 2))]
+            [static_cast<std::size_t>(numbers.whole(0, 2))] += little;
+    const Affine map = six_digits(
+        compose(turns(numbers.between(-180, 180), numbers.between(-180, 180), 30), change));
     INFO("i " << i << ", " << little);
     CHECK(recovered_rotation(map, 6) == map);
   }
-  for (const Affine& map : {scaling({1, 1, 1.00001}), scaling({0.333333, 0.333333, 0.333333}), translation({0.333333, 0, 1}),
-                            scaling({2, 3, -4})}) {
+  for (const Affine& map : {scaling({1, 1, 1.00001}), scaling({0.333333, 0.333333, 0.333333}),
+                            translation({0.333333, 0, 1}), scaling({2, 3, -4})}) {
     CHECK(recovered_rotation(map, 6) == map);
   }
   Affine sheared;
@@ -155,7 +166,8 @@ TEST_CASE("translations keep their digits") {
 TEST_CASE("a sphere under five nested rotations by 30 and 15 degrees stays one") {
   const std::string turned =
       "multmatrix([[1, 0, 0, 0], [0, 0.866025, -0.5, 0], [0, 0.5, 0.866025, 0], [0, 0, 0, 1]]) "
-      "multmatrix([[0.965926, -0.258819, 0, 0], [0.258819, 0.965926, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) ";
+      "multmatrix([[0.965926, -0.258819, 0, 0], [0.258819, 0.965926, 0, 0], [0, 0, 1, 0], [0, 0, "
+      "0, 1]]) ";
   std::string text;
   for (int i = 0; i < 5; ++i) text += turned;
   const Scene ball = scene_of(text + "sphere(r = 3);");

@@ -80,7 +80,9 @@ TEST_CASE("a mesh file has the digits of its longest number, a binary one seven"
 
 TEST_CASE("a scene from OpenSCAD has six digits, and so have its meshes from OpenSCAD") {
   struct Program : OpenscadProgram {
-    Result evaluate(const std::string&, Format) override { return {off_of("3.3333333333333335"), {}}; }
+    Result evaluate(const std::string&, Format) override {
+      return {off_of("3.3333333333333335"), {}};
+    }
   } program;
   OpenscadOptions options;
   options.program = &program;
