@@ -22,7 +22,8 @@ FlatOperation operation_of(FlatShape::Kind kind) {
 
 FlatLoop circle(const FlatMap& map) {
   FlatLoop loop;
-  for (int i = 0; i < kSides; ++i) loop.push_back(map({cos_degrees(360.0 * i / kSides), sin_degrees(360.0 * i / kSides)}));
+  for (int i = 0; i < kSides; ++i)
+    loop.push_back(map({cos_degrees(360.0 * i / kSides), sin_degrees(360.0 * i / kSides)}));
   if (map.determinant() < 0) std::reverse(loop.begin(), loop.end());
   return loop;
 }
@@ -76,7 +77,8 @@ bool are_apart(std::span<const FlatShape> shapes) {
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     for (std::size_t j = i + 1; j < polygons.size(); ++j) {
       const FlatLoops both[] = {polygons[i], polygons[j]};
-      if (!crossings_are_few(both) || !combined(FlatOperation::kIntersection, both).empty()) return false;
+      if (!crossings_are_few(both) || !combined(FlatOperation::kIntersection, both).empty())
+        return false;
     }
   }
   return true;

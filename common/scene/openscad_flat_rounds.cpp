@@ -12,7 +12,8 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is wider than that.
+/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is
+/// wider than that.
 constexpr double kFineFacets = 1e-4;
 constexpr double kMissingWidth = 1e-3;
 
@@ -40,17 +41,23 @@ bool is_convex(const FlatLoops& loops) {
 }
 
 /// Whether squares and products of such numbers can be told from 0 and infinity.
-bool is_sensible(double v) { return v == 0 || (std::fabs(v) >= 1 / kMaxOpenscadCoordinate && std::fabs(v) <= kMaxOpenscadCoordinate); }
+bool is_sensible(double v) {
+  return v == 0 ||
+         (std::fabs(v) >= 1 / kMaxOpenscadCoordinate && std::fabs(v) <= kMaxOpenscadCoordinate);
+}
 
 bool are_sensible(const FlatLoops& loops) {
   if (loops.empty()) return false;
   const auto [lo, hi] = flat_bounds(loops);
-  return is_sensible(std::max({std::fabs(lo.x), std::fabs(lo.y), std::fabs(hi.x), std::fabs(hi.y)}));
+  return is_sensible(
+      std::max({std::fabs(lo.x), std::fabs(lo.y), std::fabs(hi.x), std::fabs(hi.y)}));
 }
 
 bool are_few_and_sensible(std::span<const FlatDisk> disks) {
   for (const FlatDisk& d : disks) {
-    if (!is_sensible(d.radius) || !(std::max(std::fabs(d.center.x), std::fabs(d.center.y)) <= kMaxOpenscadCoordinate)) return false;
+    if (!is_sensible(d.radius) ||
+        !(std::max(std::fabs(d.center.x), std::fabs(d.center.y)) <= kMaxOpenscadCoordinate))
+      return false;
   }
   const auto round = static_cast<std::size_t>(
       std::count_if(disks.begin(), disks.end(), [](const FlatDisk& d) { return d.radius > 0; }));
@@ -91,7 +98,8 @@ const FlatShape* first_disk(const FlatShape& shape) {
 
 FlatMap inverse_of_linear(const FlatMap& map) {
   const double det = map.determinant();
-  return {{{{map.m[1][1] / det, -map.m[0][1] / det, 0}, {-map.m[1][0] / det, map.m[0][0] / det, 0}}}};
+  return {
+      {{{map.m[1][1] / det, -map.m[0][1] / det, 0}, {-map.m[1][0] / det, map.m[0][0] / det, 0}}}};
 }
 
 FlatShape united(std::vector<FlatShape> shapes) {
@@ -115,7 +123,8 @@ ExactFlat offset_of_polygon(const FlatShape& shape, double distance, int sides) 
   std::vector<FlatShape> parts;
   if (!offset->polygon.empty()) parts.push_back(shape_of(std::move(offset->polygon)));
   if (distance < 0 && parts.empty()) return {true, std::nullopt};
-  for (const FlatPoint& center : offset->centers) parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
+  for (const FlatPoint& center : offset->centers)
+    parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
   if (distance > 0 || parts.size() == 1) return {true, united(std::move(parts))};
   return {true, FlatShape{Kind::kDifference, {}, {}, 0, std::move(parts)}};
 }
@@ -136,11 +145,12 @@ FlatShape shape_of(RoundedPolygon rounded, int sides) {
   return result;
 }
 
-/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it meet. That is seen from
-/// Clipper's offset, with facets much finer than what could be missing.
+/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it
+/// meet. That is seen from Clipper's offset, with facets much finer than what could be missing.
 RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_round) {
   if (shape.kind == Kind::kPolygon && !are_sensible(shape.loops)) return {};
-  const RoundedPolygon given = shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
+  const RoundedPolygon given =
+      shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
   if (given.empty()) return {};
   auto result = moved(given, distance, is_round);
   if (!result) return {};
@@ -148,13 +158,15 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
   // Sides that cross, however little, are parts that have met.
   if (!crossings_are_few(std::span(&after, 1)) || resolved(after).size() != after.size()) return {};
-  const FlatLoops expected = offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
+  const FlatLoops expected =
+      offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
   if (!are_alike(after, expected, kMissingWidth * std::fabs(distance))) return {};
   return *std::move(result);
 }
 
-/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B shrunk is A shrunk − B grown.
-/// Shrinking distributes over a union of what is apart, and growing over holes that are apart and reach the outline nowhere.
+/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B
+/// shrunk is A shrunk − B grown. Shrinking distributes over a union of what is apart, and growing
+/// over holes that are apart and reach the outline nowhere.
 bool distributes(const FlatShape& shape, double distance) {
   if (shape.kind == Kind::kUnion) return distance > 0 || are_apart(shape.children);
   if (distance < 0) return true;
@@ -232,8 +244,9 @@ ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks) { return hull_of(dis
 ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
   const auto as_seen_from = [&](const FlatMap& map, const FlatMap& back) -> ExactFlat {
     std::vector<FlatDisk> disks;
-    const bool is_known =
-        std::all_of(parts.begin(), parts.end(), [&](const FlatShape& part) { return add_hull_disks(part, back, disks); });
+    const bool is_known = std::all_of(parts.begin(), parts.end(), [&](const FlatShape& part) {
+      return add_hull_disks(part, back, disks);
+    });
     return is_known ? hull_of(disks, map) : ExactFlat{};
   };
   if (ExactFlat hull = as_seen_from({}, {}); hull.is_exact) return hull;
