@@ -167,19 +167,21 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
 /// Growing distributes over unions, shrinking over intersections and what is taken off: A − B
 /// shrunk is A shrunk − B grown. Shrinking distributes over a union of what is apart, and growing
 /// over holes that are apart and reach the outline nowhere.
-bool distributes(const FlatShape& shape, double distance) {
-  if (shape.kind == Kind::kUnion) return distance > 0 || are_apart(shape.children);
-  if (distance < 0) return true;
+/// Where sharp corners stay sharp each outline moves by itself, which is the same as long as none meet.
+bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   const std::span<const FlatShape> all(shape.children);
+  const bool is_round = corners == FlatCorners::kRound;
+  if (shape.kind == Kind::kUnion) return (is_round && distance > 0) || are_apart(all);
+  if (is_round && distance < 0) return true;
   return shape.kind == Kind::kDifference && are_within_first(all) && are_apart(all.subspan(1));
 }
 
-ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides) {
-  if (!distributes(shape, distance)) return {};
+ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides, FlatCorners corners) {
+  if (!distributes(shape, distance, corners)) return {};
   FlatShape result{shape.kind, {}, {}, 0, {}};
   for (std::size_t i = 0; i < shape.children.size(); ++i) {
     const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
-    ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides);
+    ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides, corners);
     if (!child.is_exact) return {};
     if (child.shape) {
       result.children.push_back(*std::move(child.shape));
@@ -234,6 +236,9 @@ bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<Flat
     if (disk) disks.push_back(*disk);
     return disk.has_value();
   }
+  if (shape.kind == Kind::kDifference && are_within_first(shape.children)) {
+    return add_hull_disks(shape.children.front(), map, disks);
+  }
   if (shape.kind != Kind::kUnion) return false;
   return std::all_of(shape.children.begin(), shape.children.end(),
                      [&](const FlatShape& child) { return add_hull_disks(child, map, disks); });
@@ -267,7 +272,10 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
   if (shape.kind == Kind::kDisk) return offset_of_disk(shape, distance);
   const bool is_round = corners == FlatCorners::kRound;
   RoundedPolygon rounded = moved_outline(shape, distance, is_round);
-  std::vector<FlatDisk> disks = is_round ? disks_of_convex(shape) : std::vector<FlatDisk>{};
+  std::vector<FlatDisk> disks = disks_of_convex(shape);
+  // Without sharp corners both kinds are the same.
+  const auto is_smooth = [&](const FlatDisk& d) { return is_round || d.radius > 0; };
+  if (!std::all_of(disks.begin(), disks.end(), is_smooth)) disks.clear();
   const auto stays = [&](const FlatDisk& d) { return d.radius + distance >= 0; };
   if (!disks.empty() && std::all_of(disks.begin(), disks.end(), stays)) {
     for (FlatDisk& d : disks) d = {d.center, d.radius + distance, d.sides > 0 ? d.sides : sides};
@@ -276,9 +284,8 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
     return hull;
   }
   if (!rounded.empty()) return {true, shape_of(std::move(rounded), sides)};
-  if (!is_round) return {};
-  if (shape.kind == Kind::kPolygon) return offset_of_polygon(shape, distance, sides);
-  return offset_of_operation(shape, distance, sides);
+  if (shape.kind != Kind::kPolygon) return offset_of_operation(shape, distance, sides, corners);
+  return is_round ? offset_of_polygon(shape, distance, sides) : ExactFlat{};
 }
 
 }  // namespace graycube

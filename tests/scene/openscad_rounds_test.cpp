@@ -234,6 +234,28 @@ TEST_CASE("holes shrink when a plate grows, and parts that are apart shrink each
             .size() == 1);
 }
 
+TEST_CASE("what has no sharp corner grows alike by both kinds of offset") {
+  const std::string slot = "hull() { circle(r = 2); " + kMoved + "circle(r = 1); }";
+  const auto objects = [&](const std::string& offset) {
+    return scene_of("linear_extrude(height = 3) " + offset + slot).objects;
+  };
+  CHECK(objects("offset(delta = 1.5) ") == objects("offset(r = 1.5) "));
+  CHECK(objects("offset(delta = 1) ") != objects("offset(r = 1.5) "));
+}
+
+TEST_CASE("holes count neither in a hull nor in the way of sharp corners") {
+  const std::string plate =
+      "difference() { square(size = [10, 8]); multmatrix([[1, 0, 0, 5], [0, 1, 0, 4]]) circle(r = 2); }";
+  const Scene hull = scene_of("linear_extrude(height = 3) hull() { circle(r = 1); " + plate + " }");
+  CHECK((any_object_holds(hull, {5, 4, 1}) && any_object_holds(hull, {-0.99, 0, 1}) &&
+         !any_object_holds(hull, {-0.9, -0.9, 1})));
+  const std::string text = "linear_extrude(height = 3) offset(delta = 1) " + plate;
+  CHECK(warnings_of(text).empty());
+  const Scene grown = scene_of(text);
+  CHECK((any_object_holds(grown, {-0.99, -0.99, 1}) && any_object_holds(grown, {6.01, 4, 1}) &&
+         !any_object_holds(grown, {5.7, 4.7, 1}) && any_object_holds(grown, {5.71, 4.71, 1})));
+}
+
 TEST_CASE("any polygon and a convex figure add up") {
   const auto grown = [](double low, double high, double margin_x, double margin_y) {
     return [=](const Vec3& p) {
