@@ -157,9 +157,9 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   const double fine = kFineFacets * std::fabs(distance);
   const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
   // Sides that cross, however little, are parts that have met.
-  if (!crossings_are_few(std::span(&after, 1)) || resolved(after).size() != after.size()) return {};
+  if (!crossings_are_few(std::span(&after, 1)) || resolved_count(after) != after.size()) return {};
   const FlatLoops expected =
-      offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
+      offset_simple(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
   if (!are_alike(after, expected, kMissingWidth * std::fabs(distance))) return {};
   return *std::move(result);
 }
@@ -167,7 +167,8 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
 /// Growing distributes over unions, shrinking over intersections and what is taken off: A − B
 /// shrunk is A shrunk − B grown. Shrinking distributes over a union of what is apart, and growing
 /// over holes that are apart and reach the outline nowhere.
-/// Where sharp corners stay sharp each outline moves by itself, which is the same as long as none meet.
+/// Where sharp corners stay sharp each outline moves by itself, which is the same as long as none
+/// meet.
 bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   const std::span<const FlatShape> all(shape.children);
   const bool is_round = corners == FlatCorners::kRound;
@@ -176,12 +177,14 @@ bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   return shape.kind == Kind::kDifference && are_within_first(all) && are_apart(all.subspan(1));
 }
 
-ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides, FlatCorners corners) {
+ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides,
+                              FlatCorners corners) {
   if (!distributes(shape, distance, corners)) return {};
   FlatShape result{shape.kind, {}, {}, 0, {}};
   for (std::size_t i = 0; i < shape.children.size(); ++i) {
     const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
-    ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides, corners);
+    ExactFlat child =
+        exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides, corners);
     if (!child.is_exact) return {};
     if (child.shape) {
       result.children.push_back(*std::move(child.shape));

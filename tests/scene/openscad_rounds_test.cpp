@@ -245,7 +245,8 @@ TEST_CASE("what has no sharp corner grows alike by both kinds of offset") {
 
 TEST_CASE("holes count neither in a hull nor in the way of sharp corners") {
   const std::string plate =
-      "difference() { square(size = [10, 8]); multmatrix([[1, 0, 0, 5], [0, 1, 0, 4]]) circle(r = 2); }";
+      "difference() { square(size = [10, 8]); multmatrix([[1, 0, 0, 5], [0, 1, 0, 4]]) circle(r = "
+      "2); }";
   const Scene hull = scene_of("linear_extrude(height = 3) hull() { circle(r = 1); " + plate + " }");
   CHECK((any_object_holds(hull, {5, 4, 1}) && any_object_holds(hull, {-0.99, 0, 1}) &&
          !any_object_holds(hull, {-0.9, -0.9, 1})));
