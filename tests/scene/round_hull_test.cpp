@@ -5,8 +5,10 @@
 #include <random>
 
 #include "convex_oracle.hpp"
+#include "scene/read_scene.hpp"
 #include "scene/round_solid.hpp"
 #include "scene/scene_membership.hpp"
+#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -165,6 +167,25 @@ TEST_CASE("what others hide leaves no piece behind") {
   REQUIRE((plain && full));
   CHECK(count_of(*plain) == 1 + 3 + 3);
   CHECK(count_of(*full) == count_of(*plain));
+}
+
+TEST_CASE("whatever hull there is can be written as a scene file and read again") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    std::mt19937_64 random(seed);
+    const RoundKind kind = seed % 2 == 0 ? RoundKind::kBalls : RoundKind::kDiscs;
+    auto scene = hull_scene(kind, random_rounds(random, 2 + seed % 11, kind));
+    if (!scene) continue;
+    scene->settings.image = {64, 64, 1};
+    scene->settings.camera.eye = {0, 0, 30};
+    scene->settings.camera.up = {0, 1, 0};
+    scene->settings.camera.fov_degrees = 30;
+    scene->materials.push_back({"plain", {}});
+    scene->objects.front().material = 0;
+    const ReadResult result = read_scene_text(std::string_view(write_scene_text(*scene)));
+    INFO("seed " << seed);
+    for (const auto& error : result.errors) UNSCOPED_INFO(error.message);
+    CHECK(result.errors.empty());
+  }
 }
 
 TEST_CASE("discs at one height enclose nothing") {
