@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/flat_offset.hpp"
+
 namespace graycube {
 namespace {
 
@@ -16,7 +18,7 @@ FlatShape united(std::vector<FlatShape> shapes) {
 }
 
 ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDisk>& b) {
-  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundedCorners) return {};
+  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundCorners) return {};
   std::vector<FlatDisk> sums;
   for (const FlatDisk& p : a) {
     for (const FlatDisk& q : b) {
@@ -32,8 +34,8 @@ ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDis
 ExactFlat sum_of_polygon(const FlatShape& polygon, const std::vector<FlatDisk>& convex) {
   std::size_t corners = 0;
   for (const FlatLoop& loop : polygon.loops) corners += loop.size();
-  if (corners > kMaxRoundedCorners ||
-      corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundedCorners)
+  if (corners > kMaxRoundCorners ||
+      corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundCorners)
     return {};
   const FlatPoint to = convex.front().center;
   std::vector<FlatShape> parts;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/flat_offset.hpp"
 #include "scene/flat_pieces.hpp"
 
 namespace graycube {
@@ -127,7 +128,7 @@ std::vector<FlatPoint> directions_between(const Arc& arc, double radius, double 
 RoundedPolygon sharp_polygon(const FlatLoops& loops) {
   std::size_t corners = 0;
   for (const FlatLoop& loop : loops) corners += loop.size();
-  if (corners > kMaxRoundedCorners) return {};
+  if (corners > kMaxRoundCorners) return {};
   RoundedPolygon polygon;
   for (const FlatLoop& loop : loops)
     polygon.push_back({loop, std::vector<double>(loop.size(), 0.0)});

@@ -18,10 +18,6 @@ struct RoundedLoop {
 };
 using RoundedPolygon = std::vector<RoundedLoop>;
 
-/// Polygons of more corners aren't rounded so: they are no outlines with corners but curves made of
-/// facets.
-inline constexpr std::size_t kMaxRoundedCorners = 256;
-
 /// Outlines counter-clockwise and holes clockwise, as Clipper leaves them; empty beyond
 /// kMaxRoundedCorners.
 RoundedPolygon sharp_polygon(const FlatLoops& loops);
