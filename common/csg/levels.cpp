@@ -82,7 +82,9 @@ void Planes::add_plane(std::span<const Extent> plane, const std::vector<Level>& 
   const std::size_t first = levels_.size();
   for (const Extent& e : plane) levels_.push_back(given[e.item]);
   ends_.push_back(levels_.size());
-  has_shared_ = has_shared_ || is_shared(std::span(levels_).subspan(first));
+  const auto added = std::span(levels_).subspan(first);
+  const bool is_equal = std::all_of(added.begin(), added.end(), [&](const Level& f) { return f.own == added.front().own; });
+  has_unequal_ = has_unequal_ || (!is_equal && is_shared(added));
 }
 
 double Planes::best_offset(std::span<const Level> plane) {

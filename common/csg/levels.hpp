@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "csg/clusters.hpp"
+#include "csg/plane.hpp"
 
 namespace graycube::csg {
 
 /// A face as seen along the direction of its group.
 struct Level {
+  /// As it is, turned to the side that the direction looks to.
+  Plane own;
   double offset = 0;
   double tolerance = 0;
   std::uint32_t primitive = 0;
@@ -30,8 +33,8 @@ class Planes {
  public:
   explicit Planes(std::vector<Level> levels);
 
-  /// Whether faces of different primitives lie in one plane.
-  bool has_shared() const { return has_shared_; }
+  /// Whether faces of different primitives lie in one plane that don't agree to the bit.
+  bool has_unequal() const { return has_unequal_; }
 
   /// Calls visit(levels of one plane, its offset) for each; the offset is that of the face that is known best.
   template <typename Visit>
@@ -52,7 +55,7 @@ class Planes {
   std::vector<Level> levels_;
   /// Where each plane's levels end.
   std::vector<std::size_t> ends_;
-  bool has_shared_ = false;
+  bool has_unequal_ = false;
 };
 
 }  // namespace graycube::csg

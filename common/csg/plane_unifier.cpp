@@ -122,9 +122,10 @@ Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const 
   level.primitive = primitive;
   level.slot = slot;
   level.is_backward = dot(direction, plane.normal) < 0;
-  level.has_direction = (level.is_backward ? -plane.normal : plane.normal) == direction;
+  level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
+  level.has_direction = level.own.normal == direction;
   // Otherwise it is turned about its middle.
-  level.offset = !level.has_direction ? dot(direction, anchor) : level.is_backward ? -plane.offset : plane.offset;
+  level.offset = level.has_direction ? level.own.offset : dot(direction, anchor);
   const Vec3 position = exactness_[primitive].position();
   // What faces in one plane but far apart come to, seen along a direction that is a little off.
   const double beside = length(anchor - level.offset * direction);
@@ -136,9 +137,9 @@ Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const 
 /// Of faces whose normals are one direction, or its opposite.
 void PlaneUnifier::unify_offsets(const Vec3& direction, std::vector<Level> group) {
   const Planes planes(std::move(group));
-  // Where no planes coincide, normals that differ in their last places may go on doing so. Where some do, all get the same, and
-  // opposite faces go on having one normal.
-  if (!planes.has_shared()) return;
+  // Where no planes coincide, or all that do are equal already, normals that differ in their last places may go on doing so.
+  // Otherwise all get the same, and opposite faces go on having one normal.
+  if (!planes.has_unequal()) return;
   planes.for_each([&](std::span<const Level> plane, double offset) {
     const bool is_shared_plane = is_shared(plane);
     for (const Level& f : plane) set(f, direction, offset, is_shared_plane);

@@ -30,7 +30,8 @@ void CircleArcs::keep(double a, double b, double c, double tolerance, std::size_
 }
 
 void CircleArcs::keep_between(const End& from, const End& to) {
-  const double length = to.position > from.position ? to.position - from.position : to.position + 4 - from.position;
+  const double length =
+      to.position > from.position ? to.position - from.position : to.position + 4 - from.position;
   std::vector<Arc> kept;
   for (const Arc& arc : arcs_) {
     if (arc.is_whole()) {
@@ -45,7 +46,8 @@ void CircleArcs::keep_between(const End& from, const End& to) {
       if (part.to.position - part.from.position >= kLeastArc) kept.push_back(part);
     }
   }
-  std::erase_if(kept, [](const Arc& arc) { return arc.to.position - arc.from.position < kLeastArc; });
+  std::erase_if(kept,
+                [](const Arc& arc) { return arc.to.position - arc.from.position < kLeastArc; });
   arcs_ = std::move(kept);
 }
 

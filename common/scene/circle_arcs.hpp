@@ -8,11 +8,12 @@
 
 namespace graycube {
 
-/// Closed arcs, none shorter than kLeastArc. Positions on the circle are measured without trigonometry, whose last bits
-/// differ between machines: 0 to 4 once around, |x| + |y| being 1.
+/// Closed arcs, none shorter than kLeastArc. Positions on the circle are measured without
+/// trigonometry, whose last bits differ between machines: 0 to 4 once around, |x| + |y| being 1.
 class CircleArcs {
  public:
-  /// Shorter arcs are points by rounding. (Leaving one out moves the surface of a unit circle by 1e-15.)
+  /// Shorter arcs are points by rounding. (Leaving one out moves the surface of a unit circle by
+  /// 1e-15.)
   static constexpr double kLeastArc = 1e-7;
   static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 

@@ -9,7 +9,8 @@
 namespace graycube {
 namespace {
 
-/// A side lies on a line when its ends do, within this share of the largest coordinate: some of Clipper's steps.
+/// A side lies on a line when its ends do, within this share of the largest coordinate: some of
+/// Clipper's steps.
 constexpr double kOnLine = 0x1p-37;
 /// Lines that cross at less than this sine don't tell a corner's place.
 constexpr double kLeastSine = 1e-3;
@@ -66,7 +67,9 @@ class Lines {
 };
 
 void move_corners(FlatLoop& loop, const Lines& lines, const FlatLoop& known, double tolerance) {
-  const auto is_known = [&](const FlatPoint& p) { return std::find(known.begin(), known.end(), p) != known.end(); };
+  const auto is_known = [&](const FlatPoint& p) {
+    return std::find(known.begin(), known.end(), p) != known.end();
+  };
   const FlatLoop old = loop;
   const FlatEdge* before = lines.through(old.back(), old.front());
   for (std::size_t i = 0; i < old.size(); ++i) {
@@ -74,7 +77,8 @@ void move_corners(FlatLoop& loop, const Lines& lines, const FlatLoop& known, dou
     if (before != nullptr && after != nullptr && !is_known(old[i])) {
       const auto p = crossing(*before, *after);
       const double allowed = tolerance / kLeastSine;
-      if (p && std::fabs(p->x - old[i].x) <= allowed && std::fabs(p->y - old[i].y) <= allowed) loop[i] = *p;
+      if (p && std::fabs(p->x - old[i].x) <= allowed && std::fabs(p->y - old[i].y) <= allowed)
+        loop[i] = *p;
     }
     before = after;
   }
@@ -108,11 +112,13 @@ std::optional<RoundOffset> round_offset(const FlatLoops& loops, double distance)
   const int rounded_turn = distance > 0 ? 1 : -1;
   for (const FlatLoop& loop : polygon) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const FlatPoint &before = loop[(i + loop.size() - 1) % loop.size()], &after = loop[(i + 1) % loop.size()];
+      const FlatPoint &before = loop[(i + loop.size() - 1) % loop.size()],
+                      &after = loop[(i + 1) % loop.size()];
       if (orientation(before, loop[i], after) == rounded_turn) result.centers.push_back(loop[i]);
     }
   }
-  result.polygon = combined(distance > 0 ? FlatOperation::kUnion : FlatOperation::kDifference, operands);
+  result.polygon =
+      combined(distance > 0 ? FlatOperation::kUnion : FlatOperation::kDifference, operands);
   result.polygon = on_lines(std::move(result.polygon), polygon, distance);
   return result;
 }

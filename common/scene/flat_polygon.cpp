@@ -303,17 +303,52 @@ std::vector<FlatRegion> regions_of(const FlatLoops& loops) {
   return regions;
 }
 
-FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance) {
-  Grid grid(std::span(&loops, 1), std::fabs(distance));
+namespace {
+
+FlatLoops offset_paths(Grid& grid, const ClipperLib::Paths& paths, double distance, FlatJoin join,
+                       double arc_tolerance) {
   ClipperLib::ClipperOffset clipper(join == FlatJoin::kMiter ? kMiterLimit : 2.0,
                                     join == FlatJoin::kRound ? arc_tolerance / grid.unit() : 1.0);
   const ClipperLib::JoinType kind = join == FlatJoin::kRound   ? ClipperLib::jtRound
                                     : join == FlatJoin::kMiter ? ClipperLib::jtMiter
                                                                : ClipperLib::jtSquare;
-  clipper.AddPaths(simplified(grid.placed(loops)), kind, ClipperLib::etClosedPolygon);
+  clipper.AddPaths(paths, kind, ClipperLib::etClosedPolygon);
   ClipperLib::Paths result;
   clipper.Execute(result, distance / grid.unit());
   return grid.taken_back(result);
+}
+
+}  // namespace
+
+FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance) {
+  Grid grid(std::span(&loops, 1), std::fabs(distance));
+  return offset_paths(grid, simplified(grid.placed(loops)), distance, join, arc_tolerance);
+}
+
+FlatLoops offset_simple(const FlatLoops& loops, double distance, FlatJoin join,
+                        double arc_tolerance) {
+  Grid grid(std::span(&loops, 1), std::fabs(distance));
+  return offset_paths(grid, grid.placed(loops), distance, join, arc_tolerance);
+}
+
+bool is_covered(const FlatLoops& inner, const FlatLoops& outer) {
+  const FlatLoops both[] = {inner, outer};
+  Grid grid(both);
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(grid.placed(inner), ClipperLib::ptSubject, true);
+  clipper.AddPaths(grid.placed(outer), ClipperLib::ptClip, true);
+  ClipperLib::Paths rest;
+  clipper.Execute(ClipperLib::ctDifference, rest, ClipperLib::pftEvenOdd, ClipperLib::pftEvenOdd);
+  return rest.empty();
+}
+
+std::size_t resolved_count(const FlatLoops& loops) {
+  Grid grid(std::span(&loops, 1));
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(grid.placed(loops), ClipperLib::ptSubject, true);
+  ClipperLib::Paths result;
+  clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftEvenOdd);
+  return result.size();
 }
 
 }  // namespace graycube

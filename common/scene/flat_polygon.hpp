@@ -73,4 +73,13 @@ enum class FlatJoin : std::uint8_t { kRound, kMiter, kSquare };
 /// Grown by `distance` everywhere, shrunk if negative. Round joins have corners at most `arc_tolerance` > 0 off the arc.
 FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance);
 
+/// For fine outlines, whose touching corners nobody asks for: the above takes quadratic time to separate these.
+/// Loops that don't cross, outlines counter-clockwise and holes clockwise, grown or shrunk.
+FlatLoops offset_simple(const FlatLoops& loops, double distance, FlatJoin join,
+                        double arc_tolerance);
+/// Whether the second holds all of the first; both even-odd.
+bool is_covered(const FlatLoops& inner, const FlatLoops& outer);
+/// How many loops are left when crossings are resolved.
+std::size_t resolved_count(const FlatLoops& loops);
+
 }  // namespace graycube

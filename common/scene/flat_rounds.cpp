@@ -16,14 +16,17 @@ double extent_of(std::span<const FlatDisk> disks) {
   double extent = 0;
   const FlatPoint origin = disks.front().center;
   for (const FlatDisk& d : disks) {
-    extent = std::max({extent, d.radius + std::fabs(d.center.x - origin.x), d.radius + std::fabs(d.center.y - origin.y)});
+    extent = std::max({extent, d.radius + std::fabs(d.center.x - origin.x),
+                       d.radius + std::fabs(d.center.y - origin.y)});
   }
   return extent;
 }
 
-/// The unit normals of the two tangents that have both disks on one side: first that with `b` on its left seen from `a`.
+/// The unit normals of the two tangents that have both disks on one side: first that with `b` on
+/// its left seen from `a`.
 std::pair<FlatPoint, FlatPoint> tangent_normals(const FlatDisk& a, const FlatDisk& b) {
-  const double dx = b.center.x - a.center.x, dy = b.center.y - a.center.y, narrowing = a.radius - b.radius;
+  const double dx = b.center.x - a.center.x, dy = b.center.y - a.center.y,
+               narrowing = a.radius - b.radius;
   if (narrowing == 0) {
     const double l = std::sqrt(dx * dx + dy * dy);
     return {{-dy / l, dx / l}, {dy / l, -dx / l}};
@@ -35,7 +38,8 @@ std::pair<FlatPoint, FlatPoint> tangent_normals(const FlatDisk& a, const FlatDis
 }
 
 /// Where the tangent next to `direction` touches both.
-std::array<FlatPoint, 2> touching_points(const FlatDisk& a, const FlatDisk& b, const FlatPoint& direction) {
+std::array<FlatPoint, 2> touching_points(const FlatDisk& a, const FlatDisk& b,
+                                         const FlatPoint& direction) {
   const auto [left, right] = tangent_normals(a, b);
   const auto along = [&](const FlatPoint& n) { return n.x * direction.x + n.y * direction.y; };
   const FlatPoint n = along(left) >= along(right) ? left : right;
@@ -43,8 +47,10 @@ std::array<FlatPoint, 2> touching_points(const FlatDisk& a, const FlatDisk& b, c
           FlatPoint{b.center.x + b.radius * n.x, b.center.y + b.radius * n.y}};
 }
 
-/// The directions in which no other disk reaches further than this one. Of equal disks the first counts.
-CircleArcs foremost_directions(std::span<const FlatDisk> disks, std::size_t which, double tolerance) {
+/// The directions in which no other disk reaches further than this one. Of equal disks the first
+/// counts.
+CircleArcs foremost_directions(std::span<const FlatDisk> disks, std::size_t which,
+                               double tolerance) {
   CircleArcs arcs;
   const FlatDisk& own = disks[which];
   for (std::size_t k = 0; k < disks.size() && !arcs.is_empty(); ++k) {

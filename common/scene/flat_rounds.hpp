@@ -1,4 +1,5 @@
-// Convex hulls of disks and points of the plane, exactly: disks, and the polygon of the points where tangents touch.
+// Convex hulls of disks and points of the plane, exactly: disks, and the polygon of the points
+// where tangents touch.
 #pragma once
 
 #include <cstddef>

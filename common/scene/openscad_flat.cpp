@@ -169,7 +169,8 @@ class FlatReader {
     const double r = arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
     const ScadFineness fineness = fineness_of(arguments);
     if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive")) return std::nullopt;
-    FlatShape disk{Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness)};
+    FlatShape disk{
+        Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness)};
     const int few = asked_sides(fineness);
     if (!import_.options.facets && few == 0) return disk;
     return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0};
@@ -248,20 +249,23 @@ class FlatReader {
       return join == FlatJoin::kMiter ? on_lines(std::move(result), *loops, distance) : result;
     };
     const bool may_be_round = is_round && asked_sides(fineness) == 0;
-    const bool may_be_moved = may_be_round || inner->kind == Kind::kDisk || (join == FlatJoin::kMiter && inner->has_curves());
+    const bool may_be_moved = may_be_round || inner->kind == Kind::kDisk ||
+                              (join == FlatJoin::kMiter && inner->has_curves());
     if (!import_.options.facets && may_be_moved) {
       const FlatCorners corners = is_round ? FlatCorners::kRound : FlatCorners::kSharp;
       if (auto exact = exact_offset(*inner, distance, sides, corners); exact.is_exact) {
         return with_own_facets(std::move(exact.shape), with_facets, map);
       }
     }
-    if (inner->has_curves() || (may_be_round && !import_.options.facets)) import_.warn_of_sides(module.name, module.line);
+    if (inner->has_curves() || (may_be_round && !import_.options.facets))
+      import_.warn_of_sides(module.name, module.line);
     return of_loops(with_facets(), map, module.line);
   }
 
   /// A shape with curves keeps the polygon that OpenSCAD makes of it.
   template <typename WithFacets>
-  static std::optional<FlatShape> with_own_facets(std::optional<FlatShape> shape, const WithFacets& with_facets,
+  static std::optional<FlatShape> with_own_facets(std::optional<FlatShape> shape,
+                                                  const WithFacets& with_facets,
                                                   const FlatMap& map) {
     if (!shape) return std::nullopt;
     if (shape->kind != Kind::kDisk && shape->has_curves()) shape->facets = with_facets();
@@ -289,7 +293,8 @@ class FlatReader {
       FlatLoop loop = flat_hull(std::move(points));
       return loop.size() < 3 ? FlatLoops{} : FlatLoops{std::move(loop)};
     };
-    if (std::any_of(parts.begin(), parts.end(), [](const FlatShape& part) { return part.has_curves(); })) {
+    if (std::any_of(parts.begin(), parts.end(),
+                    [](const FlatShape& part) { return part.has_curves(); })) {
       auto exact = exact_flat_hull(parts);
       if (exact.is_exact) return with_own_facets(std::move(exact.shape), with_facets, {});
       import_.warn_of_sides(module.name, module.line);

@@ -28,7 +28,8 @@ struct FlatShape {
   std::vector<FlatDisk> hull{};
   /// OpenSCAD's polygon for it where that isn't made of its children's.
   FlatLoops facets{};
-  /// The shape as a polygon with rounded corners; empty where it isn't known as one. Polygons are such themselves.
+  /// The shape as a polygon with rounded corners; empty where it isn't known as one. Polygons are
+  /// such themselves.
   RoundedPolygon rounded{};
 
   bool has_curves() const;

@@ -22,7 +22,8 @@ FlatOperation operation_of(FlatShape::Kind kind) {
 
 FlatLoop circle(const FlatMap& map) {
   FlatLoop loop;
-  for (int i = 0; i < kSides; ++i) loop.push_back(map({cos_degrees(360.0 * i / kSides), sin_degrees(360.0 * i / kSides)}));
+  for (int i = 0; i < kSides; ++i)
+    loop.push_back(map({cos_degrees(360.0 * i / kSides), sin_degrees(360.0 * i / kSides)}));
   if (map.determinant() < 0) std::reverse(loop.begin(), loop.end());
   return loop;
 }
@@ -63,7 +64,15 @@ std::vector<FlatLoops> fine_polygons(std::span<const FlatShape> shapes, double& 
 }
 
 FlatLoops grown(const FlatLoops& loops, double distance) {
-  return loops.empty() ? loops : offset(loops, distance, FlatJoin::kSquare, std::fabs(distance));
+  if (loops.empty()) return loops;
+  return offset_simple(loops, distance, FlatJoin::kSquare, std::fabs(distance));
+}
+
+bool boxes_overlap(const FlatLoops& a, const FlatLoops& b) {
+  if (a.empty() || b.empty()) return false;
+  const auto [a_lo, a_hi] = flat_bounds(a);
+  const auto [b_lo, b_hi] = flat_bounds(b);
+  return a_lo.x <= b_hi.x && b_lo.x <= a_hi.x && a_lo.y <= b_hi.y && b_lo.y <= a_hi.y;
 }
 
 }  // namespace
@@ -75,8 +84,10 @@ bool are_apart(std::span<const FlatShape> shapes) {
   for (FlatLoops& loops : polygons) loops = grown(loops, near);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     for (std::size_t j = i + 1; j < polygons.size(); ++j) {
+      if (!boxes_overlap(polygons[i], polygons[j])) continue;
       const FlatLoops both[] = {polygons[i], polygons[j]};
-      if (!crossings_are_few(both) || !combined(FlatOperation::kIntersection, both).empty()) return false;
+      if (!crossings_are_few(both) || !combined(FlatOperation::kIntersection, both).empty())
+        return false;
     }
   }
   return true;
@@ -89,7 +100,7 @@ bool are_within_first(std::span<const FlatShape> shapes) {
   const FlatLoops core = grown(polygons.front(), -near);
   return std::all_of(polygons.begin() + 1, polygons.end(), [&](const FlatLoops& loops) {
     const FlatLoops both[] = {grown(loops, near), core};
-    return crossings_are_few(both) && combined(FlatOperation::kDifference, both).empty();
+    return crossings_are_few(both) && is_covered(both[0], both[1]);
   });
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is wider than that.
+/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is
+/// wider than that.
 constexpr double kFineFacets = 1e-4;
 constexpr double kMissingWidth = 1e-3;
 
@@ -40,17 +41,23 @@ bool is_convex(const FlatLoops& loops) {
 }
 
 /// Whether squares and products of such numbers can be told from 0 and infinity.
-bool is_sensible(double v) { return v == 0 || (std::fabs(v) >= 1 / kMaxOpenscadCoordinate && std::fabs(v) <= kMaxOpenscadCoordinate); }
+bool is_sensible(double v) {
+  return v == 0 ||
+         (std::fabs(v) >= 1 / kMaxOpenscadCoordinate && std::fabs(v) <= kMaxOpenscadCoordinate);
+}
 
 bool are_sensible(const FlatLoops& loops) {
   if (loops.empty()) return false;
   const auto [lo, hi] = flat_bounds(loops);
-  return is_sensible(std::max({std::fabs(lo.x), std::fabs(lo.y), std::fabs(hi.x), std::fabs(hi.y)}));
+  return is_sensible(
+      std::max({std::fabs(lo.x), std::fabs(lo.y), std::fabs(hi.x), std::fabs(hi.y)}));
 }
 
 bool are_few_and_sensible(std::span<const FlatDisk> disks) {
   for (const FlatDisk& d : disks) {
-    if (!is_sensible(d.radius) || !(std::max(std::fabs(d.center.x), std::fabs(d.center.y)) <= kMaxOpenscadCoordinate)) return false;
+    if (!is_sensible(d.radius) ||
+        !(std::max(std::fabs(d.center.x), std::fabs(d.center.y)) <= kMaxOpenscadCoordinate))
+      return false;
   }
   const auto round = static_cast<std::size_t>(
       std::count_if(disks.begin(), disks.end(), [](const FlatDisk& d) { return d.radius > 0; }));
@@ -91,7 +98,8 @@ const FlatShape* first_disk(const FlatShape& shape) {
 
 FlatMap inverse_of_linear(const FlatMap& map) {
   const double det = map.determinant();
-  return {{{{map.m[1][1] / det, -map.m[0][1] / det, 0}, {-map.m[1][0] / det, map.m[0][0] / det, 0}}}};
+  return {
+      {{{map.m[1][1] / det, -map.m[0][1] / det, 0}, {-map.m[1][0] / det, map.m[0][0] / det, 0}}}};
 }
 
 FlatShape united(std::vector<FlatShape> shapes) {
@@ -115,7 +123,8 @@ ExactFlat offset_of_polygon(const FlatShape& shape, double distance, int sides) 
   std::vector<FlatShape> parts;
   if (!offset->polygon.empty()) parts.push_back(shape_of(std::move(offset->polygon)));
   if (distance < 0 && parts.empty()) return {true, std::nullopt};
-  for (const FlatPoint& center : offset->centers) parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
+  for (const FlatPoint& center : offset->centers)
+    parts.push_back(shape_of(FlatDisk{center, std::fabs(distance), sides}));
   if (distance > 0 || parts.size() == 1) return {true, united(std::move(parts))};
   return {true, FlatShape{Kind::kDifference, {}, {}, 0, std::move(parts)}};
 }
@@ -136,38 +145,46 @@ FlatShape shape_of(RoundedPolygon rounded, int sides) {
   return result;
 }
 
-/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it meet. That is seen from
-/// Clipper's offset, with facets much finer than what could be missing.
+/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it
+/// meet. That is seen from Clipper's offset, with facets much finer than what could be missing.
 RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_round) {
   if (shape.kind == Kind::kPolygon && !are_sensible(shape.loops)) return {};
-  const RoundedPolygon given = shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
+  const RoundedPolygon given =
+      shape.kind == Kind::kPolygon ? sharp_polygon(shape.loops) : shape.rounded;
   if (given.empty()) return {};
   auto result = moved(given, distance, is_round);
   if (!result) return {};
   const double fine = kFineFacets * std::fabs(distance);
   const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
   // Sides that cross, however little, are parts that have met.
-  if (!crossings_are_few(std::span(&after, 1)) || resolved(after).size() != after.size()) return {};
-  const FlatLoops expected = offset(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
+  if (!crossings_are_few(std::span(&after, 1)) || resolved_count(after) != after.size()) return {};
+  const FlatLoops expected =
+      offset_simple(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
   if (!are_alike(after, expected, kMissingWidth * std::fabs(distance))) return {};
   return *std::move(result);
 }
 
-/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B shrunk is A shrunk − B grown.
-/// Shrinking distributes over a union of what is apart, and growing over holes that are apart and reach the outline nowhere.
-bool distributes(const FlatShape& shape, double distance) {
-  if (shape.kind == Kind::kUnion) return distance > 0 || are_apart(shape.children);
-  if (distance < 0) return true;
+/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B
+/// shrunk is A shrunk − B grown. Shrinking distributes over a union of what is apart, and growing
+/// over holes that are apart and reach the outline nowhere.
+/// Where sharp corners stay sharp each outline moves by itself, which is the same as long as none
+/// meet.
+bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   const std::span<const FlatShape> all(shape.children);
+  const bool is_round = corners == FlatCorners::kRound;
+  if (shape.kind == Kind::kUnion) return (is_round && distance > 0) || are_apart(all);
+  if (is_round && distance < 0) return true;
   return shape.kind == Kind::kDifference && are_within_first(all) && are_apart(all.subspan(1));
 }
 
-ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides) {
-  if (!distributes(shape, distance)) return {};
+ExactFlat offset_of_operation(const FlatShape& shape, double distance, int sides,
+                              FlatCorners corners) {
+  if (!distributes(shape, distance, corners)) return {};
   FlatShape result{shape.kind, {}, {}, 0, {}};
   for (std::size_t i = 0; i < shape.children.size(); ++i) {
     const bool is_taken_off = shape.kind == Kind::kDifference && i > 0;
-    ExactFlat child = exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides);
+    ExactFlat child =
+        exact_offset(shape.children[i], is_taken_off ? -distance : distance, sides, corners);
     if (!child.is_exact) return {};
     if (child.shape) {
       result.children.push_back(*std::move(child.shape));
@@ -222,6 +239,9 @@ bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<Flat
     if (disk) disks.push_back(*disk);
     return disk.has_value();
   }
+  if (shape.kind == Kind::kDifference && are_within_first(shape.children)) {
+    return add_hull_disks(shape.children.front(), map, disks);
+  }
   if (shape.kind != Kind::kUnion) return false;
   return std::all_of(shape.children.begin(), shape.children.end(),
                      [&](const FlatShape& child) { return add_hull_disks(child, map, disks); });
@@ -232,8 +252,9 @@ ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks) { return hull_of(dis
 ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
   const auto as_seen_from = [&](const FlatMap& map, const FlatMap& back) -> ExactFlat {
     std::vector<FlatDisk> disks;
-    const bool is_known =
-        std::all_of(parts.begin(), parts.end(), [&](const FlatShape& part) { return add_hull_disks(part, back, disks); });
+    const bool is_known = std::all_of(parts.begin(), parts.end(), [&](const FlatShape& part) {
+      return add_hull_disks(part, back, disks);
+    });
     return is_known ? hull_of(disks, map) : ExactFlat{};
   };
   if (ExactFlat hull = as_seen_from({}, {}); hull.is_exact) return hull;
@@ -254,7 +275,10 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
   if (shape.kind == Kind::kDisk) return offset_of_disk(shape, distance);
   const bool is_round = corners == FlatCorners::kRound;
   RoundedPolygon rounded = moved_outline(shape, distance, is_round);
-  std::vector<FlatDisk> disks = is_round ? disks_of_convex(shape) : std::vector<FlatDisk>{};
+  std::vector<FlatDisk> disks = disks_of_convex(shape);
+  // Without sharp corners both kinds are the same.
+  const auto is_smooth = [&](const FlatDisk& d) { return is_round || d.radius > 0; };
+  if (!std::all_of(disks.begin(), disks.end(), is_smooth)) disks.clear();
   const auto stays = [&](const FlatDisk& d) { return d.radius + distance >= 0; };
   if (!disks.empty() && std::all_of(disks.begin(), disks.end(), stays)) {
     for (FlatDisk& d : disks) d = {d.center, d.radius + distance, d.sides > 0 ? d.sides : sides};
@@ -263,9 +287,8 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
     return hull;
   }
   if (!rounded.empty()) return {true, shape_of(std::move(rounded), sides)};
-  if (!is_round) return {};
-  if (shape.kind == Kind::kPolygon) return offset_of_polygon(shape, distance, sides);
-  return offset_of_operation(shape, distance, sides);
+  if (shape.kind != Kind::kPolygon) return offset_of_operation(shape, distance, sides, corners);
+  return is_round ? offset_of_polygon(shape, distance, sides) : ExactFlat{};
 }
 
 }  // namespace graycube

@@ -1,4 +1,5 @@
-// hull() and offset() of flat shapes with what is round exact, where that has a form in disks and polygons.
+// hull() and offset() of flat shapes with what is round exact, where that has a form in disks and
+// polygons.
 #pragma once
 
 #include <optional>
@@ -24,10 +25,11 @@ bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<Flat
 ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks);
 /// The hull of all shapes together.
 ExactFlat exact_flat_hull(std::span<const FlatShape> parts);
-/// offset(r = distance), or offset(delta = distance) where sharp corners stay sharp; what becomes round has `sides`
-/// sides in OpenSCAD.
+/// offset(r = distance), or offset(delta = distance) where sharp corners stay sharp; what becomes
+/// round has `sides` sides in OpenSCAD.
 enum class FlatCorners : std::uint8_t { kRound, kSharp };
-ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatCorners corners = FlatCorners::kRound);
+ExactFlat exact_offset(const FlatShape& shape, double distance, int sides,
+                       FlatCorners corners = FlatCorners::kRound);
 FlatShape mapped(const FlatMap& map, FlatShape shape);
 
 }  // namespace graycube

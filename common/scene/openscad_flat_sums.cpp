@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/flat_offset.hpp"
+
 namespace graycube {
 namespace {
 
@@ -16,7 +18,7 @@ FlatShape united(std::vector<FlatShape> shapes) {
 }
 
 ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDisk>& b) {
-  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundedCorners) return {};
+  if (a.size() * b.size() > kMaxFlatDiskPairs / kMaxRoundCorners) return {};
   std::vector<FlatDisk> sums;
   for (const FlatDisk& p : a) {
     for (const FlatDisk& q : b) {
@@ -27,11 +29,14 @@ ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDis
   return hull_of_disks(sums);
 }
 
-/// Any polygon and a convex figure: what the figure sweeps along each side, and the polygon moved to a point of the figure.
+/// Any polygon and a convex figure: what the figure sweeps along each side, and the polygon moved
+/// to a point of the figure.
 ExactFlat sum_of_polygon(const FlatShape& polygon, const std::vector<FlatDisk>& convex) {
   std::size_t corners = 0;
   for (const FlatLoop& loop : polygon.loops) corners += loop.size();
-  if (corners > kMaxRoundedCorners || corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundedCorners) return {};
+  if (corners > kMaxRoundCorners ||
+      corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundCorners)
+    return {};
   const FlatPoint to = convex.front().center;
   std::vector<FlatShape> parts;
   std::vector<FlatLoops> straight{mapped(FlatMap{{{{1, 0, to.x}, {0, 1, to.y}}}}, polygon.loops)};
@@ -71,7 +76,8 @@ ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b) {
   const std::vector<FlatDisk> first = disks_of_convex(a), second = disks_of_convex(b);
   if (!first.empty() && !second.empty()) return sum_of_disks(first, second);
   for (const auto& [whole, disk] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-    const std::vector<FlatDisk> round = disk->kind == Kind::kDisk ? disks_of_convex(*disk) : std::vector<FlatDisk>{};
+    const std::vector<FlatDisk> round =
+        disk->kind == Kind::kDisk ? disks_of_convex(*disk) : std::vector<FlatDisk>{};
     if (round.empty()) continue;
     const auto& [center, radius, sides] = round.front();
     ExactFlat grown = exact_offset(*whole, radius, sides);

@@ -5,8 +5,8 @@
 
 namespace graycube {
 
-/// Exact for two convex shapes, for any polygon and a convex shape, for a circle and what exact_offset grows, and for unions
-/// of these.
+/// Exact for two convex shapes, for any polygon and a convex shape, for a circle and what
+/// exact_offset grows, and for unions of these.
 ExactFlat exact_flat_sum(const FlatShape& a, const FlatShape& b);
 
 }  // namespace graycube

@@ -116,7 +116,8 @@ class Importer {
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
-      if (!add_exact(module, exact_minkowski(module, import_), around, parts)) add_by_program(module, around, parts);
+      if (!add_exact(module, exact_minkowski(module, import_), around, parts))
+        add_by_program(module, around, parts);
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
     } else {
@@ -245,7 +246,8 @@ class Importer {
   }
 
   /// False where there is no exact form.
-  bool add_exact(const ScadModule& module, ExactSolid exact, const Surroundings& around, std::vector<Part>& parts) {
+  bool add_exact(const ScadModule& module, ExactSolid exact, const Surroundings& around,
+                 std::vector<Part>& parts) {
     if (std::holds_alternative<NoExactForm>(exact)) return false;
     if (auto* solid = std::get_if<RoundSolid>(&exact)) {
       add_solid(std::move(solid->node), solid->corners, module, around, parts);

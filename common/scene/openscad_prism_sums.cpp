@@ -28,14 +28,18 @@ struct Operand {
   std::optional<Ball> ball;
 };
 
-CsgNode leaf(decltype(CsgNode::value) value) { return {std::move(value), std::nullopt, kInheritMaterial}; }
+CsgNode leaf(decltype(CsgNode::value) value) {
+  return {std::move(value), std::nullopt, kInheritMaterial};
+}
 
 bool is_upright(const Affine& map) {
-  return map.m[0][2] == 0 && map.m[1][2] == 0 && map.m[2][0] == 0 && map.m[2][1] == 0 && map.m[2][2] != 0;
+  return map.m[0][2] == 0 && map.m[1][2] == 0 && map.m[2][0] == 0 && map.m[2][1] == 0 &&
+         map.m[2][2] != 0;
 }
 
 Prism placed(const Affine& map, FlatShape figure, double low, double high) {
-  const FlatMap flat{{{{map.m[0][0], map.m[0][1], map.m[0][3]}, {map.m[1][0], map.m[1][1], map.m[1][3]}}}};
+  const FlatMap flat{
+      {{{map.m[0][0], map.m[0][1], map.m[0][3]}, {map.m[1][0], map.m[1][1], map.m[1][3]}}}};
   const double a = map.m[2][2] * low + map.m[2][3], b = map.m[2][2] * high + map.m[2][3];
   return {mapped(flat, std::move(figure)), std::min(a, b), std::max(a, b)};
 }
@@ -46,7 +50,8 @@ FlatShape rectangle(const Vec3& lo, const Vec3& hi) {
   return shape;
 }
 
-bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& import, Operand& operand) {
+bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& import,
+                   Operand& operand) {
   const auto solid = openscad_primitive(module, import.report);
   if (!solid) return true;
   if (const auto* sphere = std::get_if<SphereShape>(&solid->leaf.value)) {
@@ -72,7 +77,8 @@ bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& impo
 }
 
 /// False for what is neither prisms nor a ball.
-bool add_operand(const ScadModule& module, const Affine& map, ScadImport& import, Operand& operand) {
+bool add_operand(const ScadModule& module, const Affine& map, ScadImport& import,
+                 Operand& operand) {
   if (module.left_out || module.dimension == 2) return true;
   const std::string& name = module.name;
   Affine inner = map;
@@ -81,9 +87,11 @@ bool add_operand(const ScadModule& module, const Affine& map, ScadImport& import
     if (!own) return true;
     inner = compose(map, *own);
   }
-  if (name == "multmatrix" || name == "group" || name == "union" || name == "color" || name == "render") {
-    return std::all_of(module.children.begin(), module.children.end(),
-                       [&](const ScadModule& child) { return add_operand(child, inner, import, operand); });
+  if (name == "multmatrix" || name == "group" || name == "union" || name == "color" ||
+      name == "render") {
+    return std::all_of(
+        module.children.begin(), module.children.end(),
+        [&](const ScadModule& child) { return add_operand(child, inner, import, operand); });
   }
   if (is_openscad_primitive(module)) return add_primitive(module, map, import, operand);
   if (name != "linear_extrude" || operand.ball || !is_upright(map)) return false;
@@ -118,7 +126,8 @@ class RoundedPrism {
   /// False where the figure has no exact form.
   bool add(const FlatShape& figure) {
     if (figure.kind == FlatShape::Kind::kUnion) {
-      return std::all_of(figure.children.begin(), figure.children.end(), [&](const FlatShape& s) { return add(s); });
+      return std::all_of(figure.children.begin(), figure.children.end(),
+                         [&](const FlatShape& s) { return add(s); });
     }
     if (figure.kind == FlatShape::Kind::kPolygon) {
       add_rims(figure.loops);
@@ -140,10 +149,12 @@ class RoundedPrism {
   void add_rims(const FlatLoops& loops) {
     for (const FlatLoop& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()], &c = loop[(i + 2) % loop.size()];
+        const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()],
+                        &c = loop[(i + 2) % loop.size()];
         for (const double z : {low_, high_}) {
           parts_.push_back(leaf(CylinderShape{{a.x, a.y, z}, {b.x, b.y, z}, distance_}));
-          if (orientation(a, b, c) > 0) parts_.push_back(leaf(SphereShape{{b.x, b.y, z}, distance_}));
+          if (orientation(a, b, c) > 0)
+            parts_.push_back(leaf(SphereShape{{b.x, b.y, z}, distance_}));
         }
       }
     }
@@ -153,7 +164,8 @@ class RoundedPrism {
     const auto radius = similarity_scale(disk);
     if (!radius || !(*radius > distance_)) return false;
     for (const double z : {low_, high_}) {
-      parts_.push_back(leaf(TorusShape{{disk.m[0][2], disk.m[1][2], z}, {0, 0, 1}, *radius, distance_}));
+      parts_.push_back(
+          leaf(TorusShape{{disk.m[0][2], disk.m[1][2], z}, {0, 0, 1}, *radius, distance_}));
     }
     return true;
   }
@@ -164,13 +176,15 @@ class RoundedPrism {
   std::vector<CsgNode> parts_;
 };
 
-std::optional<std::vector<CsgNode>> rounded(const Prism& prism, const Ball& ball, ScadImport& import, int line) {
+std::optional<std::vector<CsgNode>> rounded(const Prism& prism, const Ball& ball,
+                                            ScadImport& import, int line) {
   RoundedPrism rounded_prism(prism.low, prism.high, ball.radius, import, line);
   if (!rounded_prism.add(prism.figure)) return std::nullopt;
   std::vector<CsgNode> parts = rounded_prism.take();
   if (ball.center == Vec3{}) return parts;
   const Affine shift = translation(ball.center);
-  for (CsgNode& part : parts) part.transform = part.transform ? compose(shift, *part.transform) : shift;
+  for (CsgNode& part : parts)
+    part.transform = part.transform ? compose(shift, *part.transform) : shift;
   return parts;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = RoundItem::Kind;
 
-/// Rotations are written with six digits.
+/// What rounding leaves of rotations that were recovered from six digits (scene/recovered_rotation.hpp).
 constexpr double kRotationPrecision = 1e-13;
 
 bool is_container(const std::string& name) {
@@ -26,7 +26,8 @@ Affine linear_part(Affine map) {
   return map;
 }
 
-/// `map` as seen from a frame without translation. Maps of one linear part differ by translations exactly.
+/// `map` as seen from a frame without translation. Maps of one linear part differ by translations
+/// exactly.
 Affine seen_from(const Affine& frame, const Affine& inverse, const Affine& map) {
   if (frame == Affine{}) return map;
   if (linear_part(map) == frame) return translation(inverse.vector(map.translation()));
@@ -43,7 +44,9 @@ std::optional<RoundPoint> framed_item(const RoundItem& item, const Affine& map) 
   }
   const FlatMap level{{{{map.m[0][0], map.m[0][1], 0}, {map.m[1][0], map.m[1][1], 0}}}};
   const auto scale = similarity_scale(level);
-  if (!scale || std::max(std::fabs(map.m[2][0]), std::fabs(map.m[2][1])) > kRotationPrecision * *scale) return std::nullopt;
+  if (!scale ||
+      std::max(std::fabs(map.m[2][0]), std::fabs(map.m[2][1])) > kRotationPrecision * *scale)
+    return std::nullopt;
   return RoundPoint{center, *scale * item.round.radius};
 }
 
@@ -79,19 +82,21 @@ bool add_primitive(const ScadModule& module, const Affine& map, PieceUse use, Sc
   if (const auto* sphere = std::get_if<SphereShape>(&solid->leaf.value)) {
     piece.push_back({Kind::kBall, {sphere->center, sphere->radius}, map});
   } else if (const auto* cylinder = std::get_if<CylinderShape>(&solid->leaf.value)) {
-    piece = {disc(cylinder->base, cylinder->radius, map), disc(cylinder->top, cylinder->radius, map)};
+    piece = {disc(cylinder->base, cylinder->radius, map),
+             disc(cylinder->top, cylinder->radius, map)};
   } else if (const auto* cone = std::get_if<ConeShape>(&solid->leaf.value)) {
     piece = {disc(cone->base, cone->base_radius, map), disc(cone->top, cone->top_radius, map)};
   } else {
-    if (use == PieceUse::kConvex && std::holds_alternative<MeshShape>(solid->leaf.value)) return false;
+    if (use == PieceUse::kConvex && std::holds_alternative<MeshShape>(solid->leaf.value))
+      return false;
     for (const Vec3& corner : solid->corners) piece.push_back({Kind::kPoint, {corner, 0}, map});
   }
   pieces.push_back(std::move(piece));
   return true;
 }
 
-bool add_plain_sweep(const PlainSweep& sweep, const FlatShape& shape, const Affine& map, PieceUse use,
-                     std::vector<RoundPiece>& pieces) {
+bool add_plain_sweep(const PlainSweep& sweep, const FlatShape& shape, const Affine& map,
+                     PieceUse use, std::vector<RoundPiece>& pieces) {
   std::vector<FlatDisk> disks = disks_of_convex(shape);
   if (disks.empty() && use == PieceUse::kHull && !add_hull_disks(shape, {}, disks)) return false;
   if (disks.empty() && shape.kind == FlatShape::Kind::kUnion) {
@@ -126,8 +131,8 @@ bool add_turned(const FlatShape& figure, const Affine& map, std::vector<RoundPie
   return true;
 }
 
-bool add_all(const std::vector<ScadModule>& modules, const Affine& map, PieceUse use, ScadImport& import,
-             std::vector<RoundPiece>& pieces) {
+bool add_all(const std::vector<ScadModule>& modules, const Affine& map, PieceUse use,
+             ScadImport& import, std::vector<RoundPiece>& pieces) {
   return std::all_of(modules.begin(), modules.end(), [&](const ScadModule& module) {
     return module.left_out || module.dimension == 2 || add_pieces(module, map, use, import, pieces);
   });
@@ -202,7 +207,8 @@ bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadI
 
 std::optional<FramedPiece> framed(const RoundPiece& items) {
   if (auto result = framed_by(items, {})) return result;
-  const auto round = std::find_if(items.begin(), items.end(), [](const RoundItem& i) { return i.kind != Kind::kPoint; });
+  const auto round = std::find_if(items.begin(), items.end(),
+                                  [](const RoundItem& i) { return i.kind != Kind::kPoint; });
   return framed_by(items, linear_part(round->map));
 }
 
@@ -221,7 +227,8 @@ std::optional<RoundPiece> sum_of(const RoundPiece& a, const RoundPiece& b) {
     }
   }
   RoundPiece result;
-  for (const RoundPoint& p : without_hidden(all->has_balls ? RoundKind::kBalls : RoundKind::kDiscs, std::move(sums))) {
+  for (const RoundPoint& p :
+       without_hidden(all->has_balls ? RoundKind::kBalls : RoundKind::kDiscs, std::move(sums))) {
     result.push_back({p.radius > 0 ? round : Kind::kPoint, p, all->frame});
   }
   return result;

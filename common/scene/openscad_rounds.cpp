@@ -23,16 +23,18 @@ CsgNode placed(CsgNode node, const Affine& map) {
   return node;
 }
 
-/// Balls and discs as what a figure right and left of the axis becomes when it is turned; empty where they
-/// have no common vertical axis.
+/// Balls and discs as what a figure right and left of the axis becomes when it is turned; empty
+/// where they have no common vertical axis.
 std::vector<FlatDisk> profile_of(const RoundPiece& items, const FramedPiece& piece) {
   const Vec3 origin = piece.points.front().center;
   double extent = 0;
-  for (const RoundPoint& p : piece.points) extent = std::max(extent, max_abs(p.center - origin) + p.radius);
+  for (const RoundPoint& p : piece.points)
+    extent = std::max(extent, max_abs(p.center - origin) + p.radius);
   std::vector<FlatDisk> profile;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto& [center, radius] = piece.points[i];
-    if (std::max(std::fabs(center.x - origin.x), std::fabs(center.y - origin.y)) > kOnAxis * extent) return {};
+    if (std::max(std::fabs(center.x - origin.x), std::fabs(center.y - origin.y)) > kOnAxis * extent)
+      return {};
     if (items[i].kind == RoundItem::Kind::kDisc) {
       profile.push_back({{radius, center.z}, 0, 0});
       profile.push_back({{-radius, center.z}, 0, 0});
@@ -43,12 +45,13 @@ std::vector<FlatDisk> profile_of(const RoundPiece& items, const FramedPiece& pie
   return profile;
 }
 
-ExactSolid turned_about(const std::vector<FlatDisk>& profile, const Vec3& axis, const Affine& frame, ScadImport& import,
-                        int line) {
+ExactSolid turned_about(const std::vector<FlatDisk>& profile, const Vec3& axis, const Affine& frame,
+                        ScadImport& import, int line) {
   auto solid = solid_of_profile(profile, import, line);
   if (!solid) return NoExactForm{};
   RoundSolid result{std::move(*solid), {}};
-  if (axis.x != 0 || axis.y != 0) result.node = placed(std::move(result.node), translation({axis.x, axis.y, 0}));
+  if (axis.x != 0 || axis.y != 0)
+    result.node = placed(std::move(result.node), translation({axis.x, axis.y, 0}));
   result.node = placed(std::move(result.node), frame);
   return result;
 }
@@ -82,8 +85,9 @@ ExactSolid capped(const RoundPiece& items, const FramedPiece& piece) {
 }
 
 ExactSolid solid_of(const RoundPiece& items, const ScadModule& module, ScadImport& import) {
-  const bool is_round = std::any_of(items.begin(), items.end(),
-                                    [](const RoundItem& item) { return item.kind != RoundItem::Kind::kPoint; });
+  const bool is_round = std::any_of(items.begin(), items.end(), [](const RoundItem& item) {
+    return item.kind != RoundItem::Kind::kPoint;
+  });
   if (!is_round) return solid_of_points(items, module, import);
   const auto piece = framed(items);
   if (!piece) return NoExactForm{};
@@ -100,7 +104,8 @@ ExactSolid solid_of(const RoundPiece& items, const ScadModule& module, ScadImpor
   return in_frame(*std::move(solid), piece->frame);
 }
 
-ExactSolid united(const std::vector<RoundPiece>& pieces, const ScadModule& module, ScadImport& import) {
+ExactSolid united(const std::vector<RoundPiece>& pieces, const ScadModule& module,
+                  ScadImport& import) {
   RoundSolid whole;
   std::vector<CsgNode> children;
   for (const RoundPiece& piece : pieces) {
@@ -113,8 +118,8 @@ ExactSolid united(const std::vector<RoundPiece>& pieces, const ScadModule& modul
   }
   if (children.empty()) return EmptySolid{};
   whole.node = children.size() == 1 ? std::move(children.front())
-                                    : CsgNode{OperationNode{Operation::kUnion, std::move(children)}, std::nullopt,
-                                              kInheritMaterial};
+                                    : CsgNode{OperationNode{Operation::kUnion, std::move(children)},
+                                              std::nullopt, kInheritMaterial};
   return whole;
 }
 
@@ -130,9 +135,11 @@ ExactSolid coaxial_sum(const ScadModule& module, ScadImport& import) {
   both.insert(both.end(), operands[1].begin(), operands[1].end());
   const auto all = framed(both);
   if (!all) return NoExactForm{};
-  const auto begin = all->points.begin(), middle = begin + static_cast<std::ptrdiff_t>(operands[0].size());
+  const auto begin = all->points.begin(),
+             middle = begin + static_cast<std::ptrdiff_t>(operands[0].size());
   const auto first = profile_of(operands[0], {all->frame, {begin, middle}, false, false});
-  const auto second = profile_of(operands[1], {all->frame, {middle, all->points.end()}, false, false});
+  const auto second =
+      profile_of(operands[1], {all->frame, {middle, all->points.end()}, false, false});
   std::vector<FlatDisk> sums;
   for (const FlatDisk& p : first) {
     for (const FlatDisk& q : second) {
@@ -162,10 +169,11 @@ ExactSolid or_untold(ScadImport& import, const Make& make) {
 ExactSolid exact_hull(const ScadModule& module, ScadImport& import) {
   return or_untold(import, [&]() -> ExactSolid {
     std::vector<RoundPiece> pieces;
-    if (!add_pieces(module, {}, PieceUse::kHull, import, pieces) || pieces.empty()) return NoExactForm{};
-    const bool is_round = std::any_of(pieces.front().begin(), pieces.front().end(), [](const RoundItem& item) {
-      return item.kind != RoundItem::Kind::kPoint;
-    });
+    if (!add_pieces(module, {}, PieceUse::kHull, import, pieces) || pieces.empty())
+      return NoExactForm{};
+    const bool is_round =
+        std::any_of(pieces.front().begin(), pieces.front().end(),
+                    [](const RoundItem& item) { return item.kind != RoundItem::Kind::kPoint; });
     return is_round ? solid_of(pieces.front(), module, import) : ExactSolid{NoExactForm{}};
   });
 }
@@ -174,7 +182,8 @@ ExactSolid exact_minkowski(const ScadModule& module, ScadImport& import) {
   if (import.options.facets) return NoExactForm{};
   ExactSolid result = or_untold(import, [&]() -> ExactSolid {
     std::vector<RoundPiece> pieces;
-    if (!add_pieces(module, {}, PieceUse::kConvex, import, pieces) || pieces.empty()) return NoExactForm{};
+    if (!add_pieces(module, {}, PieceUse::kConvex, import, pieces) || pieces.empty())
+      return NoExactForm{};
     return united(pieces, module, import);
   });
   if (!std::holds_alternative<NoExactForm>(result)) return result;

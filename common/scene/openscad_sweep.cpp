@@ -183,7 +183,8 @@ std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep)
   std::vector<RoundPoint> ends;
   for (const FlatDisk& d : disks_of_convex(shape)) {
     ends.push_back({{d.center.x, d.center.y, sweep.low}, d.radius});
-    ends.push_back({{sweep.scale.x * d.center.x, sweep.scale.x * d.center.y, sweep.high}, sweep.scale.x * d.radius});
+    ends.push_back({{sweep.scale.x * d.center.x, sweep.scale.x * d.center.y, sweep.high},
+                    sweep.scale.x * d.radius});
   }
   if (ends.empty()) return std::nullopt;
   bool is_too_large = false;
@@ -313,15 +314,19 @@ std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& imp
   auto shape = figure_of(module, import);
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
-  if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0) return std::nullopt;
+  if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0)
+    return std::nullopt;
   return shape;
 }
 
-std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import, int line) {
+std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,
+                                        int line) {
   ExactFlat hull = hull_of_disks(profile);
   if (!hull.shape) return std::nullopt;
   FlatShape& shape = *hull.shape;
-  const auto is_mirror_image = [](const FlatShape& s) { return s.kind == Kind::kDisk && center_of(s.disk).x < 0; };
+  const auto is_mirror_image = [](const FlatShape& s) {
+    return s.kind == Kind::kDisk && center_of(s.disk).x < 0;
+  };
   std::erase_if(shape.children, is_mirror_image);
   if (!has_turned_form(shape)) return std::nullopt;
   return turned_shape(shape, import, line);

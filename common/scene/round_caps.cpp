@@ -31,7 +31,8 @@ class Caps {
     bool is_cut_low = false, is_cut_high = false;
     for (const BallOrDisc& item : items_) {
       if (!item.is_disc) continue;
-      const bool is_lowest = item.round.center.z <= low_ + tolerance_, is_highest = item.round.center.z >= high_ - tolerance_;
+      const bool is_lowest = item.round.center.z <= low_ + tolerance_,
+                 is_highest = item.round.center.z >= high_ - tolerance_;
       if (!is_lowest && !has_support(item.round, -1)) return false;
       if (!is_highest && !has_support(item.round, 1)) return false;
       is_cut_low = is_cut_low || is_lowest;
@@ -61,7 +62,8 @@ class Caps {
   bool has_support(const RoundPoint& disc, int side) const {
     return std::any_of(items_.begin(), items_.end(), [&](const BallOrDisc& other) {
       const double distance = side * (other.round.center.z - disc.center.z);
-      return is_in_column(disc, other.round) && distance >= (other.is_disc ? disc.radius : 0) - tolerance_;
+      return is_in_column(disc, other.round) &&
+             distance >= (other.is_disc ? disc.radius : 0) - tolerance_;
     });
   }
 
@@ -69,28 +71,35 @@ class Caps {
     std::vector<FlatDisk> disks;
     std::size_t at_cut = 0;
     const auto is_at_cut = [&](const BallOrDisc& item) {
-      return std::fabs(item.round.center.z - z) <= tolerance_ && (item.is_disc || item.round.radius == 0);
+      return std::fabs(item.round.center.z - z) <= tolerance_ &&
+             (item.is_disc || item.round.radius == 0);
     };
     for (const bool is_cut : {true, false}) {
       for (const BallOrDisc& item : items_) {
-        if (is_at_cut(item) != is_cut || (!is_cut && is_in_some_column(item.round, disks, at_cut))) continue;
+        if (is_at_cut(item) != is_cut || (!is_cut && is_in_some_column(item.round, disks, at_cut)))
+          continue;
         disks.push_back({{item.round.center.x, item.round.center.y}, item.round.radius, 0});
       }
       if (is_cut) at_cut = disks.size();
     }
     if (disks.size() * disks.size() > kMaxFlatDiskPairs) return false;
     const FlatRoundHull hull = flat_round_hull(disks);
-    const bool none_shows = std::all_of(hull.disks.begin(), hull.disks.end(), [&](std::size_t i) { return i < at_cut; });
+    const bool none_shows = std::all_of(hull.disks.begin(), hull.disks.end(),
+                                        [&](std::size_t i) { return i < at_cut; });
     const auto is_corner = [&](const FlatDisk& d) {
-      return d.radius == 0 && std::find(hull.polygon.begin(), hull.polygon.end(), d.center) != hull.polygon.end();
+      return d.radius == 0 &&
+             std::find(hull.polygon.begin(), hull.polygon.end(), d.center) != hull.polygon.end();
     };
-    return none_shows && std::none_of(disks.begin() + static_cast<std::ptrdiff_t>(at_cut), disks.end(), is_corner);
+    return none_shows && std::none_of(disks.begin() + static_cast<std::ptrdiff_t>(at_cut),
+                                      disks.end(), is_corner);
   }
 
-  bool is_in_some_column(const RoundPoint& p, const std::vector<FlatDisk>& disks, std::size_t count) const {
-    return std::any_of(disks.begin(), disks.begin() + static_cast<std::ptrdiff_t>(count), [&](const FlatDisk& d) {
-      return is_in_column(p, {{d.center.x, d.center.y, 0}, d.radius});
-    });
+  bool is_in_some_column(const RoundPoint& p, const std::vector<FlatDisk>& disks,
+                         std::size_t count) const {
+    return std::any_of(disks.begin(), disks.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const FlatDisk& d) {
+                         return is_in_column(p, {{d.center.x, d.center.y, 0}, d.radius});
+                       });
   }
 
   std::span<const BallOrDisc> items_;
@@ -111,9 +120,11 @@ std::optional<RoundSolid> capped_solid(std::span<const BallOrDisc> items, bool& 
   std::vector<CsgNode> children;
   children.push_back(std::move(solid->node));
   children.push_back({caps.box(), std::nullopt, kInheritMaterial});
-  solid->node = {OperationNode{Operation::kIntersection, std::move(children)}, std::nullopt, kInheritMaterial};
+  solid->node = {OperationNode{Operation::kIntersection, std::move(children)}, std::nullopt,
+                 kInheritMaterial};
   // Those of the balls' hull reach beyond the cuts.
-  for (Vec3& corner : solid->corners) corner.z = std::clamp(corner.z, caps.box().min.z, caps.box().max.z);
+  for (Vec3& corner : solid->corners)
+    corner.z = std::clamp(corner.z, caps.box().min.z, caps.box().max.z);
   return solid;
 }
 

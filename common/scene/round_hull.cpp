@@ -21,13 +21,16 @@ struct DirectionCircle {
 
 Vec3 any_normal_to(const Vec3& v) {
   const Vec3 a{std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
-  const Vec3 axis = a.x <= a.y && a.x <= a.z ? Vec3{1, 0, 0} : a.y <= a.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 axis = a.x <= a.y && a.x <= a.z ? Vec3{1, 0, 0}
+                    : a.y <= a.z             ? Vec3{0, 1, 0}
+                                             : Vec3{0, 0, 1};
   return normalized(cross(v, axis));
 }
 
 class HullBuilder {
  public:
-  HullBuilder(RoundKind kind, std::vector<RoundPoint> points) : kind_(kind), points_(std::move(points)) {
+  HullBuilder(RoundKind kind, std::vector<RoundPoint> points)
+      : kind_(kind), points_(std::move(points)) {
     for (const RoundPoint& p : points_) {
       extent_ = std::max(extent_, p.radius + max_abs(p.center - points_.front().center));
     }
@@ -49,13 +52,19 @@ class HullBuilder {
 
  private:
   /// The length by which directions are scaled.
-  double size_of(const Vec3& u) const { return kind_ == RoundKind::kBalls ? length(u) : length({u.x, u.y, 0}); }
-  Vec3 touching_point(std::size_t i, const Vec3& u) const {
-    return points_[i].center + points_[i].radius * (kind_ == RoundKind::kBalls ? u : Vec3{u.x, u.y, 0});
+  double size_of(const Vec3& u) const {
+    return kind_ == RoundKind::kBalls ? length(u) : length({u.x, u.y, 0});
   }
-  double reach(std::size_t i, const Vec3& u) const { return dot(points_[i].center, u) + points_[i].radius; }
+  Vec3 touching_point(std::size_t i, const Vec3& u) const {
+    return points_[i].center +
+           points_[i].radius * (kind_ == RoundKind::kBalls ? u : Vec3{u.x, u.y, 0});
+  }
+  double reach(std::size_t i, const Vec3& u) const {
+    return dot(points_[i].center, u) + points_[i].radius;
+  }
 
-  /// The directions in which both reach equally far; nothing when one holds the other, or for discs at one height.
+  /// The directions in which both reach equally far; nothing when one holds the other, or for discs
+  /// at one height.
   std::optional<DirectionCircle> equal_directions(std::size_t i, std::size_t j) const {
     const Vec3 d = points_[j].center - points_[i].center;
     const double narrowing = points_[i].radius - points_[j].radius;
@@ -79,7 +88,8 @@ class HullBuilder {
       if (k == i || k == j) continue;
       const Vec3 d = points_[k].center - points_[i].center;
       arcs.keep(dot(d, circle->across), dot(d, circle->upright),
-                points_[i].radius - points_[k].radius - dot(d, circle->middle), kRounding * extent_, k);
+                points_[i].radius - points_[k].radius - dot(d, circle->middle), kRounding * extent_,
+                k);
     }
     if (arcs.is_empty()) return;
     hull_.bridges.emplace_back(i, j);
@@ -92,8 +102,9 @@ class HullBuilder {
     }
   }
 
-  /// The direction near `guess` in which three points reach equally far. With e, f the differences of the centres and
-  /// a, b those of the radii, e · u = a and f · u = b give u = α + β n, n = e × f; the scale gives β.
+  /// The direction near `guess` in which three points reach equally far. With e, f the differences
+  /// of the centres and a, b those of the radii, e · u = a and f · u = b give u = α + β n, n = e ×
+  /// f; the scale gives β.
   Vec3 plane_of(const std::array<std::size_t, 3>& which, const Vec3& guess) const {
     const RoundPoint &p = points_[which[0]], &q = points_[which[1]], &r = points_[which[2]];
     const Vec3 e = q.center - p.center, f = r.center - p.center, n = cross(e, f);
@@ -106,12 +117,15 @@ class HullBuilder {
     const Vec3 level_offset = is_ball ? offset : Vec3{offset.x, offset.y, 0};
     const Vec3 level_normal = is_ball ? normal : Vec3{normal.x, normal.y, 0};
     const double n2 = dot(level_normal, level_normal), mixed = dot(level_offset, level_normal);
-    const double root = std::sqrt(std::max(0.0, mixed * mixed - n2 * (dot(level_offset, level_offset) - 1)));
-    const Vec3 plus = offset + ((root - mixed) / n2) * normal, minus = offset + ((-root - mixed) / n2) * normal;
+    const double root =
+        std::sqrt(std::max(0.0, mixed * mixed - n2 * (dot(level_offset, level_offset) - 1)));
+    const Vec3 plus = offset + ((root - mixed) / n2) * normal,
+               minus = offset + ((-root - mixed) / n2) * normal;
     return length(plus - guess) <= length(minus - guess) ? plus : minus;
   }
 
-  /// Of all that the plane touches, three far from one another give its numbers, so that each plane is found once.
+  /// Of all that the plane touches, three far from one another give its numbers, so that each plane
+  /// is found once.
   void add_plane(Vec3 u) {
     const double own = most_reach(u), allowed = kOnePlane * extent_;
     std::vector<std::size_t> touched;
@@ -121,10 +135,13 @@ class HullBuilder {
     if (touched.size() > 2) u = plane_of(far_apart(touched), u);
     const double size = length(u);
     HalfSpaceShape plane{(1 / size) * u + Vec3{}, 0};
-    plane.offset = dot(plane.normal, points_[touched.front()].center) + points_[touched.front()].radius / size + 0.0;
-    const bool is_known = std::any_of(hull_.planes.begin(), hull_.planes.end(), [&](const HalfSpaceShape& other) {
-      return max_abs(other.normal - plane.normal) <= kOnePlane && std::fabs(other.offset - plane.offset) <= allowed;
-    });
+    plane.offset = dot(plane.normal, points_[touched.front()].center) +
+                   points_[touched.front()].radius / size + 0.0;
+    const bool is_known =
+        std::any_of(hull_.planes.begin(), hull_.planes.end(), [&](const HalfSpaceShape& other) {
+          return max_abs(other.normal - plane.normal) <= kOnePlane &&
+                 std::fabs(other.offset - plane.offset) <= allowed;
+        });
     if (is_known) return;
     hull_.planes.push_back(plane);
     for (const std::size_t k : touched) {
@@ -148,7 +165,8 @@ class HullBuilder {
     }
     most = -1;
     for (const std::size_t k : touched) {
-      const double area = length(cross(points_[best[1]].center - origin, points_[k].center - origin));
+      const double area =
+          length(cross(points_[best[1]].center - origin, points_[k].center - origin));
       if (area > most) most = area, best[2] = k;
     }
     return best;
@@ -166,7 +184,8 @@ class HullBuilder {
 std::optional<RoundHull> round_hull(RoundKind kind, std::vector<RoundPoint> points) {
   points = without_hidden(kind, std::move(points));
   const auto is_round = [](const RoundPoint& p) { return p.radius > 0; };
-  const auto round = static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_round));
+  const auto round =
+      static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_round));
   if (round > kMaxRoundPoints || points.size() > kMaxHullPoints) return std::nullopt;
   if (round * points.size() * points.size() > kMaxHullArcs) return std::nullopt;
   return HullBuilder(kind, std::move(points)).build();

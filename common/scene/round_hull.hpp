@@ -1,9 +1,10 @@
-// Convex hulls of balls, or of level discs, and points, exactly: which of them show, which pairs are bridged by a cone,
-// and the planes that touch three or more.
+// Convex hulls of balls, or of level discs, and points, exactly: which of them show, which pairs
+// are bridged by a cone, and the planes that touch three or more.
 //
-// Both kinds are reached alike: a set with centre c and radius r reaches c · u + r in the direction u, when u is scaled so
-// that its length is 1 for balls, and the length of its level part for discs. The directions in which a pair reaches
-// equally far, and further than all others, are arcs of a circle; their ends are the planes.
+// Both kinds are reached alike: a set with centre c and radius r reaches c · u + r in the direction
+// u, when u is scaled so that its length is 1 for balls, and the length of its level part for
+// discs. The directions in which a pair reaches equally far, and further than all others, are arcs
+// of a circle; their ends are the planes.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,8 @@ struct RoundPoint {
 };
 enum class RoundKind : std::uint8_t { kBalls, kDiscs };
 
-/// The hull is the union of the hull of `core`, of the hulls of the pairs in `bridges`, and of the balls in `corners`.
+/// The hull is the union of the hull of `core`, of the hulls of the pairs in `bridges`, and of the
+/// balls in `corners`.
 struct RoundHull {
   RoundKind kind = RoundKind::kBalls;
   /// Those given that show, or could.
@@ -44,7 +46,8 @@ inline constexpr std::size_t kMaxRoundPoints = 256;
 inline constexpr std::size_t kMaxHullPoints = std::size_t{1} << 12;
 inline constexpr std::size_t kMaxHullArcs = std::size_t{1} << 26;
 
-/// Nothing beyond these limits. Needs at least one point with a radius; every number finite, radii ≥ 0.
+/// Nothing beyond these limits. Needs at least one point with a radius; every number finite, radii
+/// ≥ 0.
 std::optional<RoundHull> round_hull(RoundKind kind, std::vector<RoundPoint> points);
 
 /// Points that others' hull holds are left out where that is quickly seen.

@@ -21,8 +21,8 @@ bool before(const RoundPoint& a, const RoundPoint& b) {
   return a.center.x != b.center.x ? a.center.x < b.center.x : a.center.y < b.center.y;
 }
 
-/// Of points of one radius those at the corners of the hull of their centres; all where these lie in a plane, but
-/// for the level planes of discs.
+/// Of points of one radius those at the corners of the hull of their centres; all where these lie
+/// in a plane, but for the level planes of discs.
 std::vector<RoundPoint> corners_of_group(std::vector<RoundPoint> group) {
   if (group.size() < kLeastGroup) return group;
   const double radius = group.front().radius;
@@ -50,7 +50,8 @@ std::vector<RoundPoint> corners_of_group(std::vector<RoundPoint> group) {
 }
 
 bool holds(RoundKind kind, const RoundPoint& outer, const RoundPoint& inner, double tolerance) {
-  if (kind == RoundKind::kDiscs && std::fabs(outer.center.z - inner.center.z) > tolerance) return false;
+  if (kind == RoundKind::kDiscs && std::fabs(outer.center.z - inner.center.z) > tolerance)
+    return false;
   return length(outer.center - inner.center) + inner.radius <= outer.radius + tolerance;
 }
 
@@ -59,12 +60,14 @@ bool lies_between(const RoundPoint& a, const RoundPoint& b, const RoundPoint& p,
   const Vec3 d = b.center - a.center, e = p.center - a.center;
   const double share = dot(d, e) / dot(d, d);
   if (!(share > 0 && share < 1)) return false;
-  return length(e - share * d) <= tolerance && p.radius <= a.radius + share * (b.radius - a.radius) + tolerance;
+  return length(e - share * d) <= tolerance &&
+         p.radius <= a.radius + share * (b.radius - a.radius) + tolerance;
 }
 
 double extent_of(const std::vector<RoundPoint>& points) {
   double extent = 0;
-  for (const RoundPoint& p : points) extent = std::max(extent, p.radius + max_abs(p.center - points.front().center));
+  for (const RoundPoint& p : points)
+    extent = std::max(extent, p.radius + max_abs(p.center - points.front().center));
   return extent;
 }
 
@@ -83,7 +86,8 @@ std::vector<RoundPoint> without_hidden(RoundKind kind, std::vector<RoundPoint> p
   points.erase(std::unique(points.begin(), points.end()), points.end());
   std::vector<RoundPoint> kept;
   for (auto begin = points.begin(); begin != points.end();) {
-    const auto end = std::find_if(begin, points.end(), [&](const RoundPoint& p) { return p.radius != begin->radius; });
+    const auto end = std::find_if(begin, points.end(),
+                                  [&](const RoundPoint& p) { return p.radius != begin->radius; });
     for (const RoundPoint& p : corners_of_group({begin, end})) kept.push_back(p);
     begin = end;
   }

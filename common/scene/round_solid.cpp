@@ -14,7 +14,9 @@ constexpr double kOnPlane = 1e-9;
 /// Triangles narrower than this, relative to their length, have no normal.
 constexpr double kLeastWidth = 1e-9;
 
-CsgNode leaf(decltype(CsgNode::value) value) { return {std::move(value), std::nullopt, kInheritMaterial}; }
+CsgNode leaf(decltype(CsgNode::value) value) {
+  return {std::move(value), std::nullopt, kInheritMaterial};
+}
 
 /// Between two balls: from one circle where the common tangent cone touches to the other.
 CsgNode bridge_of_balls(const RoundPoint& a, const RoundPoint& b) {
@@ -23,11 +25,12 @@ CsgNode bridge_of_balls(const RoundPoint& a, const RoundPoint& b) {
   const double distance = length(d), cosine = (a.radius - b.radius) / distance;
   const double sine = std::sqrt((1 - cosine) * (1 + cosine));
   const Vec3 shift = (cosine / distance) * d;
-  return leaf(ConeShape{a.center + a.radius * shift, a.radius * sine, b.center + b.radius * shift, b.radius * sine});
+  return leaf(ConeShape{a.center + a.radius * shift, a.radius * sine, b.center + b.radius * shift,
+                        b.radius * sine});
 }
 
-/// Between two discs at different heights: every level section is a disc between the two, so this is an upright cone,
-/// slanted.
+/// Between two discs at different heights: every level section is a disc between the two, so this
+/// is an upright cone, slanted.
 CsgNode bridge_of_discs(const RoundPoint& a, const RoundPoint& b) {
   const RoundPoint &low = a.center.z < b.center.z ? a : b, &high = a.center.z < b.center.z ? b : a;
   const Vec3 base = low.center, top{base.x, base.y, high.center.z};
@@ -47,15 +50,18 @@ double extent_of(const std::vector<Vec3>& points) {
   return extent;
 }
 
-/// The half-spaces of a hull: the planes that are known, and those of the triangles that lie in none of these.
+/// The half-spaces of a hull: the planes that are known, and those of the triangles that lie in
+/// none of these.
 std::vector<HalfSpaceShape> planes_of(const ScadMesh& hull, std::vector<HalfSpaceShape> planes) {
   const double tolerance = kOnPlane * extent_of(hull.points);
   Vec3 middle;
-  for (const Vec3& p : hull.points) middle = middle + (1.0 / static_cast<double>(hull.points.size())) * p;
+  for (const Vec3& p : hull.points)
+    middle = middle + (1.0 / static_cast<double>(hull.points.size())) * p;
   for (const auto& face : hull.faces) {
     const Vec3 &a = hull.points[face[0]], &b = hull.points[face[1]], &c = hull.points[face[2]];
     const auto holds_all = [&](const HalfSpaceShape& plane) {
-      return std::max({std::fabs(dot(plane.normal, a) - plane.offset), std::fabs(dot(plane.normal, b) - plane.offset),
+      return std::max({std::fabs(dot(plane.normal, a) - plane.offset),
+                       std::fabs(dot(plane.normal, b) - plane.offset),
                        std::fabs(dot(plane.normal, c) - plane.offset)}) <= tolerance;
     };
     if (std::any_of(planes.begin(), planes.end(), holds_all)) continue;
@@ -88,15 +94,17 @@ CsgNode polyhedron(std::vector<HalfSpaceShape> planes) {
   return leaf(PolyhedronShape{std::move(planes)});
 }
 
-/// Balls of different radii: their centres may lie beyond the hull of the points where planes touch.
+/// Balls of different radii: their centres may lie beyond the hull of the points where planes
+/// touch.
 void add_centers_outside(const RoundHull& hull, std::vector<Vec3>& core) {
   const ScadMesh mesh = convex_hull(core);
   const double tolerance = kOnPlane * extent_of(core);
   const auto planes = mesh.faces.empty() ? std::vector<HalfSpaceShape>{} : planes_of(mesh, {});
   for (const RoundPoint& p : hull.points) {
-    const bool is_inside = !planes.empty() && std::all_of(planes.begin(), planes.end(), [&](const HalfSpaceShape& s) {
-      return dot(s.normal, p.center) <= s.offset + tolerance;
-    });
+    const bool is_inside =
+        !planes.empty() && std::all_of(planes.begin(), planes.end(), [&](const HalfSpaceShape& s) {
+          return dot(s.normal, p.center) <= s.offset + tolerance;
+        });
     if (!is_inside) core.push_back(p.center);
   }
 }
@@ -115,7 +123,8 @@ std::optional<RoundSolid> core_of(const RoundHull& hull) {
   if (mesh.faces.empty()) return std::nullopt;
   std::vector<HalfSpaceShape> planes = planes_of(mesh, hull.planes);
   if (planes.size() < 4) return std::nullopt;
-  if (planes.size() <= kMaxPolyhedronFaces) return RoundSolid{polyhedron(std::move(planes)), std::move(corners)};
+  if (planes.size() <= kMaxPolyhedronFaces)
+    return RoundSolid{polyhedron(std::move(planes)), std::move(corners)};
   auto closed = closed_mesh(polygons_of(mesh));
   if (!std::holds_alternative<TriangleMesh>(closed)) return std::nullopt;
   return RoundSolid{leaf(MeshShape{std::get<TriangleMesh>(std::move(closed))}), std::move(corners)};
@@ -123,7 +132,8 @@ std::optional<RoundSolid> core_of(const RoundHull& hull) {
 
 }  // namespace
 
-std::optional<RoundSolid> round_solid(RoundKind kind, std::vector<RoundPoint> points, bool& is_too_large) {
+std::optional<RoundSolid> round_solid(RoundKind kind, std::vector<RoundPoint> points,
+                                      bool& is_too_large) {
   const auto hull = round_hull(kind, std::move(points));
   is_too_large = !hull;
   if (!hull) return std::nullopt;
@@ -137,9 +147,11 @@ std::optional<RoundSolid> round_solid(RoundKind kind, std::vector<RoundPoint> po
     const RoundPoint &p = hull->points[a], &q = hull->points[b];
     pieces.push_back(kind == RoundKind::kBalls ? bridge_of_balls(p, q) : bridge_of_discs(p, q));
   }
-  for (const std::size_t i : hull->corners) pieces.push_back(leaf(SphereShape{hull->points[i].center, hull->points[i].radius}));
+  for (const std::size_t i : hull->corners)
+    pieces.push_back(leaf(SphereShape{hull->points[i].center, hull->points[i].radius}));
   if (pieces.empty()) return std::nullopt;
-  solid.node = pieces.size() == 1 ? std::move(pieces.front()) : leaf(OperationNode{Operation::kUnion, std::move(pieces)});
+  solid.node = pieces.size() == 1 ? std::move(pieces.front())
+                                  : leaf(OperationNode{Operation::kUnion, std::move(pieces)});
   return solid;
 }
 

@@ -1,5 +1,5 @@
-// Polygons with rounded corners: offset one after another, their sides move and the corners' radii add up, as long as no
-// side vanishes and none meets another.
+// Polygons with rounded corners: offset one after another, their sides move and the corners' radii
+// add up, as long as no side vanishes and none meets another.
 #pragma once
 
 #include <optional>
@@ -18,22 +18,23 @@ struct RoundedLoop {
 };
 using RoundedPolygon = std::vector<RoundedLoop>;
 
-/// Polygons of more corners aren't rounded so: they are no outlines with corners but curves made of facets.
-inline constexpr std::size_t kMaxRoundedCorners = 256;
-
-/// Outlines counter-clockwise and holes clockwise, as Clipper leaves them; empty beyond kMaxRoundedCorners.
+/// Outlines counter-clockwise and holes clockwise, as Clipper leaves them; empty beyond
+/// kMaxRoundedCorners.
 RoundedPolygon sharp_polygon(const FlatLoops& loops);
 
-/// Moved outwards by the distance, inwards where it is negative. Sharp corners become round where the distance leaves
-/// a gap, if `rounds_corners`, and stay sharp else. Nothing where a side vanishes or an arc doesn't fit.
-std::optional<RoundedPolygon> moved(const RoundedPolygon& polygon, double distance, bool rounds_corners);
+/// Moved outwards by the distance, inwards where it is negative. Sharp corners become round where
+/// the distance leaves a gap, if `rounds_corners`, and stay sharp else. Nothing where a side
+/// vanishes or an arc doesn't fit.
+std::optional<RoundedPolygon> moved(const RoundedPolygon& polygon, double distance,
+                                    bool rounds_corners);
 
 /// The polygon and the disks of `added`, less the disks of `removed`.
 struct RoundedParts {
   FlatLoops polygon;
   std::vector<FlatDisk> added, removed;
 };
-/// Corners that point outwards are cut off and given a disk; the others are filled, and a disk taken off.
+/// Corners that point outwards are cut off and given a disk; the others are filled, and a disk
+/// taken off.
 RoundedParts parts_of(const RoundedPolygon& polygon, int sides);
 
 /// The outline with facets no more than `sagitta` off the arcs.

@@ -149,7 +149,8 @@ constexpr const char* kTetrahedron =
 TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves nothing behind") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "echo run >> runs\n" + std::string(kTetrahedron));
-  sandbox.write("m.csg", "minkowski() { surface(); sphere(1); }\nminkowski() { surface(); sphere(1); }\n");
+  sandbox.write("m.csg",
+                "minkowski() { surface(); sphere(1); }\nminkowski() { surface(); sphere(1); }\n");
   const Outcome o = fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
   INFO(o.err);
   REQUIRE(o.status == 0);
@@ -207,7 +208,8 @@ TEST_CASE("text, Minkowski sums and files of the model's folder come through Ope
   std::filesystem::create_directory(sandbox / "folder");
   sandbox.write("folder/part.off", "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   sandbox.write("folder/m.scad",
-                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { difference() { cube(4); cube(2); } cylinder(1); }\n"
+                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { difference() "
+                "{ cube(4); cube(2); } cylinder(1); }\n"
                 "translate([20, 0, 0]) import(\"part.off\");\n");
   const Outcome o = sandbox.run({"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
   INFO(o.err);

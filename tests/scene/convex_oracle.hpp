@@ -1,4 +1,5 @@
-// Whether a point lies in the hull of balls or level discs, by projecting it: an oracle that knows nothing of tangents.
+// Whether a point lies in the hull of balls or level discs, by projecting it: an oracle that knows
+// nothing of tangents.
 #pragma once
 
 #include <cmath>
@@ -24,8 +25,10 @@ inline Vec3 support_point(RoundKind kind, const std::vector<RoundPoint>& points,
 
 enum class Side { kInside, kOutside, kNear };
 
-/// Frank & Wolfe's method, 1956, for the nearest point: outside is proven by a plane, inside by coming within `margin`.
-inline Side side_of_hull(RoundKind kind, const std::vector<RoundPoint>& points, const Vec3& p, double margin) {
+/// Frank & Wolfe's method, 1956, for the nearest point: outside is proven by a plane, inside by
+/// coming within `margin`.
+inline Side side_of_hull(RoundKind kind, const std::vector<RoundPoint>& points, const Vec3& p,
+                         double margin) {
   Vec3 x = points.front().center;
   for (int step = 0; step < 3000; ++step) {
     const Vec3 u = p - x;
@@ -39,7 +42,8 @@ inline Side side_of_hull(RoundKind kind, const std::vector<RoundPoint>& points, 
   return Side::kNear;
 }
 
-inline std::vector<RoundPoint> random_rounds(std::mt19937_64& random, std::size_t count, RoundKind kind) {
+inline std::vector<RoundPoint> random_rounds(std::mt19937_64& random, std::size_t count,
+                                             RoundKind kind) {
   std::uniform_real_distribution<double> place(-5, 5), size(0.1, 2);
   std::uniform_int_distribution<int> choice(0, 5), level(0, 2);
   const double common = size(random);

@@ -22,8 +22,9 @@ bool holds(const FlatRoundHull& hull, const std::vector<FlatDisk>& disks, const 
                      [&](std::size_t i) { return in_disk(p, disks[i].center, disks[i].radius); });
 }
 
-/// How far the point is beyond the hull at most, seen from many directions: positive is proof that it is outside, and the
-/// best direction is missed by less than 1e-3, so that −kMissed is proof that it is inside.
+/// How far the point is beyond the hull at most, seen from many directions: positive is proof that
+/// it is outside, and the best direction is missed by less than 1e-3, so that −kMissed is proof
+/// that it is inside.
 constexpr double kMissed = 0.02;
 double beyond_hull(const std::vector<FlatDisk>& disks, const FlatPoint& p) {
   double most = -INFINITY;
@@ -32,7 +33,8 @@ double beyond_hull(const std::vector<FlatDisk>& disks, const FlatPoint& p) {
     const double angle = 2 * M_PI * i / kDirections;
     const FlatPoint u{std::cos(angle), std::sin(angle)};
     double reach = -INFINITY;
-    for (const FlatDisk& d : disks) reach = std::max(reach, d.center.x * u.x + d.center.y * u.y + d.radius);
+    for (const FlatDisk& d : disks)
+      reach = std::max(reach, d.center.x * u.x + d.center.y * u.y + d.radius);
     most = std::max(most, p.x * u.x + p.y * u.y - reach);
   }
   return most;
@@ -70,13 +72,14 @@ TEST_CASE("tangents of equal disks are exactly where they should be") {
 }
 
 TEST_CASE("of equal disks one remains, and what one disk holds is it alone") {
-  CHECK(flat_round_hull(std::vector<FlatDisk>{{{1, 2}, 3, 0}, {{1, 2}, 3, 0}, {{2, 2}, 1, 0}}).disks ==
-        std::vector<std::size_t>{0});
+  CHECK(flat_round_hull(std::vector<FlatDisk>{{{1, 2}, 3, 0}, {{1, 2}, 3, 0}, {{2, 2}, 1, 0}})
+            .disks == std::vector<std::size_t>{0});
 }
 
 double distance_to_side(const FlatPoint& p, const FlatPoint& a, const FlatPoint& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
-  const double share = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  const double share =
+      std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
   return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
 }
 
@@ -104,7 +107,8 @@ FlatLoops random_star(std::mt19937_64& random) {
   return resolved(loops);
 }
 
-TEST_CASE("a grown polygon holds exactly what is near it, a shrunk one what is far from its outside") {
+TEST_CASE(
+    "a grown polygon holds exactly what is near it, a shrunk one what is far from its outside") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     std::mt19937_64 random(seed);
     const FlatLoops star = random_star(random);
@@ -119,11 +123,12 @@ TEST_CASE("a grown polygon holds exactly what is near it, a shrunk one what is f
       if (std::fabs(to_outline - std::fabs(distance)) < 1e-9) continue;
       const bool is_near = to_outline < std::fabs(distance), is_in = is_within(star, p);
       const bool expected = distance > 0 ? is_in || is_near : is_in && !is_near;
-      const bool is_rounded = std::any_of(offset->centers.begin(), offset->centers.end(), [&](const FlatPoint& c) {
-        return in_disk(p, c, std::fabs(distance));
-      });
+      const bool is_rounded =
+          std::any_of(offset->centers.begin(), offset->centers.end(),
+                      [&](const FlatPoint& c) { return in_disk(p, c, std::fabs(distance)); });
       const bool is_polygon = is_within(offset->polygon, p);
-      if ((distance > 0 ? is_polygon || is_rounded : is_polygon && !is_rounded) != expected) ++wrong;
+      if ((distance > 0 ? is_polygon || is_rounded : is_polygon && !is_rounded) != expected)
+        ++wrong;
     }
     INFO("seed " << seed);
     CHECK(wrong == 0);
@@ -144,7 +149,8 @@ TEST_CASE("corners of an offset lie where the moved sides cross, to the last bit
 
 TEST_CASE("a curve made of facets is not given a disk for each of its corners") {
   FlatLoop loop;
-  for (int i = 0; i < 300; ++i) loop.push_back({std::cos(2 * M_PI * i / 300), std::sin(2 * M_PI * i / 300)});
+  for (int i = 0; i < 300; ++i)
+    loop.push_back({std::cos(2 * M_PI * i / 300), std::sin(2 * M_PI * i / 300)});
   CHECK_FALSE(round_offset({loop}, 0.1));
 }
 

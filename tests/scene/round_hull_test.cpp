@@ -5,8 +5,10 @@
 #include <random>
 
 #include "convex_oracle.hpp"
+#include "scene/read_scene.hpp"
 #include "scene/round_solid.hpp"
 #include "scene/scene_membership.hpp"
+#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -50,7 +52,8 @@ void check_points(RoundKind kind, std::uint64_t seed) {
     ++sure;
     // Coming near is being inside but for the margin.
     const bool is_inside = any_object_holds(*scene, p);
-    if (is_inside != (side == Side::kInside) && side_of_hull(kind, points, p, 1e-6) == side) ++wrong;
+    if (is_inside != (side == Side::kInside) && side_of_hull(kind, points, p, 1e-6) == side)
+      ++wrong;
   }
   INFO("seed " << seed);
   CHECK(wrong == 0);
@@ -72,7 +75,8 @@ void check_rays(RoundKind kind, std::uint64_t seed) {
   const auto scene = hull_scene(kind, points);
   if (!scene) return;
   Vec3 middle;
-  for (const RoundPoint& p : points) middle = middle + (1.0 / static_cast<double>(points.size())) * p.center;
+  for (const RoundPoint& p : points)
+    middle = middle + (1.0 / static_cast<double>(points.size())) * p.center;
   int wrong = 0;
   for (int i = 0; i < 30; ++i) {
     const Vec3 far = support_point(kind, points, random_point(random, 1));
@@ -101,7 +105,8 @@ TEST_CASE("the pieces of a hull of level discs leave no slit between them") {
 }
 
 TEST_CASE("a slot is a box and the two cylinders that were given") {
-  const std::vector<RoundPoint> discs{{{0, 0, 0}, 5}, {{0, 0, 4}, 5}, {{20, 0, 0}, 5}, {{20, 0, 4}, 5}};
+  const std::vector<RoundPoint> discs{
+      {{0, 0, 0}, 5}, {{0, 0, 4}, 5}, {{20, 0, 0}, 5}, {{20, 0, 4}, 5}};
   bool is_too_large = false;
   const auto solid = round_solid(RoundKind::kDiscs, discs, is_too_large);
   REQUIRE(solid);
@@ -112,9 +117,12 @@ TEST_CASE("a slot is a box and the two cylinders that were given") {
   CHECK(std::get<CylinderShape>(pieces[2].value) == CylinderShape{{20, 0, 0}, {20, 0, 4}, 5});
 }
 
-TEST_CASE("a box of balls has a cylinder for each edge, a ball for each corner, and the planes of its faces") {
+TEST_CASE(
+    "a box of balls has a cylinder for each edge, a ball for each corner, and the planes of its "
+    "faces") {
   std::vector<RoundPoint> balls;
-  for (int i = 0; i < 8; ++i) balls.push_back({{i & 1 ? 10.0 : 0.0, i & 2 ? 8.0 : 0.0, i & 4 ? 6.0 : 0.0}, 2});
+  for (int i = 0; i < 8; ++i)
+    balls.push_back({{i & 1 ? 10.0 : 0.0, i & 2 ? 8.0 : 0.0, i & 4 ? 6.0 : 0.0}, 2});
   bool is_too_large = false;
   const auto solid = round_solid(RoundKind::kBalls, balls, is_too_large);
   REQUIRE(solid);
@@ -127,16 +135,19 @@ TEST_CASE("a box of balls has a cylinder for each edge, a ball for each corner, 
   }
 }
 
-TEST_CASE("two balls are joined by the cone that touches both, and by a cylinder when they are alike") {
+TEST_CASE(
+    "two balls are joined by the cone that touches both, and by a cylinder when they are alike") {
   bool is_too_large = false;
   const auto alike = round_solid(RoundKind::kBalls, {{{0, 0, 0}, 1}, {{4, 0, 0}, 1}}, is_too_large);
   REQUIRE(alike);
   const auto& pieces = std::get<OperationNode>(alike->node.value).children;
   REQUIRE(pieces.size() == 3);
   CHECK(std::get<CylinderShape>(pieces[0].value) == CylinderShape{{0, 0, 0}, {4, 0, 0}, 1});
-  const auto unlike = round_solid(RoundKind::kBalls, {{{0, 0, 0}, 4}, {{5, 0, 0}, 1}}, is_too_large);
+  const auto unlike =
+      round_solid(RoundKind::kBalls, {{{0, 0, 0}, 4}, {{5, 0, 0}, 1}}, is_too_large);
   REQUIRE(unlike);
-  const auto& cone = std::get<ConeShape>(std::get<OperationNode>(unlike->node.value).children[0].value);
+  const auto& cone =
+      std::get<ConeShape>(std::get<OperationNode>(unlike->node.value).children[0].value);
   // cos = 3/5 at the axis, sin = 4/5.
   CHECK(cone.base.x == Approx(2.4));
   CHECK(cone.base_radius == Approx(3.2));
@@ -147,19 +158,40 @@ TEST_CASE("two balls are joined by the cone that touches both, and by a cylinder
 TEST_CASE("what others hide leaves no piece behind") {
   const std::vector<RoundPoint> seen{{{0, 0, 0}, 2}, {{10, 0, 0}, 3}, {{0, 10, 0}, 1}};
   auto more = seen;
-  more.push_back({{0.5, 0, 0}, 1});    // in the first
-  more.push_back({{5, 0, 0}, 2.5});    // between the first two
-  more.push_back({{3, 3, 0}, 0.5});    // among all three
-  more.push_back({{10, 0, 0}, 3});     // twice
-  const auto plain = hull_scene(RoundKind::kBalls, seen), full = hull_scene(RoundKind::kBalls, more);
+  more.push_back({{0.5, 0, 0}, 1});  // in the first
+  more.push_back({{5, 0, 0}, 2.5});  // between the first two
+  more.push_back({{3, 3, 0}, 0.5});  // among all three
+  more.push_back({{10, 0, 0}, 3});   // twice
+  const auto plain = hull_scene(RoundKind::kBalls, seen),
+             full = hull_scene(RoundKind::kBalls, more);
   REQUIRE((plain && full));
   CHECK(count_of(*plain) == 1 + 3 + 3);
   CHECK(count_of(*full) == count_of(*plain));
 }
 
+TEST_CASE("whatever hull there is can be written as a scene file and read again") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    std::mt19937_64 random(seed);
+    const RoundKind kind = seed % 2 == 0 ? RoundKind::kBalls : RoundKind::kDiscs;
+    auto scene = hull_scene(kind, random_rounds(random, 2 + seed % 11, kind));
+    if (!scene) continue;
+    scene->settings.image = {64, 64, 1};
+    scene->settings.camera.eye = {0, 0, 30};
+    scene->settings.camera.up = {0, 1, 0};
+    scene->settings.camera.fov_degrees = 30;
+    scene->materials.push_back({"plain", {}});
+    scene->objects.front().material = 0;
+    const ReadResult result = read_scene_text(std::string_view(write_scene_text(*scene)));
+    INFO("seed " << seed);
+    for (const auto& error : result.errors) UNSCOPED_INFO(error.message);
+    CHECK(result.errors.empty());
+  }
+}
+
 TEST_CASE("discs at one height enclose nothing") {
   bool is_too_large = true;
-  CHECK_FALSE(round_solid(RoundKind::kDiscs, {{{0, 0, 1}, 2}, {{5, 0, 1}, 1}, {{0, 5, 1}, 0}}, is_too_large));
+  CHECK_FALSE(round_solid(RoundKind::kDiscs, {{{0, 0, 1}, 2}, {{5, 0, 1}, 1}, {{0, 5, 1}, 0}},
+                          is_too_large));
   CHECK_FALSE(is_too_large);
 }
 
