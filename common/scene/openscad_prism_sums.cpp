@@ -83,7 +83,7 @@ bool add_operand(const ScadModule& module, const Affine& map, ScadImport& import
   const std::string& name = module.name;
   Affine inner = map;
   if (name == "multmatrix") {
-    const auto own = openscad_matrix(module, import.report);
+    const auto own = openscad_matrix(module, import.digits, import.report);
     if (!own) return true;
     inner = compose(map, *own);
   }

@@ -188,7 +188,7 @@ bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadI
                 std::vector<RoundPiece>& pieces) {
   if (is_container(module.name)) return add_all(module.children, map, use, import, pieces);
   if (module.name == "multmatrix") {
-    const auto inner = openscad_matrix(module, import.report);
+    const auto inner = openscad_matrix(module, import.digits, import.report);
     return !inner || add_all(module.children, compose(map, *inner), use, import, pieces);
   }
   if (module.name == "hull") return add_hull(module.children, map, import, pieces);
