@@ -1,6 +1,7 @@
-// bare_farm NODES…: what a farm's processes cost before they trace anything. Forks as many processes as a farm has nodes,
-// which open the sockets that nodes have, greet the hub and their neighbours in the hypercube, and end: nothing of Graycube but its
-// transport. Three lines for each number: forked only; with their sockets; linked, too.
+// bare_farm NODES…: what a farm's processes cost before they trace anything. Forks as many
+// processes as a farm has nodes, which open the sockets that nodes have, greet the hub and their
+// neighbours in the hypercube, and end: nothing of Graycube but its transport. Three lines for each
+// number: forked only; with their sockets; linked, too.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,7 +35,9 @@ std::string name_of(Stage stage) {
   return {};
 }
 
-std::string endpoint_of(const TemporaryFolder& folder, const std::string& name) { return "ipc://" + (folder / name).string(); }
+std::string endpoint_of(const TemporaryFolder& folder, const std::string& name) {
+  return "ipc://" + (folder / name).string();
+}
 
 Message some_message() { return Message::of_text("hello"); }
 
@@ -89,7 +92,9 @@ void answer_all(Inbox& hub, std::uint32_t processes) {
   for (const std::string& peer : peers) hub.send(peer, some_message());
 }
 
-double seconds_of(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
 
 void measure(const Hypercube& cube, Stage stage) {
   // As nodes' common parent: no process looks for the system's protocols itself.
@@ -121,12 +126,14 @@ void measure(const Hypercube& cube, Stage stage) {
   for (std::uint32_t i = 0; i < cube.nodes(); ++i) {
     rusage usage{};
     int status = 0;
-    if (::wait4(-1, &status, 0, &usage) < 0 || status != 0) throw std::runtime_error("a process failed");
+    if (::wait4(-1, &status, 0, &usage) < 0 || status != 0)
+      throw std::runtime_error("a process failed");
     cpu_s += seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     faults += usage.ru_minflt;
   }
-  std::printf("%4u processes, %-12s %6.2f ms of CPU and %4ld page faults each\n", cube.nodes(), name_of(stage).c_str(),
-              1e3 * cpu_s / cube.nodes(), faults / static_cast<long>(cube.nodes()));
+  std::printf("%4u processes, %-12s %6.2f ms of CPU and %4ld page faults each\n", cube.nodes(),
+              name_of(stage).c_str(), 1e3 * cpu_s / cube.nodes(),
+              faults / static_cast<long>(cube.nodes()));
   std::fflush(stdout);
 }
 
@@ -135,7 +142,8 @@ Hypercube cube_of(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), nodes);
   const auto cube = Hypercube::of_size(nodes);
   if (error != std::errc() || end != text.data() + text.size() || !cube) {
-    throw std::runtime_error(std::string(text) + ": expected a power of two, 1 to " + std::to_string(kMaxNodes));
+    throw std::runtime_error(std::string(text) + ": expected a power of two, 1 to " +
+                             std::to_string(kMaxNodes));
   }
   return *cube;
 }
@@ -149,7 +157,8 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
       const auto cube = graycube::bench::cube_of(argv[i]);
       using graycube::bench::Stage;
-      for (const Stage stage : {Stage::kForked, Stage::kSockets, Stage::kLinks}) graycube::bench::measure(cube, stage);
+      for (const Stage stage : {Stage::kForked, Stage::kSockets, Stage::kLinks})
+        graycube::bench::measure(cube, stage);
     }
   } catch (const std::exception& e) {
     std::fprintf(stderr, "bare_farm: %s\n", e.what());

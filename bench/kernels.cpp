@@ -49,7 +49,8 @@ TriangleMesh ball_mesh() {
     for (const double y : {-1.0, 1.0}) {
       for (const double z : {-1.0, 1.0}) {
         const bool is_turned = x * y * z < 0;
-        add_facets(mesh, {x, 0, 0}, is_turned ? Vec3{0, 0, z} : Vec3{0, y, 0}, is_turned ? Vec3{0, y, 0} : Vec3{0, 0, z}, 5);
+        add_facets(mesh, {x, 0, 0}, is_turned ? Vec3{0, 0, z} : Vec3{0, y, 0},
+                   is_turned ? Vec3{0, y, 0} : Vec3{0, 0, z}, 5);
       }
     }
   }
@@ -76,7 +77,8 @@ struct Specimen {
       case PrimitiveKind::kTorus: primitive = build_torus(none, {}, {0, 1, 0}, 0.8, 0.3); break;
       case PrimitiveKind::kHalfSpace: primitive = build_half_space(none, {{0, 1, 0}, 0.2}); break;
       case PrimitiveKind::kEllipticCone:
-        primitive = build_elliptic_cone(none, {0, -1, 0}, {0.2, 1, 0}, {1, 0, 0}, {0, 0, 0.7}, 0.4, 0.6);
+        primitive =
+            build_elliptic_cone(none, {0, -1, 0}, {0.2, 1, 0}, {1, 0, 0}, {0, 0, 0.7}, 0.4, 0.6);
         break;
       case PrimitiveKind::kEllipticTorus:
         primitive = build_elliptic_torus(none, {}, {0, 1, 0}, 0.7, 0.3, 0.1, 0.2);
@@ -112,9 +114,8 @@ std::vector<Ray> rays_about_the_origin() {
 }
 
 constexpr std::array<const char*, kPrimitiveKinds> kKindNames{
-    "sphere", "ellipsoid", "box",        "parallelepiped", "cylinder",
-    "cone",   "torus",     "half_space", "polyhedron",     "elliptic_cone",
-    "elliptic_torus", "quadric", "mesh"};
+    "sphere",     "ellipsoid",  "box",           "parallelepiped", "cylinder", "cone", "torus",
+    "half_space", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",  "mesh"};
 
 void spans_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);
@@ -231,14 +232,16 @@ void build(benchmark::State& state, const Subject& subject) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(model.primitives.size()));
 }
 
-/// A batch as a node sends it: 8192 pixels, blocks of 8 × 8 beside each other in a picture 1024 wide.
+/// A batch as a node sends it: 8192 pixels, blocks of 8 × 8 beside each other in a picture 1024
+/// wide.
 std::vector<Contribution> lit_blocks() {
   Dice dice(kSeed);
   std::vector<Contribution> light;
   const auto component = [&] { return static_cast<std::int64_t>(dice.between(0, 1) * kFixedOne); };
   for (std::uint32_t block = 0; block < 128; ++block) {
     for (std::uint32_t i = 0; i < 64; ++i) {
-      light.push_back({8 * block + i % 8 + 1024 * (i / 8), {component(), component(), component()}});
+      light.push_back(
+          {8 * block + i % 8 + 1024 * (i / 8), {component(), component(), component()}});
     }
   }
   return light;
@@ -257,7 +260,8 @@ void light_in(benchmark::State& state) {
   const auto batch = encode_contributions({}, {}, light);
   std::vector<TileCredit> credits;
   std::vector<Contribution> again;
-  for (auto _ : state) benchmark::DoNotOptimize(decode_contributions(batch, kBatchLimits, credits, again));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(decode_contributions(batch, kBatchLimits, credits, again));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(light.size()));
 }
 

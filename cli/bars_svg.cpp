@@ -79,8 +79,10 @@ std::string bars_svg(const std::string& title, const std::vector<ComparedRow>& r
   for (const ComparedRow& row : rows) {
     svg += text_at(10, y + kHeight / 2, row.name);
     const bool has_bars = !row.statistics.empty();
-    const bool has_picture = row.outcome == RowOutcome::kSame || row.outcome == RowOutcome::kReference;
-    if (has_bars && !has_picture) svg += text_at(10, y + kHeight / 2 + 15, to_string(row.outcome), 11);
+    const bool has_picture =
+        row.outcome == RowOutcome::kSame || row.outcome == RowOutcome::kReference;
+    if (has_bars && !has_picture)
+      svg += text_at(10, y + kHeight / 2 + 15, to_string(row.outcome), 11);
     if (!has_bars) {
       svg += text_at(kLeft, y + kHeight / 2, to_string(row.outcome) + ": " + row.why, 11);
     } else {

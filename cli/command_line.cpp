@@ -29,7 +29,9 @@ void add(CLI::App& app, const std::string& names, const char* type, const std::s
 
 void add_scene(CLI::App& app, std::string& scene) {
   add(
-      app, "SCENE", "", "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc), a mesh (.stl, .off)",
+      app, "SCENE", "",
+      "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc), a "
+      "mesh (.stl, .off)",
       [&scene](const std::string& text) { scene = text; }, true);
 }
 
@@ -50,10 +52,11 @@ void add_choice(CLI::App& app, ModelChoice& choice) {
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
-  add(app, "--view", "FILE", "BRL-CAD: a view script, as rt reads it", [&choice](const std::string& text) {
-    choice.view = text;
-    choice.is_given = true;
-  });
+  add(app, "--view", "FILE", "BRL-CAD: a view script, as rt reads it",
+      [&choice](const std::string& text) {
+        choice.view = text;
+        choice.is_given = true;
+      });
   const auto angle = [&](const char* name, const char* help, double& value) {
     add(app, name, "DEGREES", help, [&choice, &value, name](const std::string& text) {
       value = parse_angle(name, text);
@@ -121,15 +124,19 @@ void add_job_options(CLI::App& app, control::JobOptions& o) {
       [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
   add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
       [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
-  add(app, "--shadows", "NAME", "horizon (default), forward or local: how macro finishes shadow rays",
+  add(app, "--shadows", "NAME",
+      "horizon (default), forward or local: how macro finishes shadow rays",
       [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
-  add(app, "--partition", "NAME", "auto (default), regular, or balanced: boundaries by a coarse pre-render",
+  add(app, "--partition", "NAME",
+      "auto (default), regular, or balanced: boundaries by a coarse pre-render",
       [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
   add(app, "--scatter", "K", "K x K macro-regions per node, 1 to 8 (default: what suits the scene)",
       [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
-  add(app, "--flow", "NAME", "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
+  add(app, "--flow", "NAME",
+      "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
       [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
-  add(app, "--sums", "NAME", "direct (default), or tree: nodes add up each other's light on its way",
+  add(app, "--sums", "NAME",
+      "direct (default), or tree: nodes add up each other's light on its way",
       [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
   add_common_options(app, o);
   add(app, "--aov", "NAMES", "Also of each first hit, in OUT.exr: depth,normal,albedo,object",
@@ -209,8 +216,11 @@ class Parser {
         [&up](const std::string& text) { up.state = text; });
     add(*sub, "--http", "HOST:PORT", "A web page of the farm at this loopback address",
         [&up](const std::string& text) { up.http = text; });
-    add(*sub, "--outbox-rays", "N", "Rays to be sent that a node may hold (default " + std::to_string(kDefaultOutboxRays) + ")",
-        [&up](const std::string& text) { up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays); });
+    add(*sub, "--outbox-rays", "N",
+        "Rays to be sent that a node may hold (default " + std::to_string(kDefaultOutboxRays) + ")",
+        [&up](const std::string& text) {
+          up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays);
+        });
   }
 
   void declare_client() {
@@ -269,7 +279,8 @@ class Parser {
     add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
               compare.nodes);
     add_common_options(*sub, compare.options);
-    sub->add_flag("--json", compare.as_json, "All statistics as one line of JSON, instead of a table");
+    sub->add_flag("--json", compare.as_json,
+                  "All statistics as one line of JSON, instead of a table");
     sub->add_flag("--quiet,-q", compare.is_quiet, "Print nothing but the table and errors");
     add(*sub, "--plot", "OUT.svg", "Also a picture of what each node did with its time",
         [&compare](const std::string& text) { compare.plot = text; });
@@ -287,7 +298,8 @@ class Parser {
 
   void declare_simulate() {
     CLI::App* sub = nullptr;
-    auto& c = declare<SimulateCommand>("simulate", "Predict how a scene renders on other machines", sub);
+    auto& c =
+        declare<SimulateCommand>("simulate", "Predict how a scene renders on other machines", sub);
     add_scene(*sub, c.scene);
     add_choice(*sub, c.choice);
     add(
@@ -299,12 +311,15 @@ class Parser {
         value = parse_number(name, text, least, most);
       });
     };
-    figure("--link-gbps", "G", "Bandwidth of a link, 10^9 bits a second (default 10)", c.link_gbps, 1e-6, 1e6);
+    figure("--link-gbps", "G", "Bandwidth of a link, 10^9 bits a second (default 10)", c.link_gbps,
+           1e-6, 1e6);
     figure("--link-us", "L", "Latency of a link, microseconds (default 50)", c.link_us, 0, 1e9);
-    figure("--host-gbps", "G", "Bandwidth of the frontal's link (default: as the others)", c.host_gbps, 1e-6, 1e6);
+    figure("--host-gbps", "G", "Bandwidth of the frontal's link (default: as the others)",
+           c.host_gbps, 1e-6, 1e6);
     figure("--message-us", "T", "CPU time that a message takes each side (default: measured here)",
            c.message_us, 0, 1e9);
-    figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale, 1e-6, 1e9);
+    figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale,
+           1e-6, 1e9);
     add(*sub, "--cores", "C", "Cores that all processes share (default: one each)",
         [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
     add_job_options(*sub, c.options);

@@ -103,9 +103,10 @@ struct PrintCommand {
   std::string text;
 };
 
-using Command = std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand,
-                             WatchCommand, CancelCommand, FetchCommand, NodesCommand, DownCommand,
-                             CheckCommand, CompareCommand, SimulateCommand, ConvertCommand, PrintCommand>;
+using Command =
+    std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
+                 CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
+                 CompareCommand, SimulateCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are as main gets them, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);

@@ -44,8 +44,9 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
     std::uint32_t queue = 0;
   };
   const auto macro = [&](std::string name, const Macro& m) {
-    std::string arguments = "--algorithm macro --shadows " + std::string(to_string(m.shadows)) + " --scatter " +
-                            std::to_string(m.scatter) + " --partition " + std::string(to_string(m.partition));
+    std::string arguments = "--algorithm macro --shadows " + std::string(to_string(m.shadows)) +
+                            " --scatter " + std::to_string(m.scatter) + " --partition " +
+                            std::string(to_string(m.partition));
     if (m.queue != 0) arguments += " --flow blocking --queue " + std::to_string(m.queue);
     add(std::move(name), std::move(arguments), [&](auto& o) {
       o.algorithm = Algorithm::kMacro;
@@ -96,9 +97,9 @@ std::string number(const char* format, double value) {
 
 std::string table_of(const std::vector<ComparedRow>& rows) {
   const Figures serial = figures_of(rows.front().statistics);
-  std::vector<std::vector<std::string>> cells{
-      {"WAY", "WALL s", "CPU s", "CPU/SERIAL", "EFFICIENCY", "BLOCKED %", "RAYS FORWARDED",
-       "MESSAGES", "MB", "MEMORY %", "ROUNDS", "QUEUE PEAK", "PICTURE"}};
+  std::vector<std::vector<std::string>> cells{{"WAY", "WALL s", "CPU s", "CPU/SERIAL", "EFFICIENCY",
+                                               "BLOCKED %", "RAYS FORWARDED", "MESSAGES", "MB",
+                                               "MEMORY %", "ROUNDS", "QUEUE PEAK", "PICTURE"}};
   for (const ComparedRow& row : rows) {
     auto& line = cells.emplace_back(std::vector<std::string>{row.name});
     if (row.statistics.empty()) {
@@ -130,7 +131,8 @@ struct TimedRender {
   double wall_s = 0, cpu_s = 0;
 };
 
-TimedRender render_serially(const CompareCommand& command, const SceneInput& scene, ProgressDisplay& display) {
+TimedRender render_serially(const CompareCommand& command, const SceneInput& scene,
+                            ProgressDisplay& display) {
   const auto started = std::chrono::steady_clock::now();
   const double cpu_before_s = own_cpu_seconds();
   TimedRender timed{render_here(scene, command.options, 1, display)};
@@ -139,8 +141,8 @@ TimedRender render_serially(const CompareCommand& command, const SceneInput& sce
   return timed;
 }
 
-/// Serial's row comes first, but it is rendered again at the end, and has the mean of both times: machines get slower and quicker, and
-/// all rows are compared with this one.
+/// Serial's row comes first, but it is rendered again at the end, and has the mean of both times:
+/// machines get slower and quicker, and all rows are compared with this one.
 std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneInput& scene,
                                      ProgressDisplay& display) {
   std::vector<ComparedRow> rows;
@@ -148,7 +150,8 @@ std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneI
   rows.push_back({"serial", "--algorithm serial", RowOutcome::kReference, {}, {}});
   {
     const InterruptsHeld held;
-    FrontalProcess frontal({"--private", "--nodes", std::to_string(command.nodes), "--threads", "1"});
+    FrontalProcess frontal(
+        {"--private", "--nodes", std::to_string(command.nodes), "--threads", "1"});
     FarmClient farm(frontal.wait_until_listening(), [&] {
       throw_if_interrupted();
       frontal.check_running();
@@ -159,8 +162,8 @@ std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneI
     frontal.stop();
   }
   const TimedRender last = render_serially(command, scene, display);
-  rows.front().statistics =
-      with_command_times(first.rendered.stats, (first.wall_s + last.wall_s) / 2, (first.cpu_s + last.cpu_s) / 2);
+  rows.front().statistics = with_command_times(
+      first.rendered.stats, (first.wall_s + last.wall_s) / 2, (first.cpu_s + last.cpu_s) / 2);
   return rows;
 }
 
@@ -176,9 +179,8 @@ ExitStatus run(const CompareCommand& command) {
   ProgressDisplay display(stderr, command.is_quiet);
   const std::vector<ComparedRow> rows = compare_all(command, scene, display);
   display.clear();
-  const std::string text = command.as_json
-                               ? comparison_json(scene.name, command.nodes, rows) + "\n"
-                               : table_of(rows);
+  const std::string text =
+      command.as_json ? comparison_json(scene.name, command.nodes, rows) + "\n" : table_of(rows);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!command.plot.empty()) {
     write_text_file(command.plot, bars_svg(scene.name + " on " + std::to_string(command.nodes) +

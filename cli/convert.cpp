@@ -36,7 +36,8 @@ void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& c
     for (const std::string& warning : pov.warnings) print({"warning", out.string(), warning});
     if (!pov.errors.empty()) {
       std::vector<Problem> problems;
-      for (const std::string& error : pov.errors) problems.push_back({"convert", out.string(), error});
+      for (const std::string& error : pov.errors)
+        problems.push_back({"convert", out.string(), error});
       throw Failure(ExitStatus::kBadInput, std::move(problems));
     }
     text = std::move(pov.text);
@@ -56,11 +57,12 @@ ExitStatus run(const ConvertCommand& command) {
   const auto from = in.extension(), to = out.extension();
   const bool is_scene =
       from == ".json" || from == ".cbor" || is_openscad(in) || is_brlcad(in) || is_mesh_file(in);
-  const bool is_known =
-      (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) || (from == ".exr" && to == ".png");
+  const bool is_known = (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) ||
+                        (from == ".exr" && to == ".png");
   if (!is_known) {
     throw usage_failure("convert",
-                        "expected .json, .cbor, .scad, .csg, .g, .asc, .stl or .off to .json, .cbor or .pov, or .exr to .png; found " +
+                        "expected .json, .cbor, .scad, .csg, .g, .asc, .stl or .off to .json, "
+                        ".cbor or .pov, or .exr to .png; found " +
                             in.string() + " to " + out.string());
   }
   check_output("", out, in);

@@ -63,7 +63,8 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
 }
 
 Received FarmClient::answer() {
-  if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer)) return *std::move(received);
+  if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer))
+    return *std::move(received);
   // A farm under load is slow to answer; where somebody listens it gets more time.
   if (!has_answered_ && find_listener(endpoint_).is_there) {
     if (auto received = receive(kLaterAnswer)) return *std::move(received);

@@ -26,19 +26,19 @@ bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_
                                 std::uint64_t{rows.width} * rows.height <= kMaxPixels;
   const bool is_size_same =
       (first == 0 && plane == 0) || (rows.width == picture.width && rows.height == picture.height);
-  return is_size_possible && is_size_same && rows.plane == plane && rows.first_row == first && rows.rows >= 1 &&
-         rows.rows <= rows.height - first;
+  return is_size_possible && is_size_same && rows.plane == plane && rows.first_row == first &&
+         rows.rows >= 1 && rows.rows <= rows.height - first;
 }
 
-/// All rows of light (plane 0) or of a plane of AOVs, each put where it belongs. The picture's size and AOVs come
-/// with the light.
+/// All rows of light (plane 0) or of a plane of AOVs, each put where it belongs. The picture's size
+/// and AOVs come with the light.
 template <typename Value>
 void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Picture& picture,
                  std::vector<Value>& all) {
   std::uint32_t row = 0;
   do {
-    const control::Fetch request{
-        job, row, picture.height == 0 ? kMaxImageSide : picture.height - row, plane};
+    const control::Fetch request{job, row,
+                                 picture.height == 0 ? kMaxImageSide : picture.height - row, plane};
     const auto [rows, payload] = farm.ask<control::Picture>(request, "fetch");
     const auto aovs = parse_aovs(rows.aov);
     if (!is_sound(rows, picture, row, plane) || !aovs) throw nonsense(job);
@@ -49,7 +49,8 @@ void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Pictu
     }
     const std::size_t row_values = std::size_t{3} * rows.width;
     all.resize(row_values * rows.height);
-    if (!decode_picture_rows(payload.bytes(), std::span(all).subspan(row * row_values, rows.rows * row_values))) {
+    if (!decode_picture_rows(payload.bytes(),
+                             std::span(all).subspan(row * row_values, rows.rows * row_values))) {
       throw nonsense(job);
     }
     row += rows.rows;
@@ -102,7 +103,8 @@ control::JobInfo job_info(FarmClient& farm, std::uint32_t job) {
   return farm.ask<control::JobInfo>(control::Status{job}, "job").first;
 }
 
-std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job, const Outputs& outputs,
+std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job,
+                                                     const Outputs& outputs,
                                                      const ImageSize& size) {
   const auto absolute = [](const std::filesystem::path& path) {
     return path.empty() ? std::string() : std::filesystem::absolute(path).string();

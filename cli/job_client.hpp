@@ -31,10 +31,11 @@ control::JobInfo job_info(FarmClient& farm, std::uint32_t job);
 /// A done job's picture. Throws a Failure also when the frontal sends nonsense.
 Picture fetch_picture(FarmClient& farm, std::uint32_t job);
 
-/// Has a private frontal write a done job's picture, each file whole or not at all. Nothing where it can't: the picture is too
-/// large, or no message holds the paths. Throws a Failure when a file can't be written.
-std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job, const Outputs& outputs,
-                                                     const ImageSize& size);
+/// Has a private frontal write a done job's picture, each file whole or not at all. Nothing where
+/// it can't: the picture is too large, or no message holds the paths. Throws a Failure when a file
+/// can't be written.
+std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job,
+                                                     const Outputs& outputs, const ImageSize& size);
 
 /// "roth on 8 nodes, 4 token rounds".
 std::string summary_text(const control::JobInfo& info);

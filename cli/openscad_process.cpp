@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr int kLookMs = 20;
 constexpr std::string_view kEmptyModel = "Current top level object is empty.";
 
-/// The folder has to go on an interrupt, too. Only while there is one: an importer that is busy with what came from it
-/// may be interrupted at any time.
+/// The folder has to go on an interrupt, too. Only while there is one: an importer that is busy
+/// with what came from it may be interrupted at any time.
 struct Workplace {
   InterruptsHeld held;
   TemporaryFolder folder;
@@ -98,11 +98,13 @@ pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, cons
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t pid = -1;
-  const int error = ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, argv.data(), environ);
+  const int error =
+      ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
   if (error != 0) {
-    throw Failure(ExitStatus::kFailed, Problem{"openscad", program_.string(), std::strerror(error)});
+    throw Failure(ExitStatus::kFailed,
+                  Problem{"openscad", program_.string(), std::strerror(error)});
   }
   return pid;
 }

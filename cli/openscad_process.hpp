@@ -32,14 +32,16 @@ class OpenscadProcess : public OpenscadProgram {
   Result evaluate(const std::string& csg, Format format) override;
   /// The .csg file that a .scad file comes to.
   Result evaluate_file(const std::filesystem::path& scad);
-  /// The same with definitions put behind the model's, without messages; empty where it fails or takes too long.
+  /// The same with definitions put behind the model's, without messages; empty where it fails or
+  /// takes too long.
   std::string evaluate_with(const std::filesystem::path& scad, std::string_view definitions);
   /// What the program had to say, line by line, since this was last asked.
   std::vector<std::string> take_messages();
 
  private:
   /// Runs the program with `-o FOLDER/output input` and gives what it wrote.
-  Result run(const std::filesystem::path& folder, const std::filesystem::path& input, const std::string& output);
+  Result run(const std::filesystem::path& folder, const std::filesystem::path& input,
+             const std::string& output);
   /// `program -o output input OPTIONS`.
   pid_t start(const std::filesystem::path& input, const std::filesystem::path& output,
               const std::filesystem::path& log, const std::vector<std::string>& options = {});

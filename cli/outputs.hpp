@@ -29,8 +29,8 @@ std::filesystem::path default_exr(const std::filesystem::path& scene);
 /// Throws a Failure of status 1.
 void write_pictures(const Outputs& outputs, const Picture& picture, const std::string& scene);
 
-/// Writes the statistics, if wanted and there are any. A render that ended in a deadlock has them too (Failure::statistics):
-/// its nodes' times and queues are worth as much as a picture's.
+/// Writes the statistics, if wanted and there are any. A render that ended in a deadlock has them
+/// too (Failure::statistics): its nodes' times and queues are worth as much as a picture's.
 void write_stats(const Outputs& outputs, const std::string& stats);
 
 /// A text file, whole or not at all. Throws a Failure of status 1.

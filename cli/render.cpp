@@ -24,10 +24,12 @@ std::vector<std::string> frontal_arguments(const RenderCommand& command) {
           std::to_string(command.threads)};
 }
 
-/// A compiled scene may be so many times as long as its text, which holds a shape once however often it is used.
+/// A compiled scene may be so many times as long as its text, which holds a shape once however
+/// often it is used.
 constexpr std::size_t kMostExpansion = 4;
 
-/// What goes to the farm: the scene compiled, which saves the frontal from reading it again, or its text.
+/// What goes to the farm: the scene compiled, which saves the frontal from reading it again, or its
+/// text.
 SharedBytes bytes_to_send(SceneInput scene) {
   const Model model = compile_scene(scene.scene);
   scene.scene = {};
@@ -43,10 +45,11 @@ ImageSize size_of(const Scene& scene, const control::JobOptions& options) {
   return size;
 }
 
-/// Renders on a farm of its own, which writes the pictures, too, if it can: there are no pixels then. Interrupts must be held:
-/// the farm has to be put away.
-Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs, const std::string& name, SharedBytes scene,
-                        const ImageSize& size, FrontalProcess& frontal) {
+/// Renders on a farm of its own, which writes the pictures, too, if it can: there are no pixels
+/// then. Interrupts must be held: the farm has to be put away.
+Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
+                        const std::string& name, SharedBytes scene, const ImageSize& size,
+                        FrontalProcess& frontal) {
   ProgressDisplay display(stdout, command.is_quiet);
   const std::string& endpoint = frontal.wait_until_listening();
   bool ends_on_interrupt = true;
@@ -74,18 +77,21 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs, co
   return rendered;
 }
 
-/// With what the whole command took, which it returns, what reading took of that, and what the frontal took to write pictures.
-double write_timed_stats(const Outputs& outputs, const std::string& stats, Clock::time_point started, double load_s,
-                         double written_cpu_s = 0) {
+/// With what the whole command took, which it returns, what reading took of that, and what the
+/// frontal took to write pictures.
+double write_timed_stats(const Outputs& outputs, const std::string& stats,
+                         Clock::time_point started, double load_s, double written_cpu_s = 0) {
   const double wall_s = seconds_since(started);
-  write_stats(outputs, with_command_times(stats, wall_s, own_cpu_seconds() + written_cpu_s, load_s));
+  write_stats(outputs,
+              with_command_times(stats, wall_s, own_cpu_seconds() + written_cpu_s, load_s));
   return wall_s;
 }
 
 void write_outputs(const RenderCommand& command, const Outputs& outputs, const std::string& scene,
                    const Rendered& rendered, Clock::time_point started, double load_s) {
   if (!rendered.picture.rgb.empty()) write_pictures(outputs, rendered.picture, scene);
-  const double wall_s = write_timed_stats(outputs, rendered.stats, started, load_s, rendered.written_cpu_s);
+  const double wall_s =
+      write_timed_stats(outputs, rendered.stats, started, load_s, rendered.written_cpu_s);
   if (command.is_quiet) return;
   std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
               rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());

@@ -15,7 +15,8 @@ struct Rendered {
   std::string stats;
   /// "serial, 4 threads".
   std::string summary;
-  /// What it took another process, in CPU time, to write the picture's files; there are no pixels then.
+  /// What it took another process, in CPU time, to write the picture's files; there are no pixels
+  /// then.
   double written_cpu_s = 0;
 };
 

@@ -95,20 +95,22 @@ std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
   if (path.extension() == ".csg") return read_file(path, kMaxOpenscadBytes);
   read_file(path, kMaxOpenscadBytes);  // says why when it can't be read
   if (program == nullptr) {
-    throw bad_scene(path, "the program openscad must evaluate it, and is not there; or give a .csg file");
+    throw bad_scene(path,
+                    "the program openscad must evaluate it, and is not there; or give a .csg file");
   }
   auto result = program->evaluate_file(path);
   if (!result.trouble.empty()) {
     std::vector<Problem> problems;
-    for (const std::string& line : program->take_messages()) problems.push_back({"openscad", path.string(), line});
+    for (const std::string& line : program->take_messages())
+      problems.push_back({"openscad", path.string(), line});
     if (problems.empty()) problems.push_back({"openscad", path.string(), result.trouble});
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   return std::move(result.text);
 }
 
-void import_openscad(const fs::path& path, const control::JobOptions& options, const ModelChoice& choice,
-                     SceneInput& input) {
+void import_openscad(const fs::path& path, const control::JobOptions& options,
+                     const ModelChoice& choice, SceneInput& input) {
   const auto program = OpenscadProcess::find();
   OpenscadOptions how;
   how.image.width = options.width.value_or(how.image.width);
@@ -152,7 +154,8 @@ void import_mesh(const fs::path& path, const control::JobOptions& options, Scene
   if (const auto* fault = std::get_if<MeshFault>(&read)) {
     // The file's name is in front already.
     const std::string name = path.string() + ": ";
-    throw bad_scene(path, fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
+    throw bad_scene(path,
+                    fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
   }
   OpenscadOptions how;
   how.image.width = options.width.value_or(how.image.width);
@@ -170,8 +173,8 @@ Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& error
   return {ExitStatus::kBadInput, std::move(problems)};
 }
 
-void import_brlcad(const fs::path& path, const control::JobOptions& options, const ModelChoice& choice,
-                   SceneInput& input) {
+void import_brlcad(const fs::path& path, const control::JobOptions& options,
+                   const ModelChoice& choice, SceneInput& input) {
   BrlcadOptions how;
   how.image.width = options.width.value_or(how.image.width);
   how.image.height = options.height.value_or(how.image.height);
@@ -192,8 +195,12 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options, con
 
 }  // namespace
 
-bool is_openscad(const fs::path& path) { return path.extension() == ".csg" || path.extension() == ".scad"; }
-bool is_brlcad(const fs::path& path) { return path.extension() == ".g" || path.extension() == ".asc"; }
+bool is_openscad(const fs::path& path) {
+  return path.extension() == ".csg" || path.extension() == ".scad";
+}
+bool is_brlcad(const fs::path& path) {
+  return path.extension() == ".g" || path.extension() == ".asc";
+}
 
 std::string brlcad_tops_text(const fs::path& path) {
   const BrlcadTops read = list_brlcad_tops(read_file(path, kMaxBrlcadBytes));
@@ -213,7 +220,8 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
                         "are for BRL-CAD databases (.g, .asc), not for " + path.string());
   }
   if (choice.facets && !is_openscad(path)) {
-    throw usage_failure("--facets", "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
+    throw usage_failure("--facets",
+                        "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
   }
   SceneInput input;
   input.name = path.filename().string();
@@ -226,7 +234,8 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
   } else if (is_mesh_file(path)) {
     import_mesh(path, options, input);
   } else {
-    throw bad_scene(path, "expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off");
+    throw bad_scene(path,
+                    "expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off");
   }
   return input;
 }

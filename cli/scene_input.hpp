@@ -11,7 +11,8 @@
 
 namespace graycube {
 
-/// What to show of a file that holds a model without a view: a BRL-CAD database or an OpenSCAD model.
+/// What to show of a file that holds a model without a view: a BRL-CAD database or an OpenSCAD
+/// model.
 struct ModelChoice {
   /// OpenSCAD: everything round as OpenSCAD would make it of facets.
   bool facets = false;
@@ -34,10 +35,9 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one mesh) and finds all its
-/// errors. `options` gives a picture's
-/// size and depth to import for. Throws a Failure of status 2 with a problem for each error,
-/// `scene: FILE:POINTER: MESSAGE`.
+/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one
+/// mesh) and finds all its errors. `options` gives a picture's size and depth to import for. Throws
+/// a Failure of status 2 with a problem for each error, `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {},
                             const ModelChoice& choice = {});
@@ -57,7 +57,8 @@ void check_is_built(const std::filesystem::path& path, const Scene& scene);
 /// The options' overrides, applied.
 void apply_overrides(const control::JobOptions& options, RenderSettings& settings);
 
-/// Throws a Failure of status 2 when the scene, with the options' overrides, can't be rendered but by `serial`.
+/// Throws a Failure of status 2 when the scene, with the options' overrides, can't be rendered but
+/// by `serial`.
 void check_farm_limits(const SceneInput& input, const control::JobOptions& options);
 
 }  // namespace graycube

@@ -23,21 +23,27 @@ using simulation::MachineFigures;
 using simulation::PerUnit;
 using simulation::Unit;
 
-/// Costs are measured on at most so many nodes, with a picture whose sides are at most so long: shorter where each
-/// ray is a message.
+/// Costs are measured on at most so many nodes, with a picture whose sides are at most so long:
+/// shorter where each ray is a message.
 constexpr std::uint32_t kCalibrationNodes = 256, kCalibrationSide = 256, kBlockingSide = 128;
 /// Simulated seconds after which a job is taken for stalled.
 constexpr double kStalled_s = 1e9;
 
-constexpr std::pair<Unit, const char*> kUnitNames[] = {
-    {Unit::kPiece, "piece_of_work"},   {Unit::kRay, "ray_traced"},
-    {Unit::kVisit, "node_visited"},    {Unit::kTest, "primitive_tested"},
-    {Unit::kBuildByte, "byte_built"},  {Unit::kNodeCall, "node_event"},
-    {Unit::kRayIn, "ray_received"},    {Unit::kRayOut, "ray_sent"},
-    {Unit::kReturn, "light_returned"}, {Unit::kLightByte, "byte_of_light_sent"},
-    {Unit::kFrontalCall, "frontal_event"}, {Unit::kFrontalByte, "byte_of_light_added"},
-    {Unit::kMessage, "message"},       {Unit::kMessageByte, "byte_of_message"},
-    {Unit::kWakeup, "wake_up"}};
+constexpr std::pair<Unit, const char*> kUnitNames[] = {{Unit::kPiece, "piece_of_work"},
+                                                       {Unit::kRay, "ray_traced"},
+                                                       {Unit::kVisit, "node_visited"},
+                                                       {Unit::kTest, "primitive_tested"},
+                                                       {Unit::kBuildByte, "byte_built"},
+                                                       {Unit::kNodeCall, "node_event"},
+                                                       {Unit::kRayIn, "ray_received"},
+                                                       {Unit::kRayOut, "ray_sent"},
+                                                       {Unit::kReturn, "light_returned"},
+                                                       {Unit::kLightByte, "byte_of_light_sent"},
+                                                       {Unit::kFrontalCall, "frontal_event"},
+                                                       {Unit::kFrontalByte, "byte_of_light_added"},
+                                                       {Unit::kMessage, "message"},
+                                                       {Unit::kMessageByte, "byte_of_message"},
+                                                       {Unit::kWakeup, "wake_up"}};
 
 std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
   std::vector<std::pair<std::string, double>> list;
@@ -95,8 +101,8 @@ MachineFigures machine_of(const SimulateCommand& command, const PerUnit& costs) 
 
 /// What the nodes of a job that failed did until then.
 std::string statistics_until_failure(const simulation::Outcome& outcome, const SceneInput& scene,
-                                     const SimulateCommand& command,
-                                     const RenderSettings& settings, std::uint32_t nodes) {
+                                     const SimulateCommand& command, const RenderSettings& settings,
+                                     std::uint32_t nodes) {
   Statistics s;
   s.version = kVersion;
   s.scene = scene.name;
@@ -156,7 +162,8 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
   row.row.why = why_of(outcome);
   row.row.outcome = outcome_of(outcome, farm, reference, row.row.why);
   if (measured.seconds() > 0) {
-    row.predicted_over_measured = simulation::cost_of(measured.counts(), costs) / measured.seconds();
+    row.predicted_over_measured =
+        simulation::cost_of(measured.counts(), costs) / measured.seconds();
   }
   if (outcome.done) {
     row.row.statistics = outcome.done->stats.text;
@@ -178,24 +185,25 @@ std::string number(const char* format, double value) {
 }
 
 std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
-  std::vector<std::vector<std::string>> cells{
-      {"NODES", "TIME s", "SPEED-UP", "EFFICIENCY", "BLOCKED %", "HOST LINK %", "CPU s", "MESSAGES",
-       "MB", "ROUNDS", "QUEUE PEAK", "PICTURE", "COSTS"}};
+  std::vector<std::vector<std::string>> cells{{"NODES", "TIME s", "SPEED-UP", "EFFICIENCY",
+                                               "BLOCKED %", "HOST LINK %", "CPU s", "MESSAGES",
+                                               "MB", "ROUNDS", "QUEUE PEAK", "PICTURE", "COSTS"}};
   for (const SimulatedRow& r : rows) {
     auto& line = cells.emplace_back(std::vector<std::string>{std::to_string(r.nodes)});
     if (r.row.statistics.empty()) {
       line.resize(cells.front().size() - 2, "-");
     } else {
       const Figures f = figures_of(r.row.statistics);
-      const bool ended = r.row.outcome == RowOutcome::kSame || r.row.outcome == RowOutcome::kDifferent;
-      line.insert(line.end(),
-                  {number("%.4g", r.time_s),
-                   ended ? number("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
-                   number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
-                   number("%.1f", 100 * r.host_load), number("%.4g", f.cpu_s),
-                   std::to_string(f.messages),
-                   number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
-                   std::to_string(f.rounds), std::to_string(f.queue_peak)});
+      const bool ended =
+          r.row.outcome == RowOutcome::kSame || r.row.outcome == RowOutcome::kDifferent;
+      line.insert(
+          line.end(),
+          {number("%.4g", r.time_s),
+           ended ? number("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
+           number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
+           number("%.1f", 100 * r.host_load), number("%.4g", f.cpu_s), std::to_string(f.messages),
+           number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)), std::to_string(f.rounds),
+           std::to_string(f.queue_peak)});
     }
     line.push_back(to_string(r.row.outcome));
     line.push_back(number("%.2f", r.predicted_over_measured));
@@ -245,9 +253,8 @@ ExitStatus run(const SimulateCommand& command) {
     say(command, "simulating " + std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"));
     rows.push_back(simulated(command, scene, settings, transport, serial.picture, nodes));
   }
-  const std::string text = command.as_json
-                               ? simulation_json(scene.name, rows) + "\n"
-                               : table_of(rows, serial_s);
+  const std::string text =
+      command.as_json ? simulation_json(scene.name, rows) + "\n" : table_of(rows, serial_s);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!command.plot.empty()) write_plot(command, scene, rows);
   for (const SimulatedRow& r : rows) {

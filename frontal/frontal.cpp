@@ -194,8 +194,7 @@ void Frontal::go_down() {
 }
 
 bool Frontal::all_nodes_left() const {
-  return std::all_of(nodes_.begin(), nodes_.end(),
-                     [](const NodeRecord& n) { return n.has_left; });
+  return std::all_of(nodes_.begin(), nodes_.end(), [](const NodeRecord& n) { return n.has_left; });
 }
 
 // ---- sending

@@ -1,6 +1,6 @@
-// The frontal's brain: a state machine over nodes, clients and a queue of jobs. Messages, deaths, the time
-// and results of preparation go in; messages, and requests to start or end nodes, come out. main.cpp wires
-// sockets, processes and clocks on; the simulation others.
+// The frontal's brain: a state machine over nodes, clients and a queue of jobs. Messages, deaths,
+// the time and results of preparation go in; messages, and requests to start or end nodes, come
+// out. main.cpp wires sockets, processes and clocks on; the simulation others.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ inline constexpr unsigned kMaxFailedStarts = 8;
 inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
 /// A deadlocked job waits so long for its nodes' reports.
 inline constexpr double kReportPatience_s = 5;
-/// Rows of a picture are sent in messages of about this size: small enough that the memory of one serves the next.
+/// Rows of a picture are sent in messages of about this size: small enough that the memory of one
+/// serves the next.
 inline constexpr std::size_t kPictureChunkBytes = std::size_t{1} << 20;
 
 struct FrontalOptions {
@@ -44,8 +45,8 @@ struct FrontalOptions {
   /// Larger models are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
   FlowLimits limits{};
-  /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a camera has a direction,
-  /// and whatever else readers of scenes check, is not checked again.
+  /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a
+  /// camera has a direction, and whatever else readers of scenes check, is not checked again.
   bool is_private = false;
 };
 
@@ -63,8 +64,8 @@ class Frontal {
 
   Frontal(FrontalOptions options, JobStore& store);
 
-  /// Seconds on a clock that never goes back, and Unix time. Call before the events of that moment; also
-  /// pings, notices silence and timeouts, and reports progress.
+  /// Seconds on a clock that never goes back, and Unix time. Call before the events of that moment;
+  /// also pings, notices silence and timeouts, and reports progress.
   void on_time(double now_s, double unix_s);
   void on_message(const PeerId& peer, const MessageView& message);
   /// A node's process has ended; `how` for people ("killed by signal 9").
@@ -109,7 +110,8 @@ class Frontal {
   struct Running {
     control::JobInfo info;
     control::JobOptions options;
-    double submitted_at_s = 0, began_at_s = 0, build_began_s = 0, render_began_s = 0, render_ended_s = 0;
+    double submitted_at_s = 0, began_at_s = 0, build_began_s = 0, render_began_s = 0,
+           render_ended_s = 0;
     /// 0 for the first job: what came before it was for its sake.
     double cpu_at_start_s = 0, start_cpu_at_start_s = 0;
     double last_progress_s = 0;

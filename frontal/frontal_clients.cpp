@@ -45,7 +45,8 @@ void Frontal::refuse(const PeerId& peer, std::uint32_t job, FailureCode code, st
   send(peer, control::Failed{job, code, {{std::move(where), std::move(why)}}});
 }
 
-void Frontal::on_submit(const PeerId& peer, const control::Submit& m, std::span<const std::byte> scene) {
+void Frontal::on_submit(const PeerId& peer, const control::Submit& m,
+                        std::span<const std::byte> scene) {
   if (going_down_) return refuse(peer, 0, FailureCode::kBusy, "", "the farm is going down");
   if (queue_.size() >= kMaxQueuedJobs) {
     return refuse(peer, 0, FailureCode::kBusy, "",
@@ -59,7 +60,8 @@ void Frontal::on_submit(const PeerId& peer, const control::Submit& m, std::span<
                   "serial runs in the command itself, without a farm");
   }
   if (is_encoded_model(scene) && !options_.is_private) {
-    return refuse(peer, 0, FailureCode::kBadInput, m.scene_name, "this farm compiles scenes itself: expected JSON or CBOR");
+    return refuse(peer, 0, FailureCode::kBadInput, m.scene_name,
+                  "this farm compiles scenes itself: expected JSON or CBOR");
   }
   QueuedJob job;
   job.info.job = next_job_++;
@@ -114,9 +116,9 @@ void Frontal::send_nodes(const PeerId& peer) {
     info.rank = rank;
     info.gray = options_.cube.label_of(Rank{rank}).value;
     info.pid = n.pid;
-    info.state = n.peer.empty()                      ? NodeState::kStarting
+    info.state = n.peer.empty()                    ? NodeState::kStarting
                  : running_ && running_->is_loaded ? NodeState::kBusy
-                                                     : NodeState::kIdle;
+                                                   : NodeState::kIdle;
     info.endpoint = n.endpoint;
     info.threads = n.threads;
     list.nodes.push_back(std::move(info));
@@ -130,8 +132,8 @@ void Frontal::on_watch(const PeerId& peer, std::uint32_t job) {
   for (const EndedJob& e : ended_) {
     if (e.info.job != job) continue;
     if (e.info.state == JobState::kDone) return send(peer, control::Done{job, {e.stats_json}});
-    const FailureCode code = e.info.state == JobState::kCancelled ? FailureCode::kCancelled
-                                                                  : FailureCode::kFailed;
+    const FailureCode code =
+        e.info.state == JobState::kCancelled ? FailureCode::kCancelled : FailureCode::kFailed;
     control::Failed failed{job, code, {{"", e.info.message}}, {}};
     if (e.has_stats()) failed.stats = RawObject{e.stats_json};
     return send(peer, failed);
@@ -175,18 +177,20 @@ const Picture* Frontal::done_picture(const PeerId& peer, std::uint32_t job) {
   if (!info) {
     refuse(peer, job, FailureCode::kUnknownJob, "", "no such job");
   } else if (info->state != JobState::kDone) {
-    refuse(peer, job, FailureCode::kNotDone, "", "the job is " + std::string(to_string(info->state)));
+    refuse(peer, job, FailureCode::kNotDone, "",
+           "the job is " + std::string(to_string(info->state)));
   } else if (picture == nullptr) {
     refuse(peer, job, FailureCode::kFailed, "", "the picture is not kept any longer");
   }
   return picture;
 }
 
-/// The picture needs no way through sockets: who asks is the one that has started this frontal, and could write the files
-/// itself.
+/// The picture needs no way through sockets: who asks is the one that has started this frontal, and
+/// could write the files itself.
 void Frontal::on_write(const PeerId& peer, const control::Write& m) {
   if (!options_.is_private) {
-    return refuse(peer, m.job, FailureCode::kBadRequest, "type", "only a private frontal writes files");
+    return refuse(peer, m.job, FailureCode::kBadRequest, "type",
+                  "only a private frontal writes files");
   }
   const Picture* picture = done_picture(peer, m.job);
   if (picture == nullptr) return;

@@ -119,7 +119,8 @@ void Frontal::on_contributions(std::span<const std::byte> batch) {
   }
   const bool were_whole = running_->info.tiles_whole == running_->info.tiles;
   running_->info.tiles_whole = static_cast<std::uint32_t>(running_->render->tiles_whole());
-  if (!were_whole && running_->info.tiles_whole == running_->info.tiles && !running_->render->is_roth()) {
+  if (!were_whole && running_->info.tiles_whole == running_->info.tiles &&
+      !running_->render->is_roth()) {
     send(nodes_.front().peer, control::AllWhole{running_->render->id(), running_->render->epoch()});
   }
   finish_when_complete();
@@ -130,14 +131,16 @@ void Frontal::lend(Rank rank, const control::Borrow& m) {
   if (!render.is_meant(m) || running_->is_finishing) return;
   const SharedBytes* slice = render.slice_to_lend(m.rank);
   const bool fits = slice != nullptr && slice->size() <= m.room_bytes;
-  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank}, fits ? *slice : SharedBytes{});
+  send(nodes_[rank.value].peer, control::Lend{m.job, m.epoch, m.rank},
+       fits ? *slice : SharedBytes{});
 }
 
 void Frontal::share(Rank owner, const control::Share& m) {
   RenderJob& render = *running_->render;
   if (!render.is_meant(m) || running_->is_finishing || !options_.cube.has(Rank{m.rank})) return;
   const SharedBytes* slice = render.slice_to_copy(owner, Rank{m.rank});
-  if (slice != nullptr) send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
+  if (slice != nullptr)
+    send(nodes_[m.rank].peer, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 
 void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
@@ -181,8 +184,8 @@ void Frontal::complete() {
   keep(job, std::move(picture));
 }
 
-/// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that, whatever
-/// else happens while it waits for reports.
+/// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that,
+/// whatever else happens while it waits for reports.
 void Frontal::end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors) {
   if (running_->is_loaded) send_to_nodes(control::Finish{running_->info.job});
   EndedJob job{running_->info, "{}"};
@@ -199,8 +202,8 @@ void Frontal::end_job(JobState state, FailureCode code, std::vector<control::Err
   job.info.state = state;
   job.info.finished_s = unix_s_;
   if (!errors.empty()) {
-    job.info.message = (errors.front().where.empty() ? "" : errors.front().where + ": ") +
-                       errors.front().why;
+    job.info.message =
+        (errors.front().where.empty() ? "" : errors.front().where + ": ") + errors.front().why;
   }
   control::Failed failed{job.info.job, code, std::move(errors), {}};
   if (job.has_stats()) failed.stats = RawObject{job.stats_json};

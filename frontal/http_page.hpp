@@ -2,8 +2,8 @@
 
 namespace graycube {
 
-/// The farm at a glance; asks /api once a second. Everything shown goes through textContent, so that a scene's
-/// name can't be markup.
+/// The farm at a glance; asks /api once a second. Everything shown goes through textContent, so
+/// that a scene's name can't be markup.
 inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">

@@ -53,7 +53,8 @@ class FrontalClient {
 };
 
 int status_of(const Failed& failed) {
-  // A number that no job can have is a bad request to the frontal; here it is a page that isn't there.
+  // A number that no job can have is a bad request to the frontal; here it is a page that isn't
+  // there.
   const bool is_unknown =
       failed.code == FailureCode::kUnknownJob || failed.code == FailureCode::kBadRequest;
   return is_unknown ? 404 : 409;
@@ -93,10 +94,12 @@ struct HttpServer::Impl {
     });
     forward("/api/jobs", [](const httplib::Request&) { return control::List{}; });
     forward("/api/nodes", [](const httplib::Request&) { return control::Nodes{}; });
-    forward(R"(/api/jobs/(\d+))", [](const httplib::Request& r) { return control::Status{job_of(r)}; });
-    server.Get(R"(/jobs/(\d+)\.png)", [this](const httplib::Request& r, httplib::Response& response) {
-      send_picture(job_of(r), response);
-    });
+    forward(R"(/api/jobs/(\d+))",
+            [](const httplib::Request& r) { return control::Status{job_of(r)}; });
+    server.Get(R"(/jobs/(\d+)\.png)",
+               [this](const httplib::Request& r, httplib::Response& response) {
+                 send_picture(job_of(r), response);
+               });
   }
 
   template <typename Question>
@@ -113,9 +116,11 @@ struct HttpServer::Impl {
       const auto answer = client.ask(control::Fetch{job, row, kMaxImageSide});
       const auto* rows = answer ? std::get_if<control::Picture>(&answer->message) : nullptr;
       if (rows == nullptr) return reply_json(answer, response);
-      const std::size_t count = std::size_t{3} * rows->width * rows->rows, first = picture.rgb.size();
+      const std::size_t count = std::size_t{3} * rows->width * rows->rows,
+                        first = picture.rgb.size();
       picture.rgb.resize(first + count);
-      if (!decode_picture_rows(answer->payload.bytes(), std::span(picture.rgb).subspan(first, count))) {
+      if (!decode_picture_rows(answer->payload.bytes(),
+                               std::span(picture.rgb).subspan(first, count))) {
         return reply_json(std::nullopt, response);
       }
       picture.width = rows->width;

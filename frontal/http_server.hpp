@@ -1,5 +1,5 @@
-// The farm's web page and its JSON, on a loopback address. A client like any other: each request asks the
-// frontal over its own socket, so the brain knows nothing of HTTP.
+// The farm's web page and its JSON, on a loopback address. A client like any other: each request
+// asks the frontal over its own socket, so the brain knows nothing of HTTP.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace graycube {
 /// Errors are a `failed` message with status 404, 409 or 502.
 class HttpServer {
  public:
-  /// `address` is HOST:PORT, HOST a loopback address (endpoint_problem); `folder` takes temporary files.
-  /// Throws std::runtime_error when the address can't be bound.
+  /// `address` is HOST:PORT, HOST a loopback address (endpoint_problem); `folder` takes temporary
+  /// files. Throws std::runtime_error when the address can't be bound.
   HttpServer(const std::string& address, std::string frontal_endpoint,
              std::filesystem::path folder);
   ~HttpServer();

@@ -82,7 +82,8 @@ class FolderStore : public JobStore {
     const fs::path beside = path.string() + ".part";
     {
       std::ofstream out(beside, std::ios::binary);
-      out << encode(job.info) << '\n' << encode(control::Done{job.info.job, {job.stats_json}}) << '\n';
+      out << encode(job.info) << '\n'
+          << encode(control::Done{job.info.job, {job.stats_json}}) << '\n';
       if (!out.flush()) throw std::runtime_error(path.string() + ": can't be written");
     }
     fs::rename(beside, path);

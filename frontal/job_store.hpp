@@ -25,9 +25,11 @@ struct EndedJob {
 class JobStore {
  public:
   virtual ~JobStore() = default;
-  /// `picture` is empty (no pixels) unless the job is done. Throws std::runtime_error when it can't be kept.
+  /// `picture` is empty (no pixels) unless the job is done. Throws std::runtime_error when it can't
+  /// be kept.
   virtual void keep(const EndedJob& job, Picture picture) = 0;
-  /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next call.
+  /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next
+  /// call.
   virtual const Picture* picture(std::uint32_t job) = 0;
   /// What an earlier frontal left, oldest first.
   virtual std::vector<EndedJob> recover() = 0;
@@ -35,8 +37,8 @@ class JobStore {
 
 /// Keeps the last picture.
 std::unique_ptr<JobStore> make_memory_store();
-/// Keeps every picture as job-N.exr, with job-N.json beside it; the folder is made when it isn't there.
-/// Throws std::runtime_error when it can't be.
+/// Keeps every picture as job-N.exr, with job-N.json beside it; the folder is made when it isn't
+/// there. Throws std::runtime_error when it can't be.
 std::unique_ptr<JobStore> make_folder_store(const std::filesystem::path& folder);
 
 }  // namespace graycube

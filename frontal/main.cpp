@@ -34,7 +34,8 @@ struct FrontalArguments {
   FlowLimits limits{};
 };
 
-/// Of the frontal's heap, what lies in large pages as it is needed: slices, the picture, light that waits.
+/// Of the frontal's heap, what lies in large pages as it is needed: slices, the picture, light that
+/// waits.
 constexpr std::size_t kLargeHeap = std::size_t{256} << 20;
 /// Nodes that don't leave within this time after `shutdown` are ended.
 constexpr double kGrace_s = 2;
@@ -59,7 +60,8 @@ class FrontalProcess {
  public:
   FrontalProcess(const FrontalArguments& a, int signals)
       : signals_(signals),
-        inbox_(context_, a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
+        inbox_(context_,
+               a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
         store_(a.state.empty() ? default_store(a) : make_folder_store(a.state)),
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
@@ -70,7 +72,9 @@ class FrontalProcess {
                   .is_private = a.is_private},
                  *store_),
         preparation_(wakeup_) {
-    frontal_.cpu_seconds = [this] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s(); };
+    frontal_.cpu_seconds = [this] {
+      return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s();
+    };
     frontal_.start_cpu_seconds = [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); };
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     if (http_) std::cout << "page " << http_->url() << std::endl;
@@ -130,7 +134,8 @@ class FrontalProcess {
     for (const Frontal::Spawn& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
     std::vector<NodeStart> starts;
-    for (const Frontal::Spawn& s : frontal_.take_spawns()) starts.push_back({s.rank, s.incarnation});
+    for (const Frontal::Spawn& s : frontal_.take_spawns())
+      starts.push_back({s.rank, s.incarnation});
     processes_.start(starts, inbox_.endpoint());
   }
 
@@ -166,7 +171,8 @@ int run_main(int argc, char** argv) {
   app.add_option("--outbox-rays", a.limits.outbox_rays, "Rays to be sent that a node may hold")
       ->check(CLI::PositiveNumber);
   app.add_option("--http", a.http, "HOST:PORT for the farm's web page, HOST a loopback address");
-  app.add_flag("--private", a.is_private, "Serve the process that started this one, and end with it");
+  app.add_flag("--private", a.is_private,
+               "Serve the process that started this one, and end with it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -22,8 +22,8 @@ std::string description(int status) {
   return "exited with status " + std::to_string(WEXITSTATUS(status));
 }
 
-/// The child starts with default signal handling and nothing blocked, whatever the frontal has set, reads from `input` and writes to
-/// `output`.
+/// The child starts with default signal handling and nothing blocked, whatever the frontal has set,
+/// reads from `input` and writes to `output`.
 class SpawnPlan {
  public:
   SpawnPlan(int input, int output) {
@@ -55,7 +55,8 @@ class SpawnPlan {
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "pipe");
   }
   ~Pipe() {
     ::close(ends_[0]);
@@ -84,10 +85,12 @@ std::string all_of(int pipe) {
   }
 }
 
-double seconds_of(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
 
-/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`. Its standard input, and that of processes it leaves behind, ends
-/// when it has ended.
+/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`. Its standard input,
+/// and that of processes it leaves behind, ends when it has ended.
 std::string output_of(std::vector<std::string> command, double& cpu_s) {
   Pipe input, output;
   std::vector<char*> argv;
@@ -96,12 +99,13 @@ std::string output_of(std::vector<std::string> command, double& cpu_s) {
   // All symbols, those of libraries too, are looked up before anything is forked.
   std::string bind_now = "LD_BIND_NOW=1";
   std::vector<char*> environment{bind_now.data()};
-  for (char** variable = environ; *variable != nullptr; ++variable) environment.push_back(*variable);
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    environment.push_back(*variable);
   environment.push_back(nullptr);
   const SpawnPlan plan(input.reading_end(), output.writing_end());
   pid_t pid = 0;
-  const int error =
-      ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(), argv.data(), environment.data());
+  const int error = ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(),
+                                  argv.data(), environment.data());
   output.close_writing_end();
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
   std::string text = all_of(output.reading_end());
@@ -128,10 +132,12 @@ NodeProcesses::~NodeProcesses() {
 
 void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& frontal) {
   if (nodes.empty()) return;
-  std::vector<std::string> command{program_.string(), "--threads", std::to_string(threads_), "--frontal", frontal,
-                                   "--folder",        folder_.string()};
+  std::vector<std::string> command{program_.string(), "--threads", std::to_string(threads_),
+                                   "--frontal",       frontal,     "--folder",
+                                   folder_.string()};
   for (const NodeStart& node : nodes) {
-    command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation", std::to_string(node.incarnation)});
+    command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation",
+                                   std::to_string(node.incarnation)});
   }
   std::istringstream pids(output_of(std::move(command), start_cpu_s_));
   for (const NodeStart& node : nodes) {
@@ -150,7 +156,8 @@ void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
 std::vector<NodeExit> NodeProcesses::reap() {
   std::vector<NodeExit> exits;
   for (;;) {
-    // They are the only children here; asked one by one, each message would cost as many calls as there are nodes.
+    // They are the only children here; asked one by one, each message would cost as many calls as
+    // there are nodes.
     int status = 0;
     const pid_t pid = ::waitpid(-1, &status, WNOHANG);
     if (pid <= 0) return exits;

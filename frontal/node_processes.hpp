@@ -35,8 +35,8 @@ class NodeProcesses {
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
 
-  /// All of them are forked from one process, which has been loaded and linked once and then ends. Throws
-  /// std::system_error when they can't be started.
+  /// All of them are forked from one process, which has been loaded and linked once and then ends.
+  /// Throws std::system_error when they can't be started.
   void start(std::span<const NodeStart> nodes, const std::string& frontal);
   void end(Rank rank, std::uint32_t incarnation);
   /// The children that have ended since the last call.

@@ -26,11 +26,13 @@ struct Partition {
   std::vector<LeavingLight> left_by_light;
 };
 
-/// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too small for a coarse
-/// pre-render is cut regularly whatever is `wanted`; kAuto also where the pre-render would not be small beside
-/// the picture. Where all rays stay in the pre-render, work lies where pixels are: then each row of nodes cuts its part of the picture
-/// by itself, and macro-regions lie about there. `horizons` may be null.
-Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter, PartitionMode wanted,
-                       const std::shared_ptr<const LightHorizons>& horizons, Staying staying);
+/// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too
+/// small for a coarse pre-render is cut regularly whatever is `wanted`; kAuto also where the
+/// pre-render would not be small beside the picture. Where all rays stay in the pre-render, work
+/// lies where pixels are: then each row of nodes cuts its part of the picture by itself, and
+/// macro-regions lie about there. `horizons` may be null.
+Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
+                       PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons,
+                       Staying staying);
 
 }  // namespace graycube

@@ -19,16 +19,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded, which costs
-/// more than the better balance brings: measured, see ARCHITECTURE.md.
+/// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded,
+/// which costs more than the better balance brings: measured, see ARCHITECTURE.md.
 constexpr std::uint32_t kAutoScatter = 1;
 
-/// Depths beside light horizons: there must be this many primary rays to each primitive, since two more scenes are
-/// subdivided for them, and to each texel.
+/// Depths beside light horizons: there must be this many primary rays to each primitive, since two
+/// more scenes are subdivided for them, and to each texel.
 constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
-/// Foreign bounds: there must be this many primary rays to each primitive, since they are taken from the whole scene's tree.
+/// Foreign bounds: there must be this many primary rays to each primitive, since they are taken
+/// from the whole scene's tree.
 constexpr std::uint64_t kRaysPerPrimitiveForBounds = 2;
 
 /// Up to this size of the model most nodes have room for all that their shadow rays ask for.
@@ -49,9 +50,9 @@ void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem
               "roth and macro take at most " + std::to_string(kMaxCreditDepth) + "; use serial");
   }
   if (s.lights.size() > kMaxCreditLights) {
-    add_error(errors, "/lights",
-              "roth and macro take at most " + std::to_string(kMaxCreditLights) +
-                  " lights; use serial");
+    add_error(
+        errors, "/lights",
+        "roth and macro take at most " + std::to_string(kMaxCreditLights) + " lights; use serial");
   }
 }
 
@@ -64,7 +65,8 @@ void check_is_built(const Scene& scene, std::vector<control::ErrorItem>& errors)
 }
 
 /// Nothing, and errors, where the bytes are no scene.
-std::optional<Model> model_of(std::span<const std::byte> scene, std::vector<control::ErrorItem>& errors) {
+std::optional<Model> model_of(std::span<const std::byte> scene,
+                              std::vector<control::ErrorItem>& errors) {
   if (is_encoded_model(scene)) {
     auto decoded = decode_model(scene);
     if (auto* model = std::get_if<Model>(&decoded)) return std::move(*model);
@@ -101,14 +103,16 @@ struct LightWays {
   bool are_held = false;
 };
 
-/// Nothing where horizons aren't wanted or there are none: on one node no ray leaves, and lights that are walled in have
-/// none. Depths only where too many shadow rays will leave their nodes for want of room for occluders.
+/// Nothing where horizons aren't wanted or there are none: on one node no ray leaves, and lights
+/// that are walled in have none. Depths only where too many shadow rays will leave their nodes for
+/// want of room for occluders.
 LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   LightWays ways;
   if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return ways;
   const Model& model = whole.model();
   if (work.options.flow == FlowMode::kCredit) ways.occluders = Occluders::of(model);
-  LightHorizons horizons = ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons();
+  LightHorizons horizons =
+      ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons();
   if (horizons.is_empty()) return {};
   if (!ways.occluders.is_empty() && encoded_model_bytes(model) <= kFinishedModelBytes) {
     ways.are_held = true;
@@ -120,18 +124,20 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   return ways;
 }
 
-/// Whether nodes finish rays that have left their macro-regions: unless a report's mode is asked for, or the whole scene would be
-/// subdivided only for that.
+/// Whether nodes finish rays that have left their macro-regions: unless a report's mode is asked
+/// for, or the whole scene would be subdivided only for that.
 bool finishes_rays(const PreparationWork& work, const WholeScene& whole) {
-  return work.options.shadows == ShadowMode::kHorizon && work.options.flow == FlowMode::kCredit && work.cube.nodes() > 1 &&
-         whole.has_primary_rays(kRaysPerPrimitiveForBounds);
+  return work.options.shadows == ShadowMode::kHorizon && work.options.flow == FlowMode::kCredit &&
+         work.cube.nodes() > 1 && whole.has_primary_rays(kRaysPerPrimitiveForBounds);
 }
 
-/// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in 1987.
+/// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in
+/// 1987.
 PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
   const bool is_open = work.options.partition == PartitionMode::kAuto;
-  return is_open && (has_replicas || work.options.flow == FlowMode::kBlocking) ? PartitionMode::kRegular
-                                                                               : work.options.partition;
+  return is_open && (has_replicas || work.options.flow == FlowMode::kBlocking)
+             ? PartitionMode::kRegular
+             : work.options.partition;
 }
 
 void cut_for_macro(const PreparationWork& work, const WholeScene& whole, PreparedScene& out) {
@@ -141,7 +147,8 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   out.flow = work.options.flow;
   out.queue = work.options.queue;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
-  out.has_replicas = is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
+  out.has_replicas =
+      is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
   const LightWays ways = ways_to_lights(work, whole);
   Bytes horizons;
   if (ways.horizons) {
@@ -151,10 +158,12 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
     out.shadows = ShadowMode::kForward;
   }
   const bool finishes = finishes_rays(work, whole);
-  Partition cut = partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
-                                     {.shadow_rays = ways.are_held, .secondary_rays = finishes});
-  out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas && work.cube.nodes() > 1 &&
-                     out.flow == FlowMode::kCredit && out.shadows != ShadowMode::kLocal;
+  Partition cut =
+      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
+                   {.shadow_rays = ways.are_held, .secondary_rays = finishes});
+  out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas &&
+                     work.cube.nodes() > 1 && out.flow == FlowMode::kCredit &&
+                     out.shadows != ShadowMode::kLocal;
   out.partition = cut.mode;
   out.rays_per_primary = cut.rays_per_primary;
   if (out.has_replicas) {
@@ -169,7 +178,8 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   }
   const MacroGrid& grid = cut.grid;
   out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges(), cut.own_edges};
-  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image), grid, cut.own_edges);
+  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image),
+                   grid, cut.own_edges);
 }
 
 }  // namespace
@@ -184,8 +194,9 @@ void apply_overrides(const control::JobOptions& options, RenderSettings& setting
   const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
                             std::uint64_t most) {
     if (value >= least && value <= most) return;
-    add_error(errors, name, "expected " + std::to_string(least) + " to " + std::to_string(most) +
-                                ", found " + std::to_string(value));
+    add_error(errors, name,
+              "expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
+                  std::to_string(value));
   };
   in_range("--size", image.width, 1, kMaxImageSide);
   in_range("--size", image.height, 1, kMaxImageSide);

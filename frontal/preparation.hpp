@@ -1,5 +1,5 @@
-// From a scene's text to what the nodes get: read, compiled, cut into macro-regions, each with only the part
-// of the scene that reaches into it. Pure and slow: a thread of its own runs it.
+// From a scene's text to what the nodes get: read, compiled, cut into macro-regions, each with only
+// the part of the scene that reaches into it. Pure and slow: a thread of its own runs it.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace graycube {
 
-/// With `--shadows local`, a model of at most so many bytes is sent to every node whole: it will need
-/// nearly all of it.
+/// With `--shadows local`, a model of at most so many bytes is sent to every node whole: it will
+/// need nearly all of it.
 inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{32} << 20;
 
 struct PreparationWork {

@@ -29,8 +29,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       limits_(limits),
       sums_(sums),
       film_(scene_.settings.image.width, scene_.settings.image.height,
-            scene_.settings.image.samples * scene_.settings.image.samples,
-            scene_.settings.aovs),
+            scene_.settings.image.samples * scene_.settings.image.samples, scene_.settings.aovs),
       ledger_(rays_per_tile(*scene_.plan)),
       holder_(scene_.plan->tile_count()),
       open_(nodes_, 0),
@@ -104,7 +103,8 @@ control::Load RenderJob::load() const {
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = is_roth() ? window(ledger_.tile_count()) : most_open_tiles();
   m.batch_bytes = limits_.batch_bytes;
-  const std::uint64_t classes = most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows);
+  const std::uint64_t classes =
+      most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows);
   // Classes beyond the last would share its places and could wait for themselves.
   if (classes < kMaxHops) m.outbox_rays = limits_.outbox_rays;
   m.class_places = static_cast<std::uint32_t>(std::max<std::uint64_t>(
@@ -113,25 +113,29 @@ control::Load RenderJob::load() const {
     // One evaluator a node, one ray a message, and the queue's places shared out among the links.
     m.threads = 1;
     m.batch_bytes = kRayBytes;
-    m.link_credit_bytes =
-        kRayBytes * std::max(1u, scene_.queue / std::max(1u, cube_.dimension()));
+    m.link_credit_bytes = kRayBytes * std::max(1u, scene_.queue / std::max(1u, cube_.dimension()));
   }
   return m;
 }
 
 std::uint32_t RenderJob::most_open_tiles() const {
   const ImageSize& image = scene_.settings.image;
-  const double primaries = static_cast<double>(image.width) * image.height * image.samples * image.samples;
-  const double rays_per_tile = scene_.rays_per_primary * primaries / static_cast<double>(ledger_.tile_count());
-  const double fitting = rays_per_tile > 0 ? limits_.window_rays / rays_per_tile : limits_.window_tiles;
+  const double primaries =
+      static_cast<double>(image.width) * image.height * image.samples * image.samples;
+  const double rays_per_tile =
+      scene_.rays_per_primary * primaries / static_cast<double>(ledger_.tile_count());
+  const double fitting =
+      rays_per_tile > 0 ? limits_.window_rays / rays_per_tile : limits_.window_tiles;
   const std::uint32_t least = std::min(limits_.least_window_tiles, limits_.window_tiles);
   return static_cast<std::uint32_t>(std::clamp<double>(fitting, least, limits_.window_tiles));
 }
 
 std::uint32_t RenderJob::window(std::size_t left) const {
   if (is_roth()) {
-    const auto share = static_cast<std::uint32_t>(left / (std::size_t{kPartOfRothShare} * nodes_ * threads_));
-    const std::uint32_t most = scene_.grain == Grain::kTile ? kMostRothTilesPerThread : kRothTilesPerThread;
+    const auto share =
+        static_cast<std::uint32_t>(left / (std::size_t{kPartOfRothShare} * nodes_ * threads_));
+    const std::uint32_t most =
+        scene_.grain == Grain::kTile ? kMostRothTilesPerThread : kRothTilesPerThread;
     return std::clamp(share, kRothTilesPerThread, most) * threads_;
   }
   const std::uint32_t most = most_open_tiles();
@@ -156,7 +160,8 @@ std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
     }
   } else {
     auto& own = own_tiles_[rank.value];
-    // Many at a time: a message for each tile that becomes whole would wake a node for next to nothing.
+    // Many at a time: a message for each tile that becomes whole would wake a node for next to
+    // nothing.
     const std::uint32_t most = window(own.size());
     if (!scene_.has_replicas && most - std::min(open, most) < most / kPartOfWindow) return tiles;
     while (!own.empty() && open < window(own.size())) {
@@ -196,7 +201,8 @@ std::vector<std::uint32_t> RenderJob::take_relief() {
   return std::exchange(relief_, std::vector<std::uint32_t>(nodes_, 0));
 }
 
-std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened) {
+std::string RenderJob::add_contributions(std::span<const std::byte> batch,
+                                         std::vector<Rank>& opened) {
   BatchLimits limits;
   limits.pixel_count = (1 + kAovPlanes) * film_.pixel_count();
   limits.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());
@@ -213,7 +219,8 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch, std::
   }
   ++batches_received_[s.sender];
   for (const Contribution& c : contributions_) {
-    if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel)) return "a contribution to AOVs that nobody asked for";
+    if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel))
+      return "a contribution to AOVs that nobody asked for";
     film_.add(c.pixel, c.light);
   }
   for (const TileCredit& c : credits_) {

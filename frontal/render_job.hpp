@@ -16,28 +16,30 @@ namespace graycube {
 
 /// What bounds the rays in the machine; other values are for tests.
 struct FlowLimits {
-  /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all their light. All
-  /// rays in the machine descend from them (design section 10).
+  /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all
+  /// their light. All rays in the machine descend from them (design section 10).
   std::uint32_t window_tiles = 256;
-  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not fewer than the least.
+  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not
+  /// fewer than the least.
   double window_rays = 300'000;
   std::uint32_t least_window_tiles = 8;
   /// What may be under way on a link and in its receiver's inbox.
   std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
   std::uint32_t batch_bytes = std::uint32_t{256} << 10;
-  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places for such rays behind a
-  /// node's links are a quarter of it, or one for each class and link.
+  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places
+  /// for such rays behind a node's links are a quarter of it, or one for each class and link.
   std::uint64_t outbox_rays = kDefaultOutboxRays;
 };
 /// Tiles are handed out again once this part of the window is free.
 inline constexpr std::uint32_t kPartOfWindow = 4;
-/// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of those that are left,
-/// so that light comes in fewer messages; pixels and lines are handed out as in 1987.
+/// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of
+/// those that are left, so that light comes in fewer messages; pixels and lines are handed out as
+/// in 1987.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
 inline constexpr std::uint32_t kMostRothTilesPerThread = 16;
 inline constexpr std::uint32_t kPartOfRothShare = 4;
-/// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and otherwise this part
-/// of those that are left: the fewer, the more of them can still be taken over.
+/// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and
+/// otherwise this part of those that are left: the fewer, the more of them can still be taken over.
 inline constexpr std::uint32_t kLeastTilesPerThread = 4;
 inline constexpr std::uint32_t kPartOfTilesLeft = 4;
 /// Shadows local: what a node may use for other nodes' models.
@@ -51,27 +53,31 @@ class RenderJob {
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
   /// Whether a node's message is about this job and epoch.
-  bool is_meant(const auto& message) const { return message.job == job_ && message.epoch == epoch_; }
+  bool is_meant(const auto& message) const {
+    return message.job == job_ && message.epoch == epoch_;
+  }
   const PreparedScene& scene() const { return scene_; }
   SumsMode sums() const { return sums_; }
   /// The slice for a node; given away once the node has it.
   SharedBytes take_slice(Rank rank);
   /// Shadows local: a node's slice for another node; null where there is none.
   const SharedBytes* slice_to_lend(std::uint32_t rank) const;
-  /// A node's slice for a neighbour that is to help it; null where that has no room for it, or has one.
+  /// A node's slice for a neighbour that is to help it; null where that has no room for it, or has
+  /// one.
   const SharedBytes* slice_to_copy(Rank owner, Rank helper);
   control::Load load() const;
 
   void set_ready(Rank rank);
   bool all_ready() const { return ready_count_ == nodes_; }
 
-  /// Tiles to hand to a node now, as its window allows: its own, and when there are none left those of the
-  /// neighbour that has most, where nodes hold replicas.
+  /// Tiles to hand to a node now, as its window allows: its own, and when there are none left those
+  /// of the neighbour that has most, where nodes hold replicas.
   std::vector<std::uint32_t> next_tiles(Rank rank);
-  /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The nodes whose
-  /// windows opened are appended to `opened`.
+  /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
+  /// nodes whose windows opened are appended to `opened`.
   std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
-  /// How many of each node's tiles neighbours have traced and brought back since this was last asked.
+  /// How many of each node's tiles neighbours have traced and brought back since this was last
+  /// asked.
   std::vector<std::uint32_t> take_relief();
   std::uint64_t next_assignment_sequence(Rank rank) { return assignments_sent_[rank.value]++; }
 
@@ -86,7 +92,8 @@ class RenderJob {
   std::size_t tiles() const { return ledger_.tile_count(); }
   std::size_t tiles_whole() const { return ledger_.whole_count(); }
   bool is_complete() const;
-  /// What contradicts what, when the token says that nothing is left but a tile is open; else empty.
+  /// What contradicts what, when the token says that nothing is left but a tile is open; else
+  /// empty.
   std::string contradiction() const;
 
   void set_report(const control::NodeReport& report);
@@ -123,12 +130,13 @@ class RenderJob {
   SumsMode sums_;
   Film film_;
   TileLedger ledger_;
-  std::vector<Rank> holder_;                     // of each tile handed out
+  std::vector<Rank> holder_;                          // of each tile handed out
   std::vector<std::deque<std::uint32_t>> own_tiles_;  // by rank, macro: not handed out yet
   std::vector<std::uint32_t> open_, relief_;          // by rank
-  std::vector<std::uint32_t> copies_;                 // by rank: bits of the neighbours whose slice it has
-  std::vector<std::uint64_t> slice_bytes_, held_bytes_;  // by rank: of each slice; of what a node holds
-  std::uint32_t next_tile_ = 0;                  // roth: one queue for all
+  std::vector<std::uint32_t> copies_;  // by rank: bits of the neighbours whose slice it has
+  std::vector<std::uint64_t> slice_bytes_,
+      held_bytes_;               // by rank: of each slice; of what a node holds
+  std::uint32_t next_tile_ = 0;  // roth: one queue for all
   std::vector<bool> ready_, reported_;
   std::uint32_t ready_count_ = 0, report_count_ = 0;
   std::vector<std::uint64_t> batches_received_, assignments_sent_;

@@ -17,14 +17,15 @@ namespace {
 /// Of the scene on one node, with occluders: space is shared out however small the scene is.
 constexpr double kMostPart = 0.45;
 
-/// Calls f(texel) for a texel and those around it on its face: the pre-render looks at few pixels, and what one surface
-/// asks for in a texel the next may ask for beside it.
+/// Calls f(texel) for a texel and those around it on its face: the pre-render looks at few pixels,
+/// and what one surface asks for in a texel the next may ask for beside it.
 template <typename F>
 void for_each_around(std::uint32_t texel, F&& f) {
   constexpr std::uint32_t kSide = LightHorizons::kSide;
   const std::uint32_t u = texel % kSide, v = texel / kSide % kSide;
   for (std::uint32_t y = v > 0 ? v - 1 : v; y <= std::min(v + 1, kSide - 1); ++y) {
-    for (std::uint32_t x = u > 0 ? u - 1 : u; x <= std::min(u + 1, kSide - 1); ++x) f(texel - v * kSide - u + y * kSide + x);
+    for (std::uint32_t x = u > 0 ? u - 1 : u; x <= std::min(u + 1, kSide - 1); ++x)
+      f(texel - v * kSide - u + y * kSide + x);
   }
 }
 
@@ -48,18 +49,22 @@ std::vector<OccluderQuery> together(std::vector<OccluderQuery> queries) {
 }
 
 /// By rank: what shadow rays ask for that leave their node.
-std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube, const Partition& cut) {
+std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube,
+                                                   const Partition& cut) {
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
   for (const LeavingLight& light : cut.left_by_light) {
     const RayTask& task = light.ray;
-    const RegionIndex owner = owner_of_pixel(task.pixel % model.settings.image.width, light.from, cut.grid, cut.own_edges);
+    const RegionIndex owner = owner_of_pixel(task.pixel % model.settings.image.width, light.from,
+                                             cut.grid, cut.own_edges);
     const Rank rank = cube.owner_of(owner.column, owner.row);
     const RegionShare share = share_of(cube, rank);
-    auto exit = share.owns(light.from) ? cut.grid.exit(light.from, task.ray, task.t) : RegionExit{task.t, light.from};
+    auto exit = share.owns(light.from) ? cut.grid.exit(light.from, task.ray, task.t)
+                                       : RegionExit{task.t, light.from};
     while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
     if (!exit || exit->t >= task.t_max) continue;
     const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
-    const auto texel = static_cast<std::uint32_t>(cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
+    const auto texel = static_cast<std::uint32_t>(
+        cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
     queries[rank.value].push_back({task.light, texel, distance, 1});
   }
   for (std::vector<OccluderQuery>& q : queries) {
@@ -67,7 +72,9 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
     std::vector<OccluderQuery> around;
     around.reserve(9 * q.size());
     for (const OccluderQuery& at : q) {
-      for_each_around(at.texel, [&](std::uint32_t t) { around.push_back({at.light, t, at.distance, at.rays}); });
+      for_each_around(at.texel, [&](std::uint32_t t) {
+        around.push_back({at.light, t, at.distance, at.rays});
+      });
     }
     q = together(std::move(around));
   }
@@ -77,16 +84,24 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 /// What nodes hold beside what their macro-regions need.
 class Contents {
  public:
-  Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
-           const Occluders& occluders)
-      : model_(model), cube_(cube), cut_(cut), tree_(tree), occluders_(occluders), queries_(cube.nodes()) {
+  Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube,
+           const Partition& cut, const SurfaceTree* tree, const Occluders& occluders)
+      : model_(model),
+        cube_(cube),
+        cut_(cut),
+        tree_(tree),
+        occluders_(occluders),
+        queries_(cube.nodes()) {
     if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
-    for (const Object& object : model.objects) bytes_.push_back(encoded_object_bytes(model, object));
-    room_ = std::min(slice_room(model_bytes, cube.nodes()), static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
+    for (const Object& object : model.objects)
+      bytes_.push_back(encoded_object_bytes(model, object));
+    room_ = std::min(slice_room(model_bytes, cube.nodes()),
+                     static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
   }
 
   ModelContents of(Rank rank) const {
-    ModelContents contents = contents_with_own_pixels(model_, cut_.grid, share_of(cube_, rank), cut_.own_edges);
+    ModelContents contents =
+        contents_with_own_pixels(model_, cut_.grid, share_of(cube_, rank), cut_.own_edges);
     std::uint64_t held = 0;
     for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
     for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
@@ -120,8 +135,10 @@ class Contents {
   std::uint64_t room_ = 0;
 };
 
-/// By rank, encoded; for nobody where not for all, since nodes with bounds send on what is on its way to others.
-std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const SurfaceTree* tree, std::size_t most_bytes) {
+/// By rank, encoded; for nobody where not for all, since nodes with bounds send on what is on its
+/// way to others.
+std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const SurfaceTree* tree,
+                             std::size_t most_bytes) {
   std::vector<Bytes> all(contents.size());
   if (tree == nullptr) return all;
   const ForeignBoundsMaker maker(*tree);
@@ -135,23 +152,28 @@ std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const Surf
 
 }  // namespace
 
-Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut, const SurfaceTree* tree,
-                 const Occluders& occluders, std::span<const std::byte> horizons) {
+Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+                 const SurfaceTree* tree, const Occluders& occluders,
+                 std::span<const std::byte> horizons) {
   Slices slices;
   const SliceEncoder encoder(model);
-  const auto add = [&](const ModelContents& contents, std::span<const std::byte> bounds, std::span<const std::byte> foreign) {
+  const auto add = [&](const ModelContents& contents, std::span<const std::byte> bounds,
+                       std::span<const std::byte> foreign) {
     const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
     slices.bytes.push_back(encoder.encode(contents, tails));
   };
   const std::uint64_t model_bytes = encoded_model_bytes(model);
   const Contents contents_of(model, model_bytes, cube, cut, tree, occluders);
   std::vector<ModelContents> contents;
-  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) contents.push_back(contents_of.of(Rank{rank}));
-  const std::vector<Bytes> bounds = bounds_of(contents, tree, bounds_room(model_bytes, cube.nodes()));
+  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank)
+    contents.push_back(contents_of.of(Rank{rank}));
+  const std::vector<Bytes> bounds =
+      bounds_of(contents, tree, bounds_room(model_bytes, cube.nodes()));
   slices.have_bounds = std::ranges::none_of(bounds, &Bytes::empty);
   for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
     add(contents[rank], bounds[rank],
-        occluders.is_empty() ? Bytes{} : encode_horizons(occluders.foreign_horizons(contents[rank], model)));
+        occluders.is_empty() ? Bytes{}
+                             : encode_horizons(occluders.foreign_horizons(contents[rank], model)));
   }
   return slices;
 }

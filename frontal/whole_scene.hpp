@@ -17,7 +17,8 @@ class WholeScene {
     if (!territory_) territory_ = Territory::of(model_);
     return territory_;
   }
-  /// Whether there are so many primary rays to each primitive: subdividing the scene then is a small part of the work.
+  /// Whether there are so many primary rays to each primitive: subdividing the scene then is a
+  /// small part of the work.
   bool has_primary_rays(std::uint64_t per_primitive) const {
     return model_->settings.image.primary_rays() >= per_primitive * model_->primitives.size();
   }

@@ -1,4 +1,5 @@
-// The places that a link keeps for rays of each class, whether its credit is out or not (FORMAT.md, section 6).
+// The places that a link keeps for rays of each class, whether its credit is out or not (FORMAT.md,
+// section 6).
 #pragma once
 
 #include <cstdint>

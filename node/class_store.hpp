@@ -1,5 +1,6 @@
-// Rays that came on the credit of their classes, and what descends from them on this node: a full node traces
-// nothing else (ARCHITECTURE.md, "Flow"). A ray's class is the number of links crossed, RayTask::hops.
+// Rays that came on the credit of their classes, and what descends from them on this node: a full
+// node traces nothing else (ARCHITECTURE.md, "Flow"). A ray's class is the number of links crossed,
+// RayTask::hops.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ class ClassStore {
  public:
   struct Held {
     RayTask ray;
-    /// The bit across which it came: its class's credit goes back there when it is taken. Nothing if it was
-    /// created here.
+    /// The bit across which it came: its class's credit goes back there when it is taken. Nothing
+    /// if it was created here.
     std::optional<std::uint32_t> link;
   };
 
@@ -25,7 +26,8 @@ class ClassStore {
     rays_.emplace_hint(rays_.lower_bound(ray.hops), ray.hops, Held{ray, link});
   }
   void add_own(std::span<const RayTask> rays) {
-    for (const RayTask& ray : rays) rays_.emplace_hint(rays_.upper_bound(ray.hops), ray.hops, Held{ray, {}});
+    for (const RayTask& ray : rays)
+      rays_.emplace_hint(rays_.upper_bound(ray.hops), ray.hops, Held{ray, {}});
   }
   bool is_empty() const { return rays_.empty(); }
   std::size_t size() const { return rays_.size(); }
@@ -34,7 +36,8 @@ class ClassStore {
   /// The highest class with rays for which `may_take(class)`.
   template <typename MayTake>
   std::optional<std::uint16_t> highest(MayTake&& may_take) const {
-    for (auto last = rays_.end(); last != rays_.begin(); last = rays_.lower_bound(std::prev(last)->first)) {
+    for (auto last = rays_.end(); last != rays_.begin();
+         last = rays_.lower_bound(std::prev(last)->first)) {
       if (may_take(std::prev(last)->first)) return std::prev(last)->first;
     }
     return std::nullopt;

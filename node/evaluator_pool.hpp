@@ -1,5 +1,6 @@
-// The evaluator threads of a node. They share the brain with the mailroom under one lock, never touch a
-// socket, and never wait for one: what they produce is left with the brain, and the mailroom is woken.
+// The evaluator threads of a node. They share the brain with the mailroom under one lock, never
+// touch a socket, and never wait for one: what they produce is left with the brain, and the
+// mailroom is woken.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +21,8 @@ class EvaluatorPool {
   /// Ends all threads; work under way is finished first.
   ~EvaluatorPool();
 
-  /// Runs `action()` on the brain with no evaluator inside it, then lets the evaluators look for work.
+  /// Runs `action()` on the brain with no evaluator inside it, then lets the evaluators look for
+  /// work.
   template <typename Action>
   auto with_node(Action&& action) {
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,5 @@
-// One hypercube link as its sender and receiver see it: the outbox, credit in bytes, sequence numbers.
+// One hypercube link as its sender and receiver see it: the outbox, credit in bytes, sequence
+// numbers.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,8 @@ struct Link {
   std::uint64_t send_credit = 0;
   std::uint64_t next_sequence = 0;
 
-  /// A full node's rays for the peer that descend from rays on class credit; and the places that rays on class credit
-  /// have taken, on the way to the peer and on the way here.
+  /// A full node's rays for the peer that descend from rays on class credit; and the places that
+  /// rays on class credit have taken, on the way to the peer and on the way here.
   std::vector<RayTask> class_outbox;
   ClassPlaces places_out, places_in;
 
@@ -31,7 +32,8 @@ struct Link {
   /// All that was granted to the peer, and by it, in bytes.
   std::uint64_t granted = 0, received = 0;
 
-  /// What the peer was last told: that this node has nothing to do; and what it has told, until it gets something.
+  /// What the peer was last told: that this node has nothing to do; and what it has told, until it
+  /// gets something.
   bool has_offered = false;
   enum class Offer : std::uint8_t { kNone, kIdle, kIdleWithCopy } offer = Offer::kNone;
   /// What the peer had done by then, in tests of a primitive.

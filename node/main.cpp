@@ -1,4 +1,5 @@
-// graycube-node: one corner of the hypercube. The main thread is the mailroom: it owns every socket.
+// graycube-node: one corner of the hypercube. The main thread is the mailroom: it owns every
+// socket.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -12,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "node/evaluator_pool.hpp"
-#include "node/node.hpp"
 #include "geometry/simd.hpp"
 #include "memory/kept_heap.hpp"
+#include "node/evaluator_pool.hpp"
+#include "node/node.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
@@ -99,7 +100,8 @@ class Mailroom {
   Wakeup wakeup_;
   Inbox inbox_;
   Connection frontal_;
-  /// To neighbours that this node connects to; and by which peer of the inbox the others are reached.
+  /// To neighbours that this node connects to; and by which peer of the inbox the others are
+  /// reached.
   std::map<Rank, Connection> links_;
   std::map<Rank, std::string> peers_;
   std::vector<Readable*> sockets_{&inbox_, &frontal_};
@@ -122,8 +124,8 @@ int run_node(const NodeArguments& a, std::size_t number) {
     Mailroom mailroom(a, number);
     mailroom.run();
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    // The system takes back what a process has, threads and sockets above all, for less than it takes to give it up. Should the
-    // last goodbye not have left, the frontal sees the process end.
+    // The system takes back what a process has, threads and sockets above all, for less than it
+    // takes to give it up. Should the last goodbye not have left, the frontal sees the process end.
     ::_exit(0);
 #endif
   } catch (const TransportError& e) {
@@ -132,8 +134,8 @@ int run_node(const NodeArguments& a, std::size_t number) {
   return 0;
 }
 
-/// In a process just forked: once its parent has ended, and the frontal has become its parent, a node. Standard input is what the
-/// frontal closes then.
+/// In a process just forked: once its parent has ended, and the frontal has become its parent, a
+/// node. Standard input is what the frontal closes then.
 int become_node(const NodeArguments& a, std::size_t number, pid_t frontal) {
   char none = 0;
   while (::read(STDIN_FILENO, &none, 1) == -1 && errno == EINTR) {
@@ -144,17 +146,18 @@ int become_node(const NodeArguments& a, std::size_t number, pid_t frontal) {
   return run_node(a, number);
 }
 
-/// Forks a process for each node, writes their ids and ends: all that loading and linking took is done once, and the
-/// nodes are children of the frontal (a subreaper) like any others.
+/// Forks a process for each node, writes their ids and ends: all that loading and linking took is
+/// done once, and the nodes are children of the frontal (a subreaper) like any others.
 int fork_nodes(const NodeArguments& a) {
-  // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts no thread, and is kept: while there
-  // is one, no other looks again.
+  // Its first context makes ZeroMQ look for the system's protocols, in dozens of files. It starts
+  // no thread, and is kept: while there is one, no other looks again.
   const ZmqContext first;
   const pid_t frontal = ::getppid();
   std::string pids;
   for (std::size_t number = 0; number < a.ranks.size(); ++number) {
     const pid_t pid = ::fork();
-    if (pid < 0) return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
+    if (pid < 0)
+      return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
     if (pid == 0) {
       // What the frontal waits for the end of.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -172,7 +175,9 @@ int run_main(int argc, char** argv) {
   CLI::App app{"Nodes of a Graycube farm; started by graycube-frontal."};
   app.set_version_flag("--version", std::string("graycube-node ") + kVersion);
   NodeArguments a;
-  app.add_option("--rank", a.ranks, "Of each node")->required()->check(CLI::Range(0u, kMaxNodes - 1));
+  app.add_option("--rank", a.ranks, "Of each node")
+      ->required()
+      ->check(CLI::Range(0u, kMaxNodes - 1));
   app.add_option("--incarnation", a.incarnations, "Of each node")->required();
   app.add_option("--threads", a.threads)->check(CLI::Range(1u, kMaxThreads));
   app.add_option("--frontal", a.frontal, "The frontal's endpoint")->required();
@@ -187,7 +192,8 @@ int run_main(int argc, char** argv) {
   if (a.ranks.size() != a.incarnations.size()) {
     return fail("usage", "--incarnation", "expected one for each --rank", 2);
   }
-  if (const auto problem = endpoint_problem(a.frontal)) return fail("usage", a.frontal, *problem, 2);
+  if (const auto problem = endpoint_problem(a.frontal))
+    return fail("usage", a.frontal, *problem, 2);
   for (std::size_t number = 0; number < a.ranks.size(); ++number) {
     const std::string inbox = inbox_of(a, number);
     if (const auto problem = endpoint_problem(inbox)) return fail("usage", inbox, *problem, 2);

@@ -14,7 +14,8 @@ bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
 
 /// That of the key, or the free one where it goes.
 MergeBuffer::Index::Slot& MergeBuffer::Index::slot_of(std::uint32_t key) {
-  // Fibonacci hashing of short rows of pixels: those of one lie side by side, as they are looked for.
+  // Fibonacci hashing of short rows of pixels: those of one lie side by side, as they are looked
+  // for.
   constexpr std::uint32_t kGolden = 2654435769u, kRow = 16;
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = (key / kRow * kGolden * kRow + key % kRow) & mask;
@@ -62,7 +63,8 @@ void MergeBuffer::clear() {
   tiles_.clear();
 }
 
-/// Not before there is light: what a node got to build from has been freed by then, and this takes its place.
+/// Not before there is light: what a node got to build from has been freed by then, and this takes
+/// its place.
 void MergeBuffer::make_room() {
   if (merged_.contributions.capacity() == 0) merged_.contributions.reserve(kFullPixels);
 }

@@ -1,5 +1,5 @@
-// Contributions waiting to go to the frontal, or to the parent in the tree of sums: those to one pixel are
-// merged, credit is summed per tile.
+// Contributions waiting to go to the frontal, or to the parent in the tree of sums: those to one
+// pixel are merged, credit is summed per tile.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,12 @@ class MergeBuffer {
 
   /// Takes in returns until it is full or there are no more; says how many it took.
   std::size_t add(std::span<const PixelReturn> returns, const TilePlan& plan);
-  /// The same for what came of a tile's primary rays, in which hardly a pixel comes twice: quicker, and what
-  /// follows of a pixel by other ways is sent beside it.
-  std::size_t add_tile(std::span<const PixelReturn> returns, std::uint32_t tile, const TilePlan& plan);
-  /// Takes in what another node has gathered: all of it, or nothing and false when that doesn't fit beside what
-  /// is here already.
+  /// The same for what came of a tile's primary rays, in which hardly a pixel comes twice: quicker,
+  /// and what follows of a pixel by other ways is sent beside it.
+  std::size_t add_tile(std::span<const PixelReturn> returns, std::uint32_t tile,
+                       const TilePlan& plan);
+  /// Takes in what another node has gathered: all of it, or nothing and false when that doesn't fit
+  /// beside what is here already.
   [[nodiscard]] bool add_gathered(std::span<const TileCredit> credits,
                                   std::span<const Contribution> contributions);
   bool is_empty() const { return merged_.credits.empty() && merged_.contributions.empty(); }

@@ -77,7 +77,8 @@ void Node::on_welcome(const control::Welcome& m) {
   for (std::uint32_t bit = 0; bit < cube->dimension(); ++bit) {
     links_[bit].peer = cube->neighbour(id_.rank, bit);
     // Also those that know this node: there is a new welcome because some node is new.
-    if (!connects_to(id_.rank, links_[bit].peer) || endpoints_[links_[bit].peer.value].empty()) continue;
+    if (!connects_to(id_.rank, links_[bit].peer) || endpoints_[links_[bit].peer.value].empty())
+      continue;
     outgoing_.push_back(
         {links_[bit].peer, Message::of_batch(encode_signal(stamp(0), BatchType::kGreeting))});
   }
@@ -153,7 +154,8 @@ void Node::on_finish(const control::Finish& m) {
   forget_rays();
 }
 
-/// Everything of the epoch that ends here: rays, outboxes, unsent contributions, token, sequences, credit.
+/// Everything of the epoch that ends here: rays, outboxes, unsent contributions, token, sequences,
+/// credit.
 void Node::forget_rays() {
   tiles_.clear();
   open_tile_.reset();

@@ -1,5 +1,6 @@
-// A node's brain: a state machine. Messages, results of work and the request for work go in; messages and
-// work come out. It knows no socket, thread or clock: main.cpp wires those on, the simulation others.
+// A node's brain: a state machine. Messages, results of work and the request for work go in;
+// messages and work come out. It knows no socket, thread or clock: main.cpp wires those on, the
+// simulation others.
 #pragma once
 
 #include <cstdint>
@@ -39,17 +40,20 @@ struct NodeIdentity {
 /// Why an evaluator gets no work (design section 6).
 enum class WaitReason : std::uint8_t {
   kReady,    ///< it would get some now
-  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold, is full
+  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold,
+             ///< is full
   kWindow,   ///< there are only unstarted primary rays, and the window is closed
   kIdle,     ///< there is neither
 };
 
 /// Received rays handed to an evaluator in one piece.
 inline constexpr std::size_t kMaxRaysPerWork = 256;
-/// Once this part of what the outboxes may hold has left in a piece of work, the rest of it is set aside.
+/// Once this part of what the outboxes may hold has left in a piece of work, the rest of it is set
+/// aside.
 inline constexpr std::uint64_t kWorksPerOutboxes = 16;
 
-/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes the nodes.
+/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes
+/// the nodes.
 inline bool connects_to(Rank from, Rank to) { return from < to; }
 
 class Node {
@@ -69,7 +73,8 @@ class Node {
   /// A batch from a neighbour's inbox link. The sender is read from it and checked.
   void on_neighbour(std::span<const std::byte> batch);
 
-  /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent goes out.
+  /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent
+  /// goes out.
   std::optional<Work> take_work();
   void give_result(WorkResult result);
   WaitReason wait_reason() const;
@@ -83,7 +88,8 @@ class Node {
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return state_ == State::kRendering; }
 
-  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are taken in.
+  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are
+  /// taken in.
   std::vector<Outgoing> take_outgoing();
   bool has_outgoing() const { return !outgoing_.empty(); }
   bool is_shut_down() const { return shut_down_; }
@@ -110,14 +116,17 @@ class Node {
   void on_all_whole(const control::AllWhole& m);
   void on_ping(const control::Ping& m);
   void on_frontal_batch(std::span<const std::byte> batch);
-  void on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch, const BatchHeader& header);
+  void on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch,
+               const BatchHeader& header);
   void on_sums(const Link& link, std::span<const std::byte> batch);
   void on_signal(Link& link, const BatchHeader& header);
   void drop(const char* what, std::string_view why);
 
   std::uint32_t bit_of(Rank peer) const;
   /// Across which rays in another node's region go.
-  std::uint32_t bit_towards(const RegionIndex& region) const { return cube_->first_bit(id_.rank, owner_of(region)); }
+  std::uint32_t bit_towards(const RegionIndex& region) const {
+    return cube_->first_bit(id_.rank, owner_of(region));
+  }
   void send_control(const ControlMessage& message);
   bool choose_work(Work& work);
   void adopt_domain(WorkResult& result);
@@ -126,7 +135,9 @@ class Node {
 
   bool is_blocking() const { return load_.flow == FlowMode::kBlocking; }
   bool is_own_tile(std::uint32_t tile) const;
-  Rank owner_of(const RegionIndex& region) const { return cube_->owner_of(region.column, region.row); }
+  Rank owner_of(const RegionIndex& region) const {
+    return cube_->owner_of(region.column, region.row);
+  }
   const std::shared_ptr<const Domain>& domain_of(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
   void absorb(WorkResult& result);
@@ -162,7 +173,8 @@ class Node {
   bool take_class_rays(Work& work);
   void release_room_after(std::uint16_t of_class);
   void give_back_classes(Link& link, std::span<const std::uint16_t> classes);
-  void leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::span<const RayTask> rays);
+  void leave(std::optional<std::uint16_t> on_class, std::uint32_t bit,
+             std::span<const RayTask> rays);
   void forget_class_ray(const RayTask& ray);
   void send_class_outbox(Link& link);
   void send_on_class(Link& link);
@@ -215,12 +227,14 @@ class Node {
   /// Rank 0's: no ray is left anywhere.
   bool all_are_whole_ = false;
   RayStore rays_;
-  /// Rays in this node's own regions that came across no link, or came long ago: work was set aside.
+  /// Rays in this node's own regions that came across no link, or came long ago: work was set
+  /// aside.
   RayStore own_rays_;
   ClassStore class_rays_;
   /// Rays of each class in the class outboxes, and those that evaluators may add.
   std::map<std::uint16_t, std::uint64_t> class_outbox_rays_;
-  /// Rays on their way between neighbours, which came while this node was full; and across which bit.
+  /// Rays on their way between neighbours, which came while this node was full; and across which
+  /// bit.
   struct Passing {
     std::uint32_t bit;
     std::vector<RayTask> rays;
@@ -228,8 +242,8 @@ class Node {
   std::deque<Passing> passing_;
   /// The batch of rays that came last; here so that its memory serves the next.
   std::vector<RayTask> received_;
-  /// Flow blocking: the tile that is being traced pixel by pixel, and the rays of the evaluator that wait for
-  /// room in the next node's queue, oldest first.
+  /// Flow blocking: the tile that is being traced pixel by pixel, and the rays of the evaluator
+  /// that wait for room in the next node's queue, oldest first.
   std::optional<PixelRect> open_tile_;
   std::uint32_t open_pixel_ = 0;
   std::deque<RayTask> stalled_;
@@ -257,7 +271,8 @@ class Node {
   /// In outboxes and class outboxes.
   std::uint64_t outbox_rays_ = 0;
   MergeBuffer merge_;
-  /// The tree of sums: where contributions go instead of to the frontal, and whether other nodes' come here.
+  /// The tree of sums: where contributions go instead of to the frontal, and whether other nodes'
+  /// come here.
   std::optional<Rank> parent_;
   bool has_children_ = false;
   bool holds_others_light_ = false;

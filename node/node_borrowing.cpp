@@ -7,8 +7,8 @@
 
 namespace graycube {
 
-/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for that:
-/// then it goes on with the neighbour whose region it has entered.
+/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for
+/// that: then it goes on with the neighbour whose region it has entered.
 bool Node::waits_for_model(Rank owner, const RayTask& ray) {
   Borrowed& b = borrowed_[owner.value];
   if (b.state == Borrowed::State::kUnasked) {
@@ -39,7 +39,8 @@ void Node::on_lend(const control::Lend& m, const SharedBytes& slice) {
   Borrowed& b = borrowed_[m.rank];
   b.state = Borrowed::State::kRefused;
   rays_in_wait_ -= b.waiting.size();
-  for (const RayTask& ray : std::exchange(b.waiting, {})) forward_across(bit_of(owner_of(ray.region)), {&ray, 1});
+  for (const RayTask& ray : std::exchange(b.waiting, {}))
+    forward_across(bit_of(owner_of(ray.region)), {&ray, 1});
   // No evaluator may come by to send what is left.
   for (Link& link : links_) send_rays(link, true);
   pass_token();

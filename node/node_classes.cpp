@@ -1,7 +1,7 @@
-// How a full node goes on (ARCHITECTURE.md, "Flow"). Where the outboxes hold all that they may, evaluators trace only
-// rays that came on the credit of their classes, of one class at a time, and only while there is room for what may
-// descend from them: its class is one higher. The highest class sends nothing on, so that every class finds room in the
-// end.
+// How a full node goes on (ARCHITECTURE.md, "Flow"). Where the outboxes hold all that they may,
+// evaluators trace only rays that came on the credit of their classes, of one class at a time, and
+// only while there is room for what may descend from them: its class is one higher. The highest
+// class sends nothing on, so that every class finds room in the end.
 #include <algorithm>
 #include <utility>
 
@@ -21,8 +21,8 @@ std::uint32_t Node::most_children() const {
   return static_cast<std::uint32_t>(domain_->settings().lights.size()) + 2;
 }
 
-/// Rays on class credit that an evaluator of a full node traces together: for all classes, the room for what they may
-/// send on is a quarter of the outboxes, or enough for one.
+/// Rays on class credit that an evaluator of a full node traces together: for all classes, the room
+/// for what they may send on is a quarter of the outboxes, or enough for one.
 std::uint64_t Node::rays_per_class_work() const {
   const std::uint64_t classes = most_hops(limits_.max_depth, limits_.columns, limits_.rows);
   const std::uint64_t fitting = load_.outbox_rays / (4 * classes * load_.threads * most_children());
@@ -44,8 +44,8 @@ bool Node::has_class_ray_to_take() const {
          class_rays_.highest([this](std::uint16_t c) { return has_room_after(c); }).has_value();
 }
 
-/// Rays that came on class credit: while the node is full those of one class, otherwise any. Those that only pass
-/// through go on at once. False when none is left to be traced.
+/// Rays that came on class credit: while the node is full those of one class, otherwise any. Those
+/// that only pass through go on at once. False when none is left to be traced.
 bool Node::take_class_rays(Work& work) {
   if (!has_class_ray_to_take()) return false;
   const bool full = is_full();
@@ -71,7 +71,8 @@ bool Node::take_class_rays(Work& work) {
   if (full) {
     work.on_class = batch.rays.front().hops;
     work.most_leaving = 1;
-    class_outbox_rays_[static_cast<std::uint16_t>(*work.on_class + 1)] += rays_per_class_work() * most_children();
+    class_outbox_rays_[static_cast<std::uint16_t>(*work.on_class + 1)] +=
+        rays_per_class_work() * most_children();
   }
   work.what = std::move(batch);
   return true;
@@ -85,12 +86,15 @@ void Node::release_room_after(std::uint16_t of_class) {
 
 void Node::give_back_classes(Link& link, std::span<const std::uint16_t> classes) {
   if (classes.empty()) return;
-  for (const std::uint16_t c : classes) GRAYCUBE_CHECK(link.places_in.give_back(c), "class %u held no place", c);
-  outgoing_.push_back({link.peer, Message::of_batch(encode_class_credit(stamp(link.next_sequence++), classes))});
+  for (const std::uint16_t c : classes)
+    GRAYCUBE_CHECK(link.places_in.give_back(c), "class %u held no place", c);
+  outgoing_.push_back(
+      {link.peer, Message::of_batch(encode_class_credit(stamp(link.next_sequence++), classes))});
 }
 
 /// Rays leave, of a class that a full node traces or of none.
-void Node::leave(std::optional<std::uint16_t> on_class, std::uint32_t bit, std::span<const RayTask> rays) {
+void Node::leave(std::optional<std::uint16_t> on_class, std::uint32_t bit,
+                 std::span<const RayTask> rays) {
   if (!on_class) return forward_across(bit, rays);
   count_forwarded(bit, rays);
   std::vector<RayTask>& outbox = links_[bit].class_outbox;
@@ -112,15 +116,16 @@ void Node::forget_class_ray(const RayTask& ray) {
 /// What descends from rays on class credit, as far as the link's own credit allows.
 void Node::send_class_outbox(Link& link) {
   std::vector<RayTask>& waiting = link.class_outbox;
-  const auto paid = std::min<std::size_t>({waiting.size(), link.send_credit / kRayBytes, kMaxRaysPerBatch});
+  const auto paid =
+      std::min<std::size_t>({waiting.size(), link.send_credit / kRayBytes, kMaxRaysPerBatch});
   if (paid == 0) return;
   send_batch(link, std::span(waiting).first(paid));
   for (const RayTask& ray : std::span(waiting).first(paid)) forget_class_ray(ray);
   waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(paid));
 }
 
-/// Where there is no such credit: what descends from rays on class credit, and of a full node all else, while there
-/// are places for their classes.
+/// Where there is no such credit: what descends from rays on class credit, and of a full node all
+/// else, while there are places for their classes.
 void Node::send_on_class(Link& link) {
   std::vector<RayTask> rays;
   std::erase_if(link.class_outbox, [&](const RayTask& ray) {
@@ -144,11 +149,13 @@ void Node::on_class_rays(Link& link, std::uint32_t bit, std::span<const std::byt
   std::vector<RayTask>& rays = received_;
   const auto result = decode_rays(batch, limits_, rays, BatchType::kClassRays);
   const auto* error = std::get_if<BatchError>(&result);
-  const bool is_due = error == nullptr && std::all_of(rays.begin(), rays.end(), [&](const RayTask& ray) {
-    return is_due_here(ray.region) && link.places_in.take(ray.hops, load_.class_places);
-  });
+  const bool is_due =
+      error == nullptr && std::all_of(rays.begin(), rays.end(), [&](const RayTask& ray) {
+        return is_due_here(ray.region) && link.places_in.take(ray.hops, load_.class_places);
+      });
   if (!is_due) {
-    drop("class rays", error != nullptr ? to_string(*error) : "for another macro-region, or without credit");
+    drop("class rays",
+         error != nullptr ? to_string(*error) : "for another macro-region, or without credit");
     return send_control(control::NodeError{
         job_, "a broken batch of class rays came from node " + std::to_string(link.peer.value)});
   }

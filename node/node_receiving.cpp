@@ -14,8 +14,10 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   }
   const auto& header = std::get<BatchHeader>(peeked);
   if (!cube_) {
-    // A neighbour may have heard the frontal's welcome first. Anything else is for a dead predecessor.
-    const bool keep = header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
+    // A neighbour may have heard the frontal's welcome first. Anything else is for a dead
+    // predecessor.
+    const bool keep =
+        header.type == BatchType::kGreeting && early_greetings_.size() < kMaxDimension;
     if (keep) early_greetings_.emplace_back(batch.begin(), batch.end());
     return;
   }
@@ -40,7 +42,8 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   if (header.type == BatchType::kContributions) return on_sums(link, batch);
   if (header.type == BatchType::kAssignment) return on_tiles(link, batch);
   if (header.type == BatchType::kIdle) return on_offer(link, batch, Link::Offer::kIdle);
-  if (header.type == BatchType::kIdleWithCopy) return on_offer(link, batch, Link::Offer::kIdleWithCopy);
+  if (header.type == BatchType::kIdleWithCopy)
+    return on_offer(link, batch, Link::Offer::kIdleWithCopy);
   if (header.type == BatchType::kLinkCredit) {
     std::uint64_t bytes = 0;
     const auto result = decode_link_credit(batch, limits_, bytes);
@@ -66,7 +69,8 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   drop("batch", to_string(header.type));
 }
 
-void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch, const BatchHeader& header) {
+void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> batch,
+                   const BatchHeader& header) {
   std::vector<RayTask>& rays = received_;
   const auto result = decode_rays(batch, limits_, rays);
   if (const auto* error = std::get_if<BatchError>(&result)) {
@@ -75,8 +79,8 @@ void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> bat
     return send_control(control::NodeError{
         job_, "a broken batch of rays came from node " + std::to_string(link.peer.value)});
   }
-  // Or the sender's own, for whom this node is to trace them; or a neighbour's: what left a copy of another
-  // neighbour's regions comes this way.
+  // Or the sender's own, for whom this node is to trace them; or a neighbour's: what left a copy of
+  // another neighbour's regions comes this way.
   const auto is_senders = [&](RegionIndex region) { return owner_of(region) == link.peer; };
   const bool is_help = !rays.empty() && is_senders(rays.front().region);
   bool is_due = !is_help || copies_[bit] != nullptr;
@@ -110,10 +114,12 @@ void Node::on_rays(Link& link, std::uint32_t bit, std::span<const std::byte> bat
   grant_credit(link, half_credit());
 }
 
-/// A ray for a region of this node; or on its way through it, from a helper to a neighbour of this node or, where rays are
-/// finished that have left their macro-regions, from these to what they meet.
+/// A ray for a region of this node; or on its way through it, from a helper to a neighbour of this
+/// node or, where rays are finished that have left their macro-regions, from these to what they
+/// meet.
 bool Node::is_due_here(const RegionIndex& region) const {
-  return domain_->holds(region) || domain_->has_foreign_bounds() || (load_.makes_copies && bit_of(owner_of(region)) < links_.size());
+  return domain_->holds(region) || domain_->has_foreign_bounds() ||
+         (load_.makes_copies && bit_of(owner_of(region)) < links_.size());
 }
 
 void Node::note_queue() {
@@ -123,8 +129,8 @@ void Node::note_queue() {
   stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, held);
 }
 
-/// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody
-/// here is at work.
+/// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the
+/// latest when nobody here is at work.
 void Node::on_sums(const Link& link, std::span<const std::byte> batch) {
   BatchLimits limits = limits_;
   limits.pixel_count *= 1 + kAovPlanes;

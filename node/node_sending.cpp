@@ -9,14 +9,15 @@
 namespace graycube {
 namespace {
 
-/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most that part of the
-/// link's credit is out.
+/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most
+/// that part of the link's credit is out.
 constexpr std::size_t kEagerPart = 4, kQuietPart = 8;
-/// A batch may be slow while the token goes round quickly, so after so many white rounds with the same
-/// non-zero sum each further one waits for the frontal's next ping.
+/// A batch may be slow while the token goes round quickly, so after so many white rounds with the
+/// same non-zero sum each further one waits for the frontal's next ping.
 constexpr std::uint32_t kFreeStalledRounds = 1;
-/// Of all rounds so many are free. Once all tiles are whole two more are enough, and until then they mostly find rays
-/// under way: the others wait for that, or (a batch may be lost) for one of so many pings.
+/// Of all rounds so many are free. Once all tiles are whole two more are enough, and until then
+/// they mostly find rays under way: the others wait for that, or (a batch may be lost) for one of
+/// so many pings.
 constexpr std::uint32_t kFreeRounds = 2;
 constexpr std::uint64_t kPingsToARound = 8;
 
@@ -30,23 +31,26 @@ void Node::send_control(const ControlMessage& message) {
   outgoing_.push_back({std::nullopt, Message::of_text(encode(message))});
 }
 
-/// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under way on
-/// the link, smaller ones.
+/// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under
+/// way on the link, smaller ones.
 void Node::send_rays(Link& link, bool partial) {
   send_class_outbox(link);
-  const std::size_t full = std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
+  const std::size_t full =
+      std::clamp<std::size_t>(load_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
   for (;;) {
     const std::size_t waiting = link.outbox.size();
     const std::size_t allowed = static_cast<std::size_t>(link.send_credit / kRayBytes);
     const std::size_t count = std::min({waiting, allowed, full});
     const std::uint64_t under_way = load_.link_credit_bytes - link.send_credit;
-    const bool eager = kQuietPart * under_way <= load_.link_credit_bytes && kEagerPart * waiting >= full;
+    const bool eager =
+        kQuietPart * under_way <= load_.link_credit_bytes && kEagerPart * waiting >= full;
     if (count == 0 || (count < full && !partial && !eager)) break;
     send_batch(link, link.outbox.oldest(count));
     link.outbox.drop_oldest(count);
     outbox_rays_ -= count;
   }
-  if (link.send_credit < kRayBytes && (is_full() || !link.class_outbox.empty())) send_on_class(link);
+  if (link.send_credit < kRayBytes && (is_full() || !link.class_outbox.empty()))
+    send_on_class(link);
 }
 
 void Node::send_batch(Link& link, std::span<const RayTask> rays, BatchType type) {
@@ -59,8 +63,8 @@ void Node::send_batch(Link& link, std::span<const RayTask> rays, BatchType type)
   outgoing_.push_back({link.peer, Message::of_batch(std::move(batch))});
 }
 
-/// Flow blocking: sends what the evaluator holds, one ray a message and in order; a full queue holds up all
-/// that is behind.
+/// Flow blocking: sends what the evaluator holds, one ray a message and in order; a full queue
+/// holds up all that is behind.
 void Node::send_stalled() {
   const bool was_stalled = !stalled_.empty();
   while (!stalled_.empty()) {
@@ -82,13 +86,15 @@ void Node::grant_credit(Link& link, std::uint64_t least) {
   link.ungranted = 0;
 }
 
-/// To the frontal, or to the parent in the tree of sums: then the token counts them as it counts rays.
+/// To the frontal, or to the parent in the tree of sums: then the token counts them as it counts
+/// rays.
 void Node::flush_contributions() {
   if (merge_.is_empty()) return;
   holds_others_light_ = false;
   std::uint64_t& sequence =
       parent_ ? links_[bit_of(*parent_)].next_sequence : contribution_sequence_;
-  Bytes batch = encode_contributions(stamp(sequence++), merge_.gathered().credits, merge_.gathered().contributions);
+  Bytes batch = encode_contributions(stamp(sequence++), merge_.gathered().credits,
+                                     merge_.gathered().contributions);
   merge_.clear();
   if (parent_) {
     ring_.message_sent();
@@ -114,9 +120,10 @@ void Node::flush_on_idle() {
 }
 
 bool Node::has_unfinished() const {
-  return !rays_.is_empty() || !own_rays_.is_empty() || !class_rays_.is_empty() || !passing_.empty() ||
-         !helped_.empty() || !tiles_.empty() || open_tile_ || unassigned_tiles_ != 0 || !stalled_.empty() ||
-         rays_in_wait_ != 0 || outbox_rays_ != 0 || !merge_.is_empty();
+  return !rays_.is_empty() || !own_rays_.is_empty() || !class_rays_.is_empty() ||
+         !passing_.empty() || !helped_.empty() || !tiles_.empty() || open_tile_ ||
+         unassigned_tiles_ != 0 || !stalled_.empty() || rays_in_wait_ != 0 || outbox_rays_ != 0 ||
+         !merge_.is_empty();
 }
 
 bool Node::is_passive() const {
@@ -130,14 +137,15 @@ void Node::pass_token(std::optional<std::uint64_t> ping) {
   const auto may_launch = [&] {
     if (ring_.stalled_rounds() > kFreeStalledRounds) return ping.has_value();
     // In 1987 the token went round all the time.
-    return is_blocking() || all_are_whole_ || ring_.rounds_launched() < kFreeRounds || (ping && *ping % kPingsToARound == 0);
+    return is_blocking() || all_are_whole_ || ring_.rounds_launched() < kFreeRounds ||
+           (ping && *ping % kPingsToARound == 0);
   };
   while (const auto token = ring_.try_pass(is_passive(), may_launch())) {
     const Rank next = cube_->ring_next(id_.rank);
     if (next == id_.rank) {
       GRAYCUBE_CHECK(ring_.token_arrived(*token), "a ring of one lost its token");
-      send_control(control::TokenRound{job_, epoch_, token->round, token->hops, token->black,
-                                       token->count});
+      send_control(
+          control::TokenRound{job_, epoch_, token->round, token->hops, token->black, token->count});
       continue;
     }
     Link& link = links_[bit_of(next)];
@@ -149,8 +157,8 @@ void Node::pass_token(std::optional<std::uint64_t> ping) {
   if (had_verdict || !ring_.verdict()) return;
   const Verdict& v = *ring_.verdict();
   if (v.outcome == Verdict::Outcome::kLost) {
-    send_control(control::NodeError{
-        job_, "the token counts " + std::to_string(v.missing) + " batches sent but never received"});
+    send_control(control::NodeError{job_, "the token counts " + std::to_string(v.missing) +
+                                              " batches sent but never received"});
     return;
   }
   send_control(control::Terminated{job_, epoch_, v.rounds, v.hops, v.contribution_batches});

@@ -24,7 +24,8 @@ std::optional<Work> Node::take_work() {
   work.epoch = epoch_;
   work.domain = domain_;
   if (state_ == State::kBuilding && unbuilt_slice_) {
-    BuildWork build{std::move(*unbuilt_slice_), load_.horizon_bytes, load_.is_replica, std::nullopt, {}};
+    BuildWork build{
+        std::move(*unbuilt_slice_), load_.horizon_bytes, load_.is_replica, std::nullopt, {}};
     unbuilt_slice_.reset();
     if (load_.algorithm == Algorithm::kMacro) {
       build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};
@@ -50,7 +51,8 @@ std::optional<Work> Node::take_work() {
 /// False when there is nothing that may be done now.
 bool Node::choose_work(Work& work) {
   const std::size_t most_rays = is_blocking() ? 1 : kMaxRaysPerWork;
-  if (!is_blocking()) work.most_leaving = std::max<std::uint64_t>(1, load_.outbox_rays / kWorksPerOutboxes);
+  if (!is_blocking())
+    work.most_leaving = std::max<std::uint64_t>(1, load_.outbox_rays / kWorksPerOutboxes);
   if (!lent_.empty()) {
     std::visit([&](auto& model) { work.what = std::move(model); }, lent_.front());
     lent_.pop_front();
@@ -62,7 +64,8 @@ bool Node::choose_work(Work& work) {
     work.what = RayWork{own_rays_.take(most_rays, [](std::uint32_t, std::size_t) {})};
   } else if (!rays_.is_empty()) {
     RayWork batch;
-    batch.rays = rays_.take(most_rays, [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
+    batch.rays = rays_.take(
+        most_rays, [this](std::uint32_t bit, std::size_t count) { take_from(bit, count); });
     for (Link& link : links_) grant_credit(link, is_blocking() ? 1 : half_credit());
     work.what = std::move(batch);
   } else if (!helped_.empty()) {
@@ -72,7 +75,8 @@ bool Node::choose_work(Work& work) {
     work.what = RayWork{std::move(helped_.front().rays)};
     helped_.pop_front();
   } else if (const auto pixels = may_start_tiles() ? next_pixels() : std::nullopt) {
-    const std::uint32_t tile = plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
+    const std::uint32_t tile =
+        plan_->tile_of_pixel(pixels->y0 * domain_->settings().image.width + pixels->x0);
     work.domain = domain_of(tile);
     if (work.domain != domain_) work.helped = owner_of(plan_->owner_of_tile(tile));
     work.what = TileWork{*pixels, tile};
@@ -147,8 +151,8 @@ void Node::adopt_domain(WorkResult& result) {
   limits_.columns = domain_->grid() != nullptr ? domain_->grid()->columns() : 1;
   limits_.rows = domain_->grid() != nullptr ? domain_->grid()->rows() : 1;
   limits_.nodes = cube_->nodes();
-  limits_.max_hops = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(most_hops(limits_.max_depth, limits_.columns, limits_.rows), kMaxHops));
+  limits_.max_hops = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+      most_hops(limits_.max_depth, limits_.columns, limits_.rows), kMaxHops));
   state_ = State::kReady;
   forget_rays();
   send_ready_when_complete();
@@ -238,16 +242,18 @@ void Node::forward_across(std::uint32_t bit, std::span<const RayTask> rays) {
   stats_.outbox_peak = std::max(stats_.outbox_peak, outbox_rays_);
 }
 
-/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty themselves.
+/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty
+/// themselves.
 bool Node::may_start_tiles() const { return outbox_rays_ < kLongOutboxes && !is_full(); }
 
 WaitReason Node::wait_reason() const {
   if (!stalled_.empty()) return WaitReason::kBlocked;
   if (!lent_.empty() || has_class_ray_to_take()) return WaitReason::kReady;
-  const bool has_rays = !rays_.is_empty() || !own_rays_.is_empty() || !helped_.empty() || !passing_.empty() ||
-                        !class_rays_.is_empty();
+  const bool has_rays = !rays_.is_empty() || !own_rays_.is_empty() || !helped_.empty() ||
+                        !passing_.empty() || !class_rays_.is_empty();
   if (has_rays) return is_full() ? WaitReason::kBlocked : WaitReason::kReady;
-  if (!tiles_.empty() || open_tile_) return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
+  if (!tiles_.empty() || open_tile_)
+    return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return unassigned_tiles_ > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

@@ -20,8 +20,8 @@ class Outbox {
   bool is_empty() const { return size() == 0; }
   /// The `count` oldest; until the next call that changes anything.
   std::span<const RayTask> oldest(std::size_t count) const { return {rays_.data() + sent_, count}; }
-  /// Forgets the `count` oldest. What has been sent stays in front until it is half of all: an outbox may hold
-  /// millions, and moving those at each batch would cost more than everything else.
+  /// Forgets the `count` oldest. What has been sent stays in front until it is half of all: an
+  /// outbox may hold millions, and moving those at each batch would cost more than everything else.
   void drop_oldest(std::size_t count) {
     sent_ += count;
     if (2 * sent_ < rays_.size()) return;

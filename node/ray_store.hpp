@@ -1,4 +1,5 @@
-// Rays waiting for an evaluator: deepest first, so that trees stay narrow; or as they came, as in 1987.
+// Rays waiting for an evaluator: deepest first, so that trees stay narrow; or as they came, as in
+// 1987.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +45,8 @@ class RayStore {
     }
     while (taken.size() < most) {
       while (levels_[deepest_].rays.empty()) --deepest_;
-      levels_[deepest_].take(std::min(levels_[deepest_].rays.size(), most - taken.size()), taken, taken_from);
+      levels_[deepest_].take(std::min(levels_[deepest_].rays.size(), most - taken.size()), taken,
+                             taken_from);
     }
     return taken;
   }
@@ -93,8 +95,8 @@ class RayStore {
     RayTask ray;
     std::uint32_t link;
   };
-  /// A shadow ray is a leaf of its tree: deeper than the rays of its generation. Rays of one kind are traced
-  /// together.
+  /// A shadow ray is a leaf of its tree: deeper than the rays of its generation. Rays of one kind
+  /// are traced together.
   static std::size_t level_of(const RayTask& ray) {
     constexpr std::size_t kOrder[kRayKinds] = {0, 3, 1, 2};
     return std::size_t{kRayKinds} * ray.depth + kOrder[static_cast<std::size_t>(ray.kind)];

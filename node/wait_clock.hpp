@@ -1,5 +1,5 @@
-// What evaluators wait for, and how long: every moment of an evaluator without work is counted under the
-// reason that the brain gives for it.
+// What evaluators wait for, and how long: every moment of an evaluator without work is counted
+// under the reason that the brain gives for it.
 #pragma once
 
 #include <array>

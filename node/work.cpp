@@ -23,8 +23,8 @@ struct Slice {
   }
 };
 
-std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes, const Model& model,
-                                                      WorkResult& result) {
+std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes,
+                                                      const Model& model, WorkResult& result) {
   auto decoded = decode_horizons(bytes, model.settings.lights.size());
   if (decoded) return std::make_shared<const LightHorizons>(*std::move(decoded));
   result.error = "the light horizons received are broken";
@@ -32,7 +32,8 @@ std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte>
 }
 
 /// Of a slice without the light horizons at its end.
-std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t horizon_bytes, WorkResult& result) {
+std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t horizon_bytes,
+                                   WorkResult& result) {
   if (horizon_bytes > bytes.size()) {
     result.error = "less came than was announced";
     return std::nullopt;
@@ -81,7 +82,8 @@ void build(BuildWork work, WorkResult& result) {
   slice->set_foreign(*domain);
   if (work.is_replica) domain->set_replica();
   result.domain = std::move(domain);
-  result.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  result.build_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
 }  // namespace
@@ -110,7 +112,8 @@ WorkResult Workbench::run(Work work) {
   }
   if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
     result.borrowed_from = b->from;
-    if (auto slice = decoded_slice(b->slice.bytes(), 0, result)) result.borrowed = Territory::of(std::move(slice->model));
+    if (auto slice = decoded_slice(b->slice.bytes(), 0, result))
+      result.borrowed = Territory::of(std::move(slice->model));
     return result;
   }
   if (auto* c = std::get_if<CopyWork>(&work.what)) {

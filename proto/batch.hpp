@@ -77,8 +77,8 @@ struct BatchStamp {
 struct BatchHeader {
   BatchStamp stamp;
   BatchType type = BatchType::kRays;
-  /// Records: rays, tile credits, assigned tiles, classes; 1 for a grant or a token, 0 for greetings and
-  /// goodbyes.
+  /// Records: rays, tile credits, assigned tiles, classes; 1 for a grant or a token, 0 for
+  /// greetings and goodbyes.
   std::uint32_t count = 0;
   /// Contributions: pixels. 0 otherwise.
   std::uint32_t second_count = 0;
@@ -134,7 +134,8 @@ struct TokenRecord {
 std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays,
                                    BatchType type = BatchType::kRays);
 /// At most kMaxClassesPerGrant classes.
-std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes);
+std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
+                                           std::span<const std::uint16_t> classes);
 /// Both together at most kMaxContributionBatchBytes, see most_contribution_bytes.
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
@@ -144,7 +145,8 @@ std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& 
 /// At most kMaxTilesPerAssignment tiles.
 std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
                                          std::span<const std::uint32_t> tiles);
-/// Of type kIdle or kIdleWithCopy: what the sender has done so far in this epoch, in tests of a primitive (trace/work_cost.hpp).
+/// Of type kIdle or kIdleWithCopy: what the sender has done so far in this epoch, in tests of a
+/// primitive (trace/work_cost.hpp).
 std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work);
 /// The types without payload: greeting, goodbye and their acknowledgements.
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
@@ -169,7 +171,8 @@ bool looks_like_batch(std::span<const std::byte> message);
 /// empty (other outputs untouched).
 /// Of type kRays or kClassRays.
 [[nodiscard]] BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
-                                      std::vector<RayTask>& rays, BatchType type = BatchType::kRays);
+                                      std::vector<RayTask>& rays,
+                                      BatchType type = BatchType::kRays);
 [[nodiscard]] BatchResult decode_contributions(std::span<const std::byte> message,
                                                const BatchLimits& limits,
                                                std::vector<TileCredit>& credits,
@@ -177,8 +180,10 @@ bool looks_like_batch(std::span<const std::byte> message);
 [[nodiscard]] BatchResult decode_link_credit(std::span<const std::byte> message,
                                              const BatchLimits& limits, std::uint64_t& bytes);
 /// Of either type.
-[[nodiscard]] BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& limits, std::uint64_t& work);
-[[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message, const BatchLimits& limits,
+[[nodiscard]] BatchResult decode_offer(std::span<const std::byte> message,
+                                       const BatchLimits& limits, std::uint64_t& work);
+[[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message,
+                                              const BatchLimits& limits,
                                               std::vector<std::uint16_t>& classes);
 [[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,
                                        const BatchLimits& limits, TokenRecord& token);

@@ -50,7 +50,8 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.hops = load_little<std::uint16_t>(at + 100);
   task.ends_at_horizon = (kind & kHorizonFlag) != 0;
   task.kind = static_cast<RayKind>(kind & ~kHorizonFlag);
-  if (task.kind > RayKind::kRefraction || (task.ends_at_horizon && task.kind != RayKind::kShadow)) return false;
+  if (task.kind > RayKind::kRefraction || (task.ends_at_horizon && task.kind != RayKind::kShadow))
+    return false;
   const Vec3& d = task.ray.direction;
   // Written so that NaN fails every comparison.
   return is_finite(task.ray.origin) && std::fabs(dot(d, d) - 1) <= kDirectionTolerance &&
@@ -73,8 +74,8 @@ bool load_credit(const std::byte* at, const BatchLimits& limits, TileCredit& cre
 
 bool is_light(std::int64_t v) { return v >= 0 && v <= kMaxMergedLight; }
 
-/// A run's light into `pixels`, the first of which is pixel number `first`. False unless the components take no
-/// more bytes than they need, and none is too large.
+/// A run's light into `pixels`, the first of which is pixel number `first`. False unless the
+/// components take no more bytes than they need, and none is too large.
 template <std::size_t kBytes>
 bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> pixels) {
   std::uint64_t bits = 0;
@@ -94,19 +95,23 @@ bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> 
 }
 
 /// All runs of `bytes`, into as many contributions as there are. Runs are as long as they can be.
-bool load_light(std::span<const std::byte> bytes, const BatchLimits& limits, std::span<Contribution> all) {
+bool load_light(std::span<const std::byte> bytes, const BatchLimits& limits,
+                std::span<Contribution> all) {
   ByteReader r(bytes);
   std::uint64_t end = 0;
   bool may_continue = false;
   while (!all.empty()) {
     const auto first = r.get<std::uint32_t>();
     const std::size_t count = r.get<std::uint8_t>(), width = r.get<std::uint8_t>();
-    if (count == 0 || count > all.size() || width == 0 || width > sizeof(std::uint64_t)) return false;
-    if (first + std::uint64_t{count} > limits.pixel_count || (may_continue && first == end)) return false;
+    if (count == 0 || count > all.size() || width == 0 || width > sizeof(std::uint64_t))
+      return false;
+    if (first + std::uint64_t{count} > limits.pixel_count || (may_continue && first == end))
+      return false;
     const std::byte* at = r.take(3 * width * count);
     if (at == nullptr) return false;
     bool is_sound = false;
-    with_component_bytes(width, [&](auto kBytes) { is_sound = load_run<kBytes>(at, first, all.first(count)); });
+    with_component_bytes(
+        width, [&](auto kBytes) { is_sound = load_run<kBytes>(at, first, all.first(count)); });
     if (!is_sound) return false;
     end = first + std::uint64_t{count};
     may_continue = count < kMaxRunPixels;
@@ -167,8 +172,8 @@ BatchResult peek_header(std::span<const std::byte> message) {
   h.stamp.incarnation = r.get<std::uint32_t>();
   if (message.size() > max_message_bytes(h.type)) return BatchError::kTooLarge;
   const PayloadRule rule = payload_rule(h);
-  if (!rule.counts_fit || h.payload_bytes < rule.bytes || h.payload_bytes - rule.bytes > rule.more ||
-      h.payload_bytes != r.remaining()) {
+  if (!rule.counts_fit || h.payload_bytes < rule.bytes ||
+      h.payload_bytes - rule.bytes > rule.more || h.payload_bytes != r.remaining()) {
     return BatchError::kBadLength;
   }
   return h;
@@ -255,7 +260,8 @@ BatchResult decode_assignment(std::span<const std::byte> message, const BatchLim
   return result;
 }
 
-BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& limits, std::uint64_t& work) {
+BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& limits,
+                         std::uint64_t& work) {
   const BatchResult peeked = peek_header(message);
   const auto* h = std::get_if<BatchHeader>(&peeked);
   if (h == nullptr) return peeked;

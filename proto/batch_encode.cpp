@@ -11,15 +11,16 @@ namespace {
 
 using namespace batch_layout;
 
-/// A writer that already holds the header; `count` and `second` decide the payload's size, but for `more` bytes.
+/// A writer that already holds the header; `count` and `second` decide the payload's size, but for
+/// `more` bytes.
 ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std::size_t second,
                  std::size_t more = 0) {
   BatchHeader h{stamp, type, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(second),
                 0};
   const PayloadRule rule = payload_rule(h);
   const std::uint64_t size = kBatchHeaderBytes + rule.bytes + more;
-  GRAYCUBE_CHECK(rule.counts_fit && more <= rule.more && count == h.count && second == h.second_count &&
-                     size <= max_message_bytes(type),
+  GRAYCUBE_CHECK(rule.counts_fit && more <= rule.more && count == h.count &&
+                     second == h.second_count && size <= max_message_bytes(type),
                  "%zu + %zu records in one %s batch", count, second, to_string(type).data());
   ByteWriter w(static_cast<std::size_t>(size));
   w.put(kBatchMagic);
@@ -69,7 +70,9 @@ struct LightRun {
   std::size_t bytes() const { return kRunHeaderBytes + 3 * component_bytes * pixels.size(); }
 };
 
-std::uint64_t bits_of(const FixedRgb& light) { return static_cast<std::uint64_t>(light.r | light.g | light.b); }
+std::uint64_t bits_of(const FixedRgb& light) {
+  return static_cast<std::uint64_t>(light.r | light.g | light.b);
+}
 
 /// The longest runs, one behind the other.
 std::vector<LightRun> runs_of(std::span<const Contribution> all) {
@@ -78,7 +81,8 @@ std::vector<LightRun> runs_of(std::span<const Contribution> all) {
     const std::size_t most = std::min(all.size(), kMaxRunPixels);
     std::uint64_t bits = bits_of(all[0].light);
     std::size_t count = 1;
-    for (; count < most && all[count].pixel == all[count - 1].pixel + 1; ++count) bits |= bits_of(all[count].light);
+    for (; count < most && all[count].pixel == all[count - 1].pixel + 1; ++count)
+      bits |= bits_of(all[count].light);
     runs.push_back({all.first(count), component_bytes(bits)});
     all = all.subspan(count);
   }
@@ -102,7 +106,8 @@ void store_run(std::byte* at, const LightRun& run) {
 
 }  // namespace
 
-std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays, BatchType type) {
+std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays,
+                                   BatchType type) {
   GRAYCUBE_CHECK(type == BatchType::kRays || type == BatchType::kClassRays, "rays in a %s batch",
                  to_string(type).data());
   ByteWriter w = begin(stamp, type, rays.size(), 0);
@@ -143,7 +148,8 @@ std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std
   return std::move(w).take();
 }
 
-std::vector<std::byte> encode_class_credit(const BatchStamp& stamp, std::span<const std::uint16_t> classes) {
+std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
+                                           std::span<const std::uint16_t> classes) {
   ByteWriter w = begin(stamp, BatchType::kClassCredit, classes.size(), 0);
   for (const std::uint16_t c : classes) w.put(c);
   return std::move(w).take();

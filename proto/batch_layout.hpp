@@ -20,7 +20,8 @@ struct PayloadRule {
   std::uint64_t more = 0;
 };
 
-/// Light comes in runs: of pixels side by side, each component in as many bytes as the largest needs.
+/// Light comes in runs: of pixels side by side, each component in as many bytes as the largest
+/// needs.
 inline constexpr std::size_t kRunHeaderBytes = 6, kMaxRunPixels = 255;
 inline constexpr std::size_t kLeastPixelBytes = 3;
 static_assert(kMostPixelBytes == kRunHeaderBytes + 3 * sizeof(std::uint64_t));
@@ -80,6 +81,8 @@ constexpr bool is_signal(BatchType type) {
          type == BatchType::kGoodbye || type == BatchType::kGoodbyeAck;
 }
 
-constexpr bool is_offer(BatchType type) { return type == BatchType::kIdle || type == BatchType::kIdleWithCopy; }
+constexpr bool is_offer(BatchType type) {
+  return type == BatchType::kIdle || type == BatchType::kIdleWithCopy;
+}
 
 }  // namespace graycube::batch_layout

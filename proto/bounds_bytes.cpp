@@ -19,10 +19,14 @@ std::size_t branches_of(const WideNode& node) {
   return count;
 }
 
-float& side_of(WideNode& node, std::size_t side, std::size_t place) { return node.planes[side / 3][side % 3][place]; }
+float& side_of(WideNode& node, std::size_t side, std::size_t place) {
+  return node.planes[side / 3][side % 3][place];
+}
 
-/// False where it is no box, or leads back or too deep; `levels`: how deep nodes are, 0 until their parent came.
-bool take_branch(ByteReader& r, std::size_t number, std::size_t place, WideNode& node, std::vector<std::uint8_t>& levels) {
+/// False where it is no box, or leads back or too deep; `levels`: how deep nodes are, 0 until their
+/// parent came.
+bool take_branch(ByteReader& r, std::size_t number, std::size_t place, WideNode& node,
+                 std::vector<std::uint8_t>& levels) {
   for (std::size_t side = 0; side < kSides; ++side) side_of(node, side, place) = r.get<float>();
   for (std::size_t a = 0; a < 3; ++a) {
     // Also false for what is no number.
@@ -58,20 +62,23 @@ std::vector<std::byte> encode_bounds(const ForeignBounds& bounds) {
 }
 
 bool begins_with_bounds(std::span<const std::byte> bytes) {
-  return bytes.size() >= sizeof kBoundsMagic && load_little<std::uint32_t>(bytes.data()) == kBoundsMagic;
+  return bytes.size() >= sizeof kBoundsMagic &&
+         load_little<std::uint32_t>(bytes.data()) == kBoundsMagic;
 }
 
 std::optional<ForeignBounds> take_bounds(std::span<const std::byte>& bytes) {
   ByteReader r(bytes);
   const auto magic = r.get<std::uint32_t>(), count = r.get<std::uint32_t>();
   // A node takes a byte at least.
-  if (!r.ok() || magic != kBoundsMagic || count > kMaxBoundsNodes || count > r.remaining()) return std::nullopt;
+  if (!r.ok() || magic != kBoundsMagic || count > kMaxBoundsNodes || count > r.remaining())
+    return std::nullopt;
   std::vector<WideNode> nodes(count);
   std::vector<std::uint8_t> levels(count);
   for (std::size_t number = 0; number < count; ++number) {
     WideNode& node = nodes[number];
     for (std::size_t side = 0; side < kSides; ++side) {
-      for (std::size_t place = 0; place < WideNode::kWidth; ++place) side_of(node, side, place) = side < 3 ? kFloatInf : -kFloatInf;
+      for (std::size_t place = 0; place < WideNode::kWidth; ++place)
+        side_of(node, side, place) = side < 3 ? kFloatInf : -kFloatInf;
     }
     node.child.fill(WideNode::kItemFlag);
     const auto branches = r.get<std::uint8_t>();

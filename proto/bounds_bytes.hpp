@@ -1,4 +1,5 @@
-// Foreign bounds as bytes: what follows the model of a slice. FORMAT.md, "Foreign bounds", is normative.
+// Foreign bounds as bytes: what follows the model of a slice. FORMAT.md, "Foreign bounds", is
+// normative.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@ inline constexpr std::uint32_t kMaxBoundsNodes = 1u << 22;
 
 std::vector<std::byte> encode_bounds(const ForeignBounds& bounds);
 bool begins_with_bounds(std::span<const std::byte> bytes);
-/// Nothing when the bytes do not begin with bounds that can be walked; otherwise `bytes` becomes what follows them.
+/// Nothing when the bytes do not begin with bounds that can be walked; otherwise `bytes` becomes
+/// what follows them.
 [[nodiscard]] std::optional<ForeignBounds> take_bounds(std::span<const std::byte>& bytes);
 
 }  // namespace graycube

@@ -28,7 +28,8 @@ Figures figures_of(const std::string& statistics) {
   f.light_bytes = count("messages", "contribution_bytes");
   f.rounds = count("token", "rounds");
   for (const Json& n : j.at("per_node")) {
-    f.largest_memory_bytes = std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());
+    f.largest_memory_bytes =
+        std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());
     f.queue_peak = std::max(f.queue_peak, n.at("queue_peak").get<std::uint64_t>());
     f.nodes.push_back({n.at("busy_s"), n.at("blocked_s"), n.at("window_s"), n.at("idle_s")});
   }
@@ -46,13 +47,15 @@ std::string to_string(RowOutcome outcome) {
   return {};
 }
 
-std::string simulation_json(const std::string& scene,
-                            const std::vector<SimulatedRow>& rows) {
+std::string simulation_json(const std::string& scene, const std::vector<SimulatedRow>& rows) {
   Json j{{"scene", scene}, {"rows", Json::array()}};
   for (const SimulatedRow& r : rows) {
-    Json row{{"nodes", r.nodes}, {"time_s", r.time_s}, {"host_load", r.host_load},
+    Json row{{"nodes", r.nodes},
+             {"time_s", r.time_s},
+             {"host_load", r.host_load},
              {"predicted_over_measured", r.predicted_over_measured},
-             {"outcome", to_string(r.row.outcome)}, {"why", r.row.why}};
+             {"outcome", to_string(r.row.outcome)},
+             {"why", r.row.why}};
     for (const auto& [name, seconds] : r.costs) row["costs"][name] = seconds;
     row["statistics"] = r.row.statistics.empty() ? Json() : Json::parse(r.row.statistics);
     j["rows"].push_back(std::move(row));
@@ -64,7 +67,9 @@ std::string comparison_json(const std::string& scene, std::uint32_t nodes,
                             const std::vector<ComparedRow>& rows) {
   Json j{{"scene", scene}, {"nodes", nodes}, {"rows", Json::array()}};
   for (const ComparedRow& r : rows) {
-    Json row{{"name", r.name}, {"arguments", r.arguments}, {"outcome", to_string(r.outcome)},
+    Json row{{"name", r.name},
+             {"arguments", r.arguments},
+             {"outcome", to_string(r.outcome)},
              {"why", r.why}};
     row["statistics"] = r.statistics.empty() ? Json() : Json::parse(r.statistics);
     j["rows"].push_back(std::move(row));

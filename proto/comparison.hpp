@@ -14,7 +14,8 @@ struct NodeTimes {
 };
 
 struct Figures {
-  double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, render_s = 0, efficiency = 1, blocked_fraction = 0, endgame_s = 0;
+  double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, render_s = 0, efficiency = 1,
+         blocked_fraction = 0, endgame_s = 0;
   std::uint64_t forwarded = 0, messages = 0, message_bytes = 0, light_bytes = 0;
   /// Of the node that holds most; model and subdivision.
   std::uint64_t largest_memory_bytes = 0;
@@ -53,11 +54,12 @@ struct SimulatedRow {
   std::vector<std::pair<std::string, double>> costs;
   ComparedRow row;
 };
-/// One JSON object: {"scene", "rows": [{"nodes", "time_s", "host_load", "predicted_over_measured", "costs":
-/// {NAME: SECONDS}, "outcome", "why", "statistics"}]}.
+/// One JSON object: {"scene", "rows": [{"nodes", "time_s", "host_load", "predicted_over_measured",
+/// "costs": {NAME: SECONDS}, "outcome", "why", "statistics"}]}.
 std::string simulation_json(const std::string& scene, const std::vector<SimulatedRow>& rows);
 
-/// One JSON object: {"scene", "nodes", "rows": [{"name", "arguments", "outcome", "why", "statistics"}]}.
+/// One JSON object: {"scene", "nodes", "rows": [{"name", "arguments", "outcome", "why",
+/// "statistics"}]}.
 std::string comparison_json(const std::string& scene, std::uint32_t nodes,
                             const std::vector<ComparedRow>& rows);
 

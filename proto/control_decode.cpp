@@ -176,9 +176,11 @@ Fault fault_of_own_edges(const control::GridLayout& grid) {
   constexpr const char* kField = "grid/own_edges";
   if (grid.own_edges.empty()) return {};
   const std::size_t each = grid.columns - 1;
-  if (grid.own_edges.size() != each * grid.rows) return ControlError{kField, "must be one fewer than the columns for each row"};
+  if (grid.own_edges.size() != each * grid.rows)
+    return ControlError{kField, "must be one fewer than the columns for each row"};
   for (std::size_t i = 1; i < grid.own_edges.size(); ++i) {
-    if (i % each != 0 && grid.own_edges[i] <= grid.own_edges[i - 1]) return ControlError{kField, "must increase strictly in each row"};
+    if (i % each != 0 && grid.own_edges[i] <= grid.own_edges[i - 1])
+      return ControlError{kField, "must increase strictly in each row"};
   }
   return {};
 }

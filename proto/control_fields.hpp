@@ -118,7 +118,8 @@ void each_field(auto& visit, Is<GridLayout> auto& m) {
   visit("scatter", m.scatter, {.min = 1, .max = kMaxScatter});
   visit("column_edges", m.column_edges, kEdges);
   visit("row_edges", m.row_edges, kEdges);
-  visit("own_edges", m.own_edges, {.min = 1, .max = kMaxImageSide, .length = kMaxNodes, .has_default = true});
+  visit("own_edges", m.own_edges,
+        {.min = 1, .max = kMaxImageSide, .length = kMaxNodes, .has_default = true});
 }
 
 void each_field(auto& visit, Is<TokenProgress> auto& m) {

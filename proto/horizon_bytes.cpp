@@ -63,11 +63,13 @@ bool take_map(ByteReader& r, HorizonMap& map) {
   map.units.reserve(LightHorizons::kTexels);
   while (map.units.size() < LightHorizons::kTexels) {
     const std::size_t never = r.get<std::uint16_t>(), count = r.get<std::uint16_t>();
-    if (!r.ok() || never + count == 0 || never + count > LightHorizons::kTexels - map.units.size()) return false;
+    if (!r.ok() || never + count == 0 || never + count > LightHorizons::kTexels - map.units.size())
+      return false;
     map.units.resize(map.units.size() + never, HorizonMap::kNever);
     const std::byte* at = r.take(count * sizeof(std::uint16_t));
     if (at == nullptr) return false;
-    for (std::size_t i = 0; i < count; ++i) map.units.push_back(load_little<std::uint16_t>(at + i * sizeof(std::uint16_t)));
+    for (std::size_t i = 0; i < count; ++i)
+      map.units.push_back(load_little<std::uint16_t>(at + i * sizeof(std::uint16_t)));
   }
   return true;
 }
@@ -77,7 +79,8 @@ bool take_distances(ByteReader& r, std::uint64_t count, std::vector<std::uint16_
   const std::byte* at = r.take(count * sizeof(std::uint16_t));
   if (at == nullptr) return false;
   distances.resize(count);
-  for (std::uint64_t i = 0; i < count; ++i) distances[i] = load_little<std::uint16_t>(at + i * sizeof(std::uint16_t));
+  for (std::uint64_t i = 0; i < count; ++i)
+    distances[i] = load_little<std::uint16_t>(at + i * sizeof(std::uint16_t));
   return true;
 }
 
@@ -88,7 +91,9 @@ bool take_depths(ByteReader& r, std::uint64_t most_texels, LightDepths& depths) 
   depths.unit = r.get<double>();
   depths.clearance = r.get<double>();
   const std::uint64_t blocks = r.get<std::uint32_t>();
-  if (depths.split > LightDepths::kMostSplit || !is_positive(depths.unit) || !is_positive(depths.clearance)) return false;
+  if (depths.split > LightDepths::kMostSplit || !is_positive(depths.unit) ||
+      !is_positive(depths.clearance))
+    return false;
   const std::uint64_t texels = blocks * depths.dark_split() * depths.dark_split();
   if (blocks == 0 || blocks > LightHorizons::kTexels || texels > most_texels) return false;
   for (std::uint64_t i = 0; i < blocks; ++i) {
@@ -96,7 +101,8 @@ bool take_depths(ByteReader& r, std::uint64_t most_texels, LightDepths& depths) 
     if (block >= LightHorizons::kTexels || (i > 0 && block <= depths.blocks.back())) return false;
     depths.blocks.push_back(block);
   }
-  return take_distances(r, blocks * depths.split * depths.split, depths.lit) && take_distances(r, texels, depths.dark);
+  return take_distances(r, blocks * depths.split * depths.split, depths.lit) &&
+         take_distances(r, texels, depths.dark);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Light horizons as bytes: what follows the model slice behind `load`. FORMAT.md, "Light horizons", is
-// normative.
+// Light horizons as bytes: what follows the model slice behind `load`. FORMAT.md, "Light horizons",
+// is normative.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,10 @@ inline constexpr std::size_t kHorizonHeaderBytes = 12;
 inline constexpr std::size_t kDepthHeaderBytes = 20;
 inline constexpr std::size_t kMaxHorizonBytes =
     kHorizonHeaderBytes +
-    kMaxCreditLights * (2 + sizeof(double) + LightHorizons::kTexels * (2 * sizeof(std::uint16_t) + sizeof(std::uint32_t)) + kDepthHeaderBytes) +
+    kMaxCreditLights *
+        (2 + sizeof(double) +
+         LightHorizons::kTexels * (2 * sizeof(std::uint16_t) + sizeof(std::uint32_t)) +
+         kDepthHeaderBytes) +
     2 * kMostDepthTexels * sizeof(std::uint16_t);
 
 /// At most kMaxCreditLights lights.

@@ -42,7 +42,8 @@ enum class Grain : std::uint8_t { kPixel, kLine, kTile };
 enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
 enum class PartitionMode : std::uint8_t { kRegular, kBalanced, kAuto };
 enum class FlowMode : std::uint8_t { kCredit, kBlocking };
-/// How contributions reach the frontal: from each node by itself, or added up along the hypercube's tree.
+/// How contributions reach the frontal: from each node by itself, or added up along the hypercube's
+/// tree.
 enum class SumsMode : std::uint8_t { kDirect, kTree };
 enum class JobState : std::uint8_t {
   kQueued,
@@ -144,7 +145,8 @@ struct GridLayout {
   std::uint32_t columns = 1, rows = 1, scatter = 1;
   /// Inner boundaries as pixel edges, strictly increasing, one fewer than columns (rows).
   std::vector<std::int64_t> column_edges{}, row_edges{};
-  /// By row: between the pixels whose primary rays its nodes trace, one fewer than columns. Empty: those of their macro-regions.
+  /// By row: between the pixels whose primary rays its nodes trace, one fewer than columns. Empty:
+  /// those of their macro-regions.
   std::vector<std::int64_t> own_edges{};
   friend bool operator==(const GridLayout&, const GridLayout&) = default;
 };
@@ -231,7 +233,8 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-/// Flow blocking only, behind each pong: what the node waits for. The frontal finds cycles in these.
+/// Flow blocking only, behind each pong: what the node waits for. The frontal finds cycles in
+/// these.
 struct WaitReport {
   static constexpr std::string_view kType = "wait_report";
   std::uint32_t job = 0, epoch = 0;
@@ -291,7 +294,8 @@ struct Welcome {
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
-/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light horizons.
+/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light
+/// horizons.
 struct Load {
   static constexpr std::string_view kType = "load";
   std::uint32_t job = 0, epoch = 0;
@@ -310,8 +314,8 @@ struct Load {
   /// Own tiles that may be open at a time.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
-  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit. Where a frontal says
-  /// nothing there is no bound.
+  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
+  /// Where a frontal says nothing there is no bound.
   std::uint64_t outbox_rays = 0xFFFF'FFFF;
   /// Rays of each class that a link has places for beside its credit.
   std::uint32_t class_places = 1;
@@ -333,7 +337,8 @@ struct Lend {
   friend bool operator==(const Lend&, const Lend&) = default;
 };
 
-/// Followed by a binary frame: the slice of a neighbour, which its tiles and rays can be traced in here.
+/// Followed by a binary frame: the slice of a neighbour, which its tiles and rays can be traced in
+/// here.
 struct Copy {
   static constexpr std::string_view kType = "copy";
   std::uint32_t job = 0, epoch = 0, rank = 0;
@@ -428,15 +433,16 @@ struct Nodes {
   friend bool operator==(const Nodes&, const Nodes&) = default;
 };
 
-/// Rows of a picture; fewer may come, the client asks on from there. Plane 0 is light, 1 … kAovPlanes are
-/// those of AOVs.
+/// Rows of a picture; fewer may come, the client asks on from there. Plane 0 is light, 1 …
+/// kAovPlanes are those of AOVs.
 struct Fetch {
   static constexpr std::string_view kType = "fetch";
   std::uint32_t job = 0, first_row = 0, rows = 0, plane = 0;
   friend bool operator==(const Fetch&, const Fetch&) = default;
 };
 
-/// To a private frontal: write a picture's files, "" for none. For pictures of at most kMostPixelsToWrite.
+/// To a private frontal: write a picture's files, "" for none. For pictures of at most
+/// kMostPixelsToWrite.
 struct Write {
   static constexpr std::string_view kType = "write";
   std::uint32_t job = 0;
@@ -550,15 +556,14 @@ struct Bye {
 
 }  // namespace control
 
-using ControlMessage =
-    std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
-                 control::Terminated, control::NodeReport, control::Pong, control::NodeError,
-                 control::WaitReport, control::Borrow, control::Share, control::Goodbye,
-                 control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
-                 control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
-                 control::Shutdown, control::Submit, control::Status, control::List,
-                 control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write, control::Down,
-                 control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-                 control::NodeList, control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
+using ControlMessage = std::variant<
+    control::Hello, control::Ready, control::EpochAck, control::TokenRound, control::Terminated,
+    control::NodeReport, control::Pong, control::NodeError, control::WaitReport, control::Borrow,
+    control::Share, control::Goodbye, control::Welcome, control::Load, control::Lend, control::Copy,
+    control::Relieved, control::AllWhole, control::Prepare, control::Start, control::Finish,
+    control::Ping, control::Shutdown, control::Submit, control::Status, control::List,
+    control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write, control::Down,
+    control::Accepted, control::JobInfo, control::Jobs, control::Progress, control::NodeList,
+    control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
 
 }  // namespace graycube

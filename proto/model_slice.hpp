@@ -56,7 +56,8 @@ class SliceEncoder {
  public:
   explicit SliceEncoder(const Model& model);
   /// encode_model(extract(model, contents)), without the copy between, and behind it the tails.
-  std::vector<std::byte> encode(const ModelContents& contents, std::span<const std::span<const std::byte>> tails) const;
+  std::vector<std::byte> encode(const ModelContents& contents,
+                                std::span<const std::span<const std::byte>> tails) const;
 
  private:
   struct Kept;

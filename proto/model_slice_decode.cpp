@@ -89,7 +89,8 @@ class ModelReader {
         kSettingsBytes + std::uint64_t{c.lights} * kLightBytes +
         std::uint64_t{c.materials} * kMaterialBytes + std::uint64_t{c.planes} * kPlaneBytes +
         std::uint64_t{c.primitives} * kPrimitiveBytes + std::uint64_t{c.nodes} * kNodeBytes +
-        std::uint64_t{c.objects} * kObjectBytes + std::uint64_t{c.meshes} * (kMeshBytes + kPointBytes + kTriangleBytes);
+        std::uint64_t{c.objects} * kObjectBytes +
+        std::uint64_t{c.meshes} * (kMeshBytes + kPointBytes + kTriangleBytes);
     if (!r_.ok() || least > r_.remaining()) fail("header", "fewer bytes than the counts need");
     return c;
   }
@@ -207,11 +208,12 @@ class ModelReader {
     mesh_points_ += points;
     mesh_triangles_ += triangles;
     if (points == 0 || triangles == 0) return "empty";
-    if (mesh_points_ > kMaxModelPoints || mesh_triangles_ > kMaxMeshTriangles) return "a count beyond its limit";
+    if (mesh_points_ > kMaxModelPoints || mesh_triangles_ > kMaxMeshTriangles)
+      return "a count beyond its limit";
     if (planes > triangles) return "more planes than triangles";
     const std::uint64_t plane_numbers = planes > 0 ? triangles : 0;
-    const std::uint64_t bytes = points * kPointBytes + triangles * kTriangleBytes + planes * kPlaneBytes +
-                                plane_numbers * kPlaneNumberBytes;
+    const std::uint64_t bytes = points * kPointBytes + triangles * kTriangleBytes +
+                                planes * kPlaneBytes + plane_numbers * kPlaneNumberBytes;
     if (bytes > r_.remaining()) return "too short";
     TriangleMesh surface;
     surface.points.resize(points);
@@ -275,7 +277,8 @@ class ModelReader {
         return "no such plane";
     }
     if ((flags & kHasMesh) != 0) p.mesh = r_.get<std::uint32_t>();
-    if (p.kind == PrimitiveKind::kMesh ? p.mesh >= model_.meshes.size() : p.mesh != 0) return "no such mesh";
+    if (p.kind == PrimitiveKind::kMesh ? p.mesh >= model_.meshes.size() : p.mesh != 0)
+      return "no such mesh";
     return finite && is_box(p.bounds) ? nullptr : "not finite";
   }
 
@@ -343,7 +346,8 @@ class ModelReader {
 }  // namespace
 
 bool is_encoded_model(std::span<const std::byte> bytes) {
-  return bytes.size() >= sizeof kModelMagic && load_little<std::uint32_t>(bytes.data()) == kModelMagic;
+  return bytes.size() >= sizeof kModelMagic &&
+         load_little<std::uint32_t>(bytes.data()) == kModelMagic;
 }
 
 std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes) {

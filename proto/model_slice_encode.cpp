@@ -121,7 +121,8 @@ struct Counts {
 };
 
 std::size_t beginning_bytes(const Model& model) {
-  return kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes + model.materials.size() * kMaterialBytes;
+  return kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
+         model.materials.size() * kMaterialBytes;
 }
 
 /// Header, settings, lights and materials.
@@ -129,8 +130,9 @@ void put_beginning(ByteWriter& w, const Model& model, const Counts& counts) {
   w.put(kModelMagic);
   w.put(kModelVersion);
   w.put(std::uint16_t{0});
-  for (const std::size_t count : {model.settings.lights.size(), model.materials.size(), counts.planes, counts.primitives,
-                                  counts.nodes, counts.objects, counts.meshes}) {
+  for (const std::size_t count :
+       {model.settings.lights.size(), model.materials.size(), counts.planes, counts.primitives,
+        counts.nodes, counts.objects, counts.meshes}) {
     w.put(static_cast<std::uint32_t>(count));
   }
   put_settings(w, model.settings, model.delta);
@@ -153,8 +155,8 @@ std::size_t depth_of(const std::vector<TreeNode>& nodes) {
 }  // namespace
 
 std::size_t encoded_model_bytes(const Model& model) {
-  std::size_t bytes = beginning_bytes(model) + model.planes.size() * kPlaneBytes + model.nodes.size() * kNodeBytes +
-                      model.objects.size() * kObjectBytes;
+  std::size_t bytes = beginning_bytes(model) + model.planes.size() * kPlaneBytes +
+                      model.nodes.size() * kNodeBytes + model.objects.size() * kObjectBytes;
   for (const Mesh& m : model.meshes) bytes += mesh_bytes(m.surface());
   for (const Primitive& p : model.primitives) bytes += primitive_bytes(flags_of(p));
   return bytes;
@@ -179,27 +181,33 @@ bool meshes_fit(const Model& model) {
     points += m.surface().points.size();
     triangles += m.surface().triangles.size();
   }
-  return model.meshes.size() <= kMaxModelMeshes && points <= kMaxModelPoints && triangles <= kMaxMeshTriangles;
+  return model.meshes.size() <= kMaxModelMeshes && points <= kMaxModelPoints &&
+         triangles <= kMaxMeshTriangles;
 }
 
 bool fits_limits(const Model& model, std::size_t bytes) {
   return model.settings.lights.size() <= kMaxLights &&
          model.materials.size() <= kMaxModelMaterials &&
          model.primitives.size() <= kMaxModelPrimitives && model.planes.size() <= kMaxModelPlanes &&
-         meshes_fit(model) && model.nodes.size() <= kMaxModelNodes && model.objects.size() <= kMaxModelObjects &&
-         depth_of(model.nodes) <= kMaxModelTreeDepth && bytes <= kMaxModelBytes;
+         meshes_fit(model) && model.nodes.size() <= kMaxModelNodes &&
+         model.objects.size() <= kMaxModelObjects && depth_of(model.nodes) <= kMaxModelTreeDepth &&
+         bytes <= kMaxModelBytes;
 }
 
 }  // namespace
 
-bool fits_model_limits(const Model& model) { return fits_limits(model, encoded_model_bytes(model)); }
+bool fits_model_limits(const Model& model) {
+  return fits_limits(model, encoded_model_bytes(model));
+}
 
 std::vector<std::byte> encode_model(const Model& model) {
   const std::size_t size = encoded_model_bytes(model);
-  GRAYCUBE_CHECK(fits_limits(model, size), "a model of %zu bytes, %zu primitives, %zu nodes", size, model.primitives.size(),
-                 model.nodes.size());
+  GRAYCUBE_CHECK(fits_limits(model, size), "a model of %zu bytes, %zu primitives, %zu nodes", size,
+                 model.primitives.size(), model.nodes.size());
   ByteWriter w(size);
-  put_beginning(w, model, {model.planes.size(), model.primitives.size(), model.nodes.size(), model.objects.size(), model.meshes.size()});
+  put_beginning(w, model,
+                {model.planes.size(), model.primitives.size(), model.nodes.size(),
+                 model.objects.size(), model.meshes.size()});
   for (const Plane& plane : model.planes) put_plane(w, plane);
   for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
   for (const Primitive& p : model.primitives) put_primitive(w, p, flags_of(p));
@@ -244,11 +252,12 @@ SliceEncoder::SliceEncoder(const Model& model) : model_(model) {
   }
 }
 
-std::vector<std::byte> SliceEncoder::encode(const ModelContents& contents,
-                                            std::span<const std::span<const std::byte>> tails) const {
+std::vector<std::byte> SliceEncoder::encode(
+    const ModelContents& contents, std::span<const std::span<const std::byte>> tails) const {
   Kept kept(model_, contents);
   Counts& counts = kept.counts;
-  std::size_t bytes = beginning_bytes(model_) + counts.nodes * kNodeBytes + counts.objects * kObjectBytes;
+  std::size_t bytes =
+      beginning_bytes(model_) + counts.nodes * kNodeBytes + counts.objects * kObjectBytes;
   // The first mesh of a slice is number 0, which is not written.
   const auto flags = [&](const Primitive& p, unsigned of_whole) {
     return p.kind == PrimitiveKind::kMesh && counts.meshes > 0 ? of_whole | kHasMesh : of_whole;
@@ -267,7 +276,8 @@ std::vector<std::byte> SliceEncoder::encode(const ModelContents& contents,
   put_beginning(w, model_, counts);
   kept.for_each_primitive([&](std::uint32_t index) {
     const Primitive& p = model_.primitives[index];
-    for (std::uint32_t i = 0; i < p.plane_count; ++i) put_plane(w, model_.planes[p.first_plane + i]);
+    for (std::uint32_t i = 0; i < p.plane_count; ++i)
+      put_plane(w, model_.planes[p.first_plane + i]);
   });
   kept.for_each_primitive([&](std::uint32_t index) {
     const Primitive& p = model_.primitives[index];

@@ -11,8 +11,8 @@ constexpr std::size_t kValueBytes = 4;
 
 template <typename Value>
 std::vector<std::byte> encode_rows(std::span<const Value> values) {
-  GRAYCUBE_CHECK(values.size() % 3 == 0 && values.size() <= kMaxPictureBytes / kValueBytes, "%zu values",
-                 values.size());
+  GRAYCUBE_CHECK(values.size() % 3 == 0 && values.size() <= kMaxPictureBytes / kValueBytes,
+                 "%zu values", values.size());
   ByteWriter w(values.size() * kValueBytes);
   std::byte* at = w.room(values.size() * kValueBytes);
   for (std::size_t i = 0; i < values.size(); ++i) store_little(at + kValueBytes * i, values[i]);
@@ -22,7 +22,8 @@ std::vector<std::byte> encode_rows(std::span<const Value> values) {
 template <typename Value>
 bool decode_rows(std::span<const std::byte> frame, std::span<Value> values) {
   if (frame.size() % kValueBytes != 0 || frame.size() / kValueBytes != values.size()) return false;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = load_little<Value>(frame.data() + kValueBytes * i);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = load_little<Value>(frame.data() + kValueBytes * i);
   return true;
 }
 

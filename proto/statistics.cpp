@@ -111,13 +111,15 @@ std::string statistics_json(const Statistics& s) {
   return j.dump();
 }
 
-std::string with_command_times(const std::string& text, double wall_s, double cpu_s, double load_s) {
+std::string with_command_times(const std::string& text, double wall_s, double cpu_s,
+                               double load_s) {
   Json j = Json::parse(text, nullptr, false);
   if (!j.is_object() || !j.contains("cpu_s") || !j["cpu_s"].is_number()) return text;
   j["wall_s"] = wall_s;
   j["cpu_s"] = j["cpu_s"].get<double>() + cpu_s;
   const Json::json_pointer in_phases("/phases/load_s");
-  if (j.contains(in_phases) && j[in_phases].is_number()) j[in_phases] = j[in_phases].get<double>() + load_s;
+  if (j.contains(in_phases) && j[in_phases].is_number())
+    j[in_phases] = j[in_phases].get<double>() + load_s;
   return j.dump();
 }
 

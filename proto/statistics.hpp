@@ -40,8 +40,10 @@ struct Statistics {
 /// One line of JSON.
 std::string statistics_json(const Statistics& statistics);
 
-/// The statistics with the time and CPU that the command itself used: wall_s replaced, cpu_s and load_s (reading and
-/// compiling the scene) added to. `text` must come from statistics_json, or be empty and stays so.
-std::string with_command_times(const std::string& text, double wall_s, double cpu_s, double load_s = 0);
+/// The statistics with the time and CPU that the command itself used: wall_s replaced, cpu_s and
+/// load_s (reading and compiling the scene) added to. `text` must come from statistics_json, or be
+/// empty and stays so.
+std::string with_command_times(const std::string& text, double wall_s, double cpu_s,
+                               double load_s = 0);
 
 }  // namespace graycube

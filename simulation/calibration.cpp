@@ -45,8 +45,8 @@ class Sweep {
 constexpr std::size_t kSmall = 128, kLarge = std::size_t{64} << 10;
 constexpr int kRounds = 200, kTries = 3;
 
-/// The other process: sends back whatever comes, a message of 8 bytes with its CPU seconds so far, until one of 1
-/// byte comes.
+/// The other process: sends back whatever comes, a message of 8 bytes with its CPU seconds so far,
+/// until one of 1 byte comes.
 void echo(const std::string& endpoint) {
   ZmqContext context;
   Inbox inbox(context, endpoint);
@@ -81,8 +81,8 @@ double all_cpu_seconds(Connection& connection) {
   return there_s + process_cpu_seconds();
 }
 
-/// CPU seconds of both sides together for each message of that size, sweeps included: the least of a few tries,
-/// since others use the machine too.
+/// CPU seconds of both sides together for each message of that size, sweeps included: the least of
+/// a few tries, since others use the machine too.
 double seconds_per_message(Connection& connection, std::size_t bytes) {
   Sweep sweep;
   double least_s = 1;

@@ -1,4 +1,5 @@
-// Processor cores and who runs on them: as an operating system does it, but that a task is never interrupted.
+// Processor cores and who runs on them: as an operating system does it, but that a task is never
+// interrupted.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 
 namespace graycube::simulation {
 
-/// What a process may use of a core before others that wait get their turn; then it is the one who waits longest.
+/// What a process may use of a core before others that wait get their turn; then it is the one who
+/// waits longest.
 inline constexpr double kTimeSlice_s = 3e-3;
 
 class Cores {
@@ -46,7 +48,8 @@ class Cores {
     used_s += seconds;
     timeline_.after(seconds, [this, used_s, task = std::move(task)] { finish(task, used_s); });
   }
-  /// The core is free only when what follows from the task has been asked for: that waits behind the others.
+  /// The core is free only when what follows from the task has been asked for: that waits behind
+  /// the others.
   void finish(const Task& task, double used_s) {
     task.end();
     --busy_;
@@ -69,7 +72,8 @@ class Cores {
   std::deque<Task> waiting_;
 };
 
-/// A thread that mostly sleeps, as a mailroom: its tasks take a core one after the other, and before long ones.
+/// A thread that mostly sleeps, as a mailroom: its tasks take a core one after the other, and
+/// before long ones.
 class Thread {
  public:
   explicit Thread(Cores& cores) : cores_(cores) {}
@@ -84,7 +88,8 @@ class Thread {
     is_busy_ = true;
     Cores::Task task = std::move(waiting_.front());
     waiting_.pop_front();
-    cores_.ask({task.process, std::move(task.begin), [this, end = std::move(task.end)] {
+    cores_.ask({task.process, std::move(task.begin),
+                [this, end = std::move(task.end)] {
                   end();
                   is_busy_ = false;
                   if (!waiting_.empty()) start();

@@ -8,8 +8,8 @@
 
 namespace graycube::simulation {
 
-/// Least squares over all measurements, each cost at least 0; then scaled, for evaluators, building, nodes' brains
-/// and the frontal's each, so that the sum of what was measured is met.
+/// Least squares over all measurements, each cost at least 0; then scaled, for evaluators,
+/// building, nodes' brains and the frontal's each, so that the sum of what was measured is met.
 class CostFit {
  public:
   /// `overhead_s`: what measuring itself adds to each measurement.

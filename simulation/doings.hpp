@@ -8,21 +8,21 @@
 namespace graycube::simulation {
 
 enum class Unit : std::uint8_t {
-  kPiece,           ///< a piece of work taken by an evaluator
-  kRay,             ///< a ray traced in it, received or created
-  kVisit,           ///< a node of the subdivision visited
-  kTest,            ///< a primitive tested
-  kBuildByte,       ///< of a slice that was decoded and subdivided
-  kNodeCall,        ///< an event in a node's brain
-  kRayIn,           ///< a ray decoded and stored
-  kRayOut,          ///< a ray stored and encoded
-  kReturn,          ///< of light or credit, merged
-  kLightByte,       ///< of contributions encoded
-  kFrontalCall,     ///< an event in the frontal's brain
-  kFrontalByte,     ///< of contributions decoded and added up
-  kMessage,         ///< handed to or taken from the transport
-  kMessageByte,     ///< of it
-  kWakeup,          ///< of a thread by another of its process
+  kPiece,        ///< a piece of work taken by an evaluator
+  kRay,          ///< a ray traced in it, received or created
+  kVisit,        ///< a node of the subdivision visited
+  kTest,         ///< a primitive tested
+  kBuildByte,    ///< of a slice that was decoded and subdivided
+  kNodeCall,     ///< an event in a node's brain
+  kRayIn,        ///< a ray decoded and stored
+  kRayOut,       ///< a ray stored and encoded
+  kReturn,       ///< of light or credit, merged
+  kLightByte,    ///< of contributions encoded
+  kFrontalCall,  ///< an event in the frontal's brain
+  kFrontalByte,  ///< of contributions decoded and added up
+  kMessage,      ///< handed to or taken from the transport
+  kMessageByte,  ///< of it
+  kWakeup,       ///< of a thread by another of its process
 };
 inline constexpr std::size_t kUnits = 15;
 

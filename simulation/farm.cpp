@@ -76,15 +76,18 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
     if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
   }
   mailroom_of({}).ask({process_of({}), [this, doings] { return take({}, doings); },
-                    [this, out] {
-                      for (const Frontal::Outgoing& o : *out) deliver(o);
-                    }});
+                       [this, out] {
+                         for (const Frontal::Outgoing& o : *out) deliver(o);
+                       }});
 }
 
 void Farm::start(const Frontal::Spawn& spawn) {
   Process& p = processes_[spawn.rank.value];
-  NodeIdentity id{spawn.rank, spawn.incarnation, 1000 + spawn.incarnation,
-                  "ipc:///simulated/" + std::to_string(spawn.rank.value), options_.threads,
+  NodeIdentity id{spawn.rank,
+                  spawn.incarnation,
+                  1000 + spawn.incarnation,
+                  "ipc:///simulated/" + std::to_string(spawn.rank.value),
+                  options_.threads,
                   "simulated"};
   p = {};
   p.node = std::make_unique<Node>(std::move(id));
@@ -129,9 +132,8 @@ void Farm::prepare(const PreparationWork& work) {
   const double began_s = thread_cpu_seconds();
   auto result = std::make_shared<PreparationResult>(run(work));
   outcome_.preparation_cpu_s += thread_cpu_seconds() - began_s;
-  timeline_.after(0, [this, result] {
-    in_frontal({}, [&] { frontal_->give_result(std::move(*result)); });
-  });
+  timeline_.after(
+      0, [this, result] { in_frontal({}, [&] { frontal_->give_result(std::move(*result)); }); });
 }
 
 void Farm::deliver(const Frontal::Outgoing& o) {
@@ -167,7 +169,8 @@ void Farm::on_client_message(const Message& message) {
 
 // ---- the nodes
 
-/// Calls a node's brain, has the mailroom send what it has made, and lets its evaluators look for work.
+/// Calls a node's brain, has the mailroom send what it has made, and lets its evaluators look for
+/// work.
 template <typename Call>
 void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   Process& p = processes_[rank.value];
@@ -181,10 +184,10 @@ void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   if (is_evaluator && !out->empty()) doings[Unit::kWakeup] = 1;
   for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
   mailroom_of(rank).ask({rank.value, [this, rank, doings] { return take(rank, doings); },
-                      [this, rank, out, incarnation = p.incarnation] {
-                        if (!is_alive(rank, incarnation)) return;
-                        for (const Node::Outgoing& o : *out) deliver(rank, o);
-                      }});
+                         [this, rank, out, incarnation = p.incarnation] {
+                           if (!is_alive(rank, incarnation)) return;
+                           for (const Node::Outgoing& o : *out) deliver(rank, o);
+                         }});
   wake(rank);
 }
 
@@ -242,7 +245,8 @@ void Farm::ask_for_turn(Rank rank, bool is_woken) {
   turn->rank = rank;
   turn->is_woken = is_woken;
   turn->incarnation = processes_[rank.value].incarnation;
-  cores_of(rank).ask({rank.value, [this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
+  cores_of(rank).ask(
+      {rank.value, [this, turn] { return begin(*turn); }, [this, turn] { end(*turn); }});
 }
 
 double Farm::begin(Turn& turn) {
@@ -267,7 +271,8 @@ double Farm::begin(Turn& turn) {
   if (rays != nullptr) doings[Unit::kRay] = static_cast<double>(rays->rays.size());
   if (turn.is_primary || rays != nullptr) doings[Unit::kPiece] = 1;
   const auto count_slice = [&](const auto& piece) {
-    if constexpr (requires { piece.slice; }) doings[Unit::kBuildByte] = static_cast<double>(piece.slice.size());
+    if constexpr (requires { piece.slice; })
+      doings[Unit::kBuildByte] = static_cast<double>(piece.slice.size());
   };
   std::visit(count_slice, work->what);
   const double began_s = observe ? thread_cpu_seconds() : 0;

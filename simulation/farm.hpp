@@ -1,6 +1,6 @@
-// A farm in one process: the real brains of frontal and nodes, wired on a simulated machine. The machine alone
-// says how long anything takes, so that a run replays exactly: from a seed in the tests, from costs per unit
-// in `graycube simulate`.
+// A farm in one process: the real brains of frontal and nodes, wired on a simulated machine. The
+// machine alone says how long anything takes, so that a run replays exactly: from a seed in the
+// tests, from costs per unit in `graycube simulate`.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,8 @@ struct Outcome {
   std::vector<control::NodeStats> reports;
   /// Rays that were sent on the credit of their classes.
   std::uint64_t class_rays = 0;
-  /// Simulated seconds from the barrier to the end, or to the last thing that anybody did before a failure.
+  /// Simulated seconds from the barrier to the end, or to the last thing that anybody did before a
+  /// failure.
   double render_s = 0;
   /// CPU seconds that reading and cutting the scene took here; it takes no simulated time.
   double preparation_cpu_s = 0;
@@ -58,11 +59,12 @@ class Farm {
   /// Renders a scene; the picture is then in store().
   Outcome render(const std::string& scene_text, const control::JobOptions& options);
   JobStore& store() { return *store_; }
-  /// The node stops answering and its links go dead at that simulated time after the next render begins.
+  /// The node stops answering and its links go dead at that simulated time after the next render
+  /// begins.
   void kill_node_at(Rank rank, double after_s) { kill_ = {rank, after_s}; }
 
-  /// Called with what a brain or evaluator did and the CPU seconds that it took here. Without it nothing is
-  /// measured.
+  /// Called with what a brain or evaluator did and the CPU seconds that it took here. Without it
+  /// nothing is measured.
   std::function<void(const PerUnit&, double)> observe;
 
  private:
@@ -125,7 +127,7 @@ class Farm {
   Machine& machine_;
   Hypercube cube_;
   Timeline timeline_;
-  std::vector<std::unique_ptr<Cores>> cores_;  // by rank, then the frontal's; or one for all
+  std::vector<std::unique_ptr<Cores>> cores_;       // by rank, then the frontal's; or one for all
   std::vector<std::unique_ptr<Thread>> mailrooms_;  // by rank, then the frontal's
   std::unique_ptr<JobStore> store_ = make_memory_store();
   std::unique_ptr<Frontal> frontal_;

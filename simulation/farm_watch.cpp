@@ -19,7 +19,8 @@ std::uint32_t bit_between(const Hypercube& cube, Rank a, Rank b) {
 
 }  // namespace
 
-/// Only changes are told to the clock: after a deadlock there are none, and its time counts for nobody.
+/// Only changes are told to the clock: after a deadlock there are none, and its time counts for
+/// nobody.
 void Farm::watch_time(Process& p) {
   const WaitReason reason = p.node->wait_reason();
   const bool is_rendering = p.node->is_rendering();
@@ -83,7 +84,8 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto header = peek_header(batch);
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr) return;
-  if (h->type == BatchType::kRays || h->type == BatchType::kClassRays) rays_under_way_ += is_sent ? 1 : -1;
+  if (h->type == BatchType::kRays || h->type == BatchType::kClassRays)
+    rays_under_way_ += is_sent ? 1 : -1;
   if (h->type == BatchType::kContributions) sums_under_way_ += is_sent ? 1 : -1;
   if (h->stamp.job != load_.job) return;
   if (h->type == BatchType::kClassRays || h->type == BatchType::kClassCredit) {
@@ -108,7 +110,8 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   }
 }
 
-/// So many rays of each class may be on their way on a link, or wait behind it, as it has places for them.
+/// So many rays of each class may be on their way on a link, or wait behind it, as it has places
+/// for them.
 void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent) {
   BatchLimits limits{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = cube_.nodes()};
   if (type == BatchType::kClassRays && is_sent) {
@@ -120,7 +123,8 @@ void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type,
     }
     outcome_.class_rays += rays.size();
     for (const RayTask& ray : rays) {
-      if (!out.take(ray.hops, load_.class_places)) outcome_.violations.push_back("a class has more rays on a link than places");
+      if (!out.take(ray.hops, load_.class_places))
+        outcome_.violations.push_back("a class has more rays on a link than places");
     }
   } else if (type == BatchType::kClassCredit && !is_sent) {
     ClassPlaces& out = processes_[to.value].places_out[bit_between(cube_, from, to)];
@@ -135,7 +139,8 @@ void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type,
 /// The token has spoken: nothing may be left anywhere.
 void Farm::check_quiet() {
   if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
-  if (sums_under_way_ != 0) outcome_.violations.push_back("the token ended with light under way between nodes");
+  if (sums_under_way_ != 0)
+    outcome_.violations.push_back("the token ended with light under way between nodes");
   for (const Process& p : processes_) {
     if (p.working != 0) outcome_.violations.push_back("the token ended with an evaluator at work");
     if (p.node && p.node->has_unfinished()) {

@@ -1,4 +1,5 @@
-// A machine known by a few figures: what a unit of work costs, how fast links are, how many cores there are.
+// A machine known by a few figures: what a unit of work costs, how fast links are, how many cores
+// there are.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 namespace graycube::simulation {
 
 struct MachineFigures {
-  /// Bandwidth of each link in each direction, and of the frontal's one link to all nodes; 10⁹ bits a second.
+  /// Bandwidth of each link in each direction, and of the frontal's one link to all nodes; 10⁹ bits
+  /// a second.
   double link_gbps = 10, host_gbps = 10;
   /// From one end of a link to the other, in microseconds, beyond the time that the bytes take.
   double link_us = 50;
@@ -24,7 +26,8 @@ struct MachineFigures {
 
 class ModelledMachine : public Machine {
  public:
-  explicit ModelledMachine(const MachineFigures& figures) : figures_(figures), costs_(figures.costs) {
+  explicit ModelledMachine(const MachineFigures& figures)
+      : figures_(figures), costs_(figures.costs) {
     for (const Unit u : {Unit::kPiece, Unit::kRay, Unit::kVisit, Unit::kTest, Unit::kBuildByte}) {
       costs_[u] *= figures.cpu_scale;
     }

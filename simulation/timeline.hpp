@@ -1,5 +1,5 @@
-// Simulated time: events in the order of their moments, those of one moment in the order in which they were
-// planned.
+// Simulated time: events in the order of their moments, those of one moment in the order in which
+// they were planned.
 #pragma once
 
 #include <algorithm>

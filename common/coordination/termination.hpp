@@ -61,8 +61,8 @@ class TerminationRing {
   /// contributions. Sent when handed to the link (or to its outbox), received when taken from it.
   void message_sent(std::uint64_t messages = 1);
   void message_received(std::uint64_t messages = 1);
-  /// Work of this node was done by another: what the token has learnt from the nodes before this one may be out
-  /// of date.
+  /// Work of this node was done by another: what the token has learnt from the nodes before this
+  /// one may be out of date.
   void work_was_taken() { black_ = true; }
   void contribution_batch_sent(std::uint64_t batches = 1);
 

@@ -55,8 +55,8 @@ inline bool parallelepiped_contains(const Primitive& p, const Vec3& q) {
   return Aabb{box_lo(p), box_hi(p)}.contains(p.to_local.point(q));
 }
 inline Vec3 parallelepiped_normal(const Primitive& p, const Ray& ray, double t) {
-  return p.to_local.transposed_vector(
-      box_face(box_lo(p), box_hi(p), p.to_local.point(ray.origin), p.to_local.vector(ray.direction), t));
+  return p.to_local.transposed_vector(box_face(box_lo(p), box_hi(p), p.to_local.point(ray.origin),
+                                               p.to_local.vector(ray.direction), t));
 }
 inline CellSide classify_parallelepiped(const Primitive& p, const Aabb& cell) {
   const Vec3 lo = box_lo(p), hi = box_hi(p);

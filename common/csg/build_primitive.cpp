@@ -54,8 +54,8 @@ Vec3 disc_extent(const Affine& to_world) {
 
 Aabb around(const Vec3& center, const Vec3& extent) { return {center - extent, center + extent}; }
 
-/// Caps at local z = 0 and z = 1 as planes of the world, through the ends as the scene gives them: base +
-/// (top − base) may miss top by a bit, and a cap flush with another face would not be.
+/// Caps at local z = 0 and z = 1 as planes of the world, through the ends as the scene gives them:
+/// base + (top − base) may miss top by a bit, and a cap flush with another face would not be.
 void set_caps(Primitive& p, const Vec3& world_base, const Vec3& world_top) {
   const Vec3 normal = normalized(p.to_local.row(2));
   for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = normal[i] + 0.0;
@@ -102,7 +102,8 @@ Primitive build_ellipsoid(const Affine& to_world, const Vec3& center,
   Primitive p;
   p.kind = PrimitiveKind::kEllipsoid;
   p.to_local = inverse_of(map);
-  p.bounds = around(map.translation(), {length(map.row(0)), length(map.row(1)), length(map.row(2))});
+  p.bounds =
+      around(map.translation(), {length(map.row(0)), length(map.row(1)), length(map.row(2))});
   return p;
 }
 
@@ -115,7 +116,8 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
     p.bounds = Aabb::nothing();
     p.bounds.include(a);
     p.bounds.include(b);
-    p.v = {p.bounds.lo.x, p.bounds.lo.y, p.bounds.lo.z, p.bounds.hi.x, p.bounds.hi.y, p.bounds.hi.z};
+    p.v = {p.bounds.lo.x, p.bounds.lo.y, p.bounds.lo.z,
+           p.bounds.hi.x, p.bounds.hi.y, p.bounds.hi.z};
     return p;
   }
   const Vec3 e = hi - lo;
@@ -136,8 +138,7 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
 
 Primitive build_cylinder(const Affine& to_world, const Vec3& base, const Vec3& top, double radius) {
   const Vec3 axis = top - base;
-  const Affine map =
-      compose(to_world, frame_about(base, normalized(axis), radius, length(axis)));
+  const Affine map = compose(to_world, frame_about(base, normalized(axis), radius, length(axis)));
   Primitive p;
   p.kind = PrimitiveKind::kCylinder;
   p.to_local = inverse_of(map);
@@ -200,8 +201,8 @@ Primitive build_polyhedron(const Affine& to_world, std::span<const Plane> faces,
   return p;
 }
 
-Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Vec3& top, const Vec3& a,
-                              const Vec3& b, double top_a, double top_b) {
+Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Vec3& top,
+                              const Vec3& a, const Vec3& b, double top_a, double top_b) {
   const Vec3 axis = top - base;
   if (top_a == top_b) {
     return build_cone(compose(to_world, frame(a, b, axis, base)), {0, 0, 0}, 1, {0, 0, 1}, top_a);
@@ -234,8 +235,8 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
   return p;
 }
 
-Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const Vec3& axis, double radius,
-                               double outward, double upward, double across) {
+Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const Vec3& axis,
+                               double radius, double outward, double upward, double across) {
   const Affine map = compose(to_world, frame_about(center, normalized(axis), radius, radius));
   const double m = std::sqrt(outward * outward + upward * upward);
   const double c = outward / m, s = upward / m;
@@ -249,7 +250,12 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
     const double along = major * (c * u + s * w), beside = minor * (c * w - s * u);
     return std::sqrt(along * along + beside * beside);
   };
-  p.v = {c * c * i2 + s * s * j2, c * s * (i2 - j2), s * s * i2 + c * c * j2, reach(1, 0), reach(0, 1), 0};
+  p.v = {c * c * i2 + s * s * j2,
+         c * s * (i2 - j2),
+         s * s * i2 + c * c * j2,
+         reach(1, 0),
+         reach(0, 1),
+         0};
   const Vec3 ring = disc_extent(map);
   Vec3 extent;
   for (int i = 0; i < 3; ++i) {
@@ -262,7 +268,8 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
 
 namespace {
 
-/// Bounds of a quadric's slice between two heights: of the ellipse, or the rectangle, that holds it.
+/// Bounds of a quadric's slice between two heights: of the ellipse, or the rectangle, that holds
+/// it.
 Aabb slice_bounds(const Affine& map, const std::array<double, 4>& q, const Vec3& lo, const Vec3& hi,
                   double z0, double z1) {
   const auto radius2 = [&](double z) { return -((q[1] * z + q[2]) * z + q[3]); };
@@ -314,7 +321,8 @@ Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, 
     const double z1 = lo.z + (hi.z - lo.z) * (i + 1) / kSlices;
     slices = union_of(slices, slice_bounds(to_world, q, lo, hi, z0, z1));
   }
-  p.bounds = intersection_of(corners, slices.is_empty() ? corners : slices.grown(1e-12 * length(corners.hi - corners.lo)));
+  p.bounds = intersection_of(
+      corners, slices.is_empty() ? corners : slices.grown(1e-12 * length(corners.hi - corners.lo)));
   return p;
 }
 

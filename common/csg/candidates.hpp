@@ -1,4 +1,5 @@
-// Which of many measured things may be as near to another as to be one: nearly none, mostly. What is left is worth sorting.
+// Which of many measured things may be as near to another as to be one: nearly none, mostly. What
+// is left is worth sorting.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,8 @@ class Candidates {
 
   void mark(const Measured& m) {
     if (!is_number(m)) return;
-    const std::int64_t first = step_of(m.value - m.tolerance), last = step_of(m.value + m.tolerance);
+    const std::int64_t first = step_of(m.value - m.tolerance),
+                       last = step_of(m.value + m.tolerance);
     if (last - first >= kMostSteps) {
       if (wide_.size() < kMostWide) {
         wide_.push_back(m);
@@ -49,7 +51,8 @@ class Candidates {
     for (const Measured& w : wide_) {
       if (std::fabs(m.value - w.value) <= m.tolerance + w.tolerance) return true;
     }
-    const std::int64_t first = step_of(m.value - m.tolerance), last = step_of(m.value + m.tolerance);
+    const std::int64_t first = step_of(m.value - m.tolerance),
+                       last = step_of(m.value + m.tolerance);
     if (last - first >= kMostSteps) return true;
     for (std::int64_t step = first; step <= last; ++step) {
       const std::size_t bucket = bucket_of(step);
@@ -65,14 +68,18 @@ class Candidates {
   static constexpr std::int64_t kMostSteps = 16;
   static constexpr std::size_t kMostWide = 32;
 
-  static bool is_number(const Measured& m) { return std::isfinite(m.value) && m.tolerance >= 0 && std::isfinite(m.tolerance); }
+  static bool is_number(const Measured& m) {
+    return std::isfinite(m.value) && m.tolerance >= 0 && std::isfinite(m.tolerance);
+  }
   std::int64_t step_of(double v) const {
     constexpr double kFarthest = 0x1p+62;
-    return static_cast<std::int64_t>(std::floor(std::min(std::max(v * scale_, -kFarthest), kFarthest)));
+    return static_cast<std::int64_t>(
+        std::floor(std::min(std::max(v * scale_, -kFarthest), kFarthest)));
   }
   /// Fibonacci hashing (Knuth, volume 3, 6.4): steps side by side part.
   std::size_t bucket_of(std::int64_t step) const {
-    return static_cast<std::size_t>(static_cast<std::uint64_t>(step) * 0x9E3779B97F4A7C15u >> (64 - bits_));
+    return static_cast<std::size_t>(static_cast<std::uint64_t>(step) * 0x9E3779B97F4A7C15u >>
+                                    (64 - bits_));
   }
 
   unsigned bits_ = 6;

@@ -34,13 +34,16 @@ std::string counted(std::size_t count, const char* singular, const char* plural)
 class Welder {
  public:
   explicit Welder(std::span<const Vec3> points)
-      : points_(points), slots_(std::bit_ceil(2 * points.size() + 1), kNoPoint), index_(points.size(), kNoPoint) {}
+      : points_(points),
+        slots_(std::bit_ceil(2 * points.size() + 1), kNoPoint),
+        index_(points.size(), kNoPoint) {}
 
   std::uint32_t operator[](std::uint32_t i) {
     if (index_[i] != kNoPoint) return index_[i];
     const Vec3 p = points_[i] + Vec3{0, 0, 0};  // −0 becomes +0
     std::size_t slot = hash(p) & (slots_.size() - 1);
-    while (slots_[slot] != kNoPoint && !(welded_[slots_[slot]] == p)) slot = (slot + 1) & (slots_.size() - 1);
+    while (slots_[slot] != kNoPoint && !(welded_[slots_[slot]] == p))
+      slot = (slot + 1) & (slots_.size() - 1);
     if (slots_[slot] == kNoPoint) {
       slots_[slot] = static_cast<std::uint32_t>(welded_.size());
       welded_.push_back(p);
@@ -76,7 +79,8 @@ std::optional<MeshFault> fault_of_points(std::span<const Vec3> points) {
 }
 
 MeshFault too_many_triangles(std::size_t found) {
-  return {"at most " + std::to_string(kMaxMeshTriangles) + " triangles are accepted, found " + std::to_string(found)};
+  return {"at most " + std::to_string(kMaxMeshTriangles) + " triangles are accepted, found " +
+          std::to_string(found)};
 }
 
 std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
@@ -85,10 +89,11 @@ std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
   for (std::size_t f = 0; f < p.face_ends.size(); ++f) {
     const std::uint32_t end = p.face_ends[f], n = end - begin;
     const std::string where = "face " + std::to_string(f) + " has ";
-    if (n < 3) return MeshFault{where + counted(n, "corner", "corners") + ", at least 3 are needed"};
+    if (n < 3)
+      return MeshFault{where + counted(n, "corner", "corners") + ", at least 3 are needed"};
     if (n > kMaxFaceCorners) {
-      return MeshFault{where + std::to_string(n) + " corners, at most " + std::to_string(kMaxFaceCorners) +
-                       " are accepted"};
+      return MeshFault{where + std::to_string(n) + " corners, at most " +
+                       std::to_string(kMaxFaceCorners) + " are accepted"};
     }
     for (std::uint32_t i = begin; i < end; ++i) {
       if (p.corners[i] >= p.points.size()) {
@@ -105,8 +110,8 @@ std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
 
 bool has_equal_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Six times the volume, about a point of the mesh so that far meshes keep their digits; the same but for its sign when
-/// all triangles are turned over.
+/// Six times the volume, about a point of the mesh so that far meshes keep their digits; the same
+/// but for its sign when all triangles are turned over.
 double volume(const TriangleMesh& mesh) {
   const auto before = [](const Vec3& a, const Vec3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
@@ -126,13 +131,14 @@ std::string text_of_edge(const TriangleMesh& mesh, const MeshEdge& e) {
 MeshFault open_fault(const TriangleMesh& mesh, const MeshEdges& edges, const MeshEdge& first) {
   const auto uses = edges.uses(first);
   const std::string where = text_of_edge(mesh, first);
-  const std::string many = counted(edges.unbalanced_count(), "edge", "edges") + " of " +
-                           std::to_string(edges.count());
+  const std::string many =
+      counted(edges.unbalanced_count(), "edge", "edges") + " of " + std::to_string(edges.count());
   if (uses.forward + uses.backward == 1) {
     return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)"};
   }
-  return {"not a closed surface: " + where + " is used by " + std::to_string(uses.forward) + " of its faces one way and by " +
-          std::to_string(uses.backward) + " the other (" + many + " are wrong)"};
+  return {"not a closed surface: " + where + " is used by " + std::to_string(uses.forward) +
+          " of its faces one way and by " + std::to_string(uses.backward) + " the other (" + many +
+          " are wrong)"};
 }
 
 /// Drops the points that no triangle uses, and numbers the others in the order of their first use.
@@ -163,7 +169,8 @@ std::variant<TriangleMesh, MeshFault> oriented(TriangleMesh mesh) {
                        text_of_edge(mesh, *contradiction)};
     }
     edges = MeshEdges(mesh.triangles);
-    if (edges.unbalanced_count() > 0) return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
+    if (edges.unbalanced_count() > 0)
+      return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
   }
   if (volume(mesh) < 0) turn_inside_out(mesh);
   renumber(mesh);
@@ -195,13 +202,15 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
 
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
   if (auto fault = fault_of_points(triangles.points)) return *std::move(fault);
-  if (triangles.triangles.size() > kMaxMeshTriangles) return too_many_triangles(triangles.triangles.size());
+  if (triangles.triangles.size() > kMaxMeshTriangles)
+    return too_many_triangles(triangles.triangles.size());
   Welder weld(triangles.points);
   for (Triangle& t : triangles.triangles) {
     for (std::uint32_t& i : t) {
       if (i >= triangles.points.size()) {
-        return MeshFault{"face " + std::to_string(&t - triangles.triangles.data()) + " has the point " +
-                         std::to_string(i) + ", there are " + std::to_string(triangles.points.size())};
+        return MeshFault{"face " + std::to_string(&t - triangles.triangles.data()) +
+                         " has the point " + std::to_string(i) + ", there are " +
+                         std::to_string(triangles.points.size())};
       }
       i = weld[i];
     }

@@ -1,4 +1,5 @@
-// From the polygons of a file to a closed mesh: points welded, faces cut into triangles, orientation made outward.
+// From the polygons of a file to a closed mesh: points welded, faces cut into triangles,
+// orientation made outward.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +32,15 @@ struct MeshFault {
   std::string why;
 };
 
-/// The closed mesh: points with bitwise equal coordinates are one (−0 is 0), those that no face uses and triangles with
-/// two equal corners are dropped. Every edge must be used by as many faces one way as the other. Where that fails but
-/// every edge has two faces, faces are turned to agree with their neighbours'. A mesh whose volume is negative is
-/// turned inside out as a whole. What this gives, it gives back unchanged.
+/// The closed mesh: points with bitwise equal coordinates are one (−0 is 0), those that no face
+/// uses and triangles with two equal corners are dropped. Every edge must be used by as many faces
+/// one way as the other. Where that fails but every edge has two faces, faces are turned to agree
+/// with their neighbours'. A mesh whose volume is negative is turned inside out as a whole. What
+/// this gives, it gives back unchanged.
 ///
-/// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than kMaxFaceCorners
-/// corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or contradicting edges.
+/// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
+/// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
+/// contradicting edges.
 std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons);
 /// As above, for triangles.
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);

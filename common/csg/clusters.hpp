@@ -21,9 +21,10 @@ struct Extent {
   std::uint32_t item;
 };
 
-/// Sorts the extents and calls visit(run) for each run of them that have a point in common. What is one has its true value
-/// in common, so it is in one run, if nothing else is as near; and nothing grows by chaining: all of a run are within
-/// tolerance of each other. Neither the order given nor the items' numbers matter for what makes a run.
+/// Sorts the extents and calls visit(run) for each run of them that have a point in common. What is
+/// one has its true value in common, so it is in one run, if nothing else is as near; and nothing
+/// grows by chaining: all of a run are within tolerance of each other. Neither the order given nor
+/// the items' numbers matter for what makes a run.
 template <typename Visit>
 void for_each_run(std::span<Extent> extents, Visit&& visit) {
   const auto end_of_numbers = std::partition(extents.begin(), extents.end(), [](const Extent& e) {
@@ -37,7 +38,8 @@ void for_each_run(std::span<Extent> extents, Visit&& visit) {
   for (std::size_t first = 0; first < extents.size();) {
     double common = std::numeric_limits<double>::infinity();
     std::size_t end = first;
-    for (; end < extents.size() && extents[end].lo <= common; ++end) common = std::min(common, extents[end].hi);
+    for (; end < extents.size() && extents[end].lo <= common; ++end)
+      common = std::min(common, extents[end].hi);
     visit(extents.subspan(first, end - first));
     first = end;
   }
@@ -53,7 +55,8 @@ class Clusters {
   void find(std::vector<Extent> items) { split(items, 0, 0, 0); }
 
  private:
-  /// Splits may reopen numbers that were looked at before; no honest scene needs more than two rounds.
+  /// Splits may reopen numbers that were looked at before; no honest scene needs more than two
+  /// rounds.
   static constexpr int kMostRounds = 4;
 
   void split(std::span<Extent> items, int dimension, int agreeing, int passes) {
@@ -88,10 +91,11 @@ class Clusters {
   const Visit& visit_;
 };
 
-/// Calls visit(span of Extent) for each set of two or more of the items that may be one: measure(item, dimension) gives
-/// their numbers. O(n log n) for a bounded number of rounds.
+/// Calls visit(span of Extent) for each set of two or more of the items that may be one:
+/// measure(item, dimension) gives their numbers. O(n log n) for a bounded number of rounds.
 template <typename Measure, typename Visit>
-void for_each_cluster(std::vector<Extent> items, int dimensions, const Measure& measure, const Visit& visit) {
+void for_each_cluster(std::vector<Extent> items, int dimensions, const Measure& measure,
+                      const Visit& visit) {
   Clusters<Measure, Visit>(dimensions, measure, visit).find(std::move(items));
 }
 

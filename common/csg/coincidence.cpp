@@ -7,7 +7,8 @@
 namespace graycube {
 
 void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
-  GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(), model.primitives.size());
+  GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(),
+                 model.primitives.size());
   const auto count = static_cast<std::uint32_t>(model.primitives.size());
   if (count < 2) return;
   csg::PlaneUnifier planes(model, exactness);

@@ -35,8 +35,8 @@ Interval cone_interval(double k, const Vec3& o, const Vec3& d) {
     const double lower = std::fmin(r0, r1);
     const double upper = std::fmax(r0, r1);
     if (s == 0) {
-      // b = 0 and ac = 0: a tangent touches the cone at the nearest point, a line that lies in it or passes
-      // through the apex stays in it on one nappe.
+      // b = 0 and ac = 0: a tangent touches the cone at the nearest point, a line that lies in it
+      // or passes through the apex stays in it on one nappe.
       if (a > 0) {
         i = {0, 0};
       } else if (c <= 0) {

@@ -76,7 +76,9 @@ class EarCutter {
   }
 
  private:
-  std::uint32_t corner(std::size_t i, std::size_t offset) const { return ring_[(i + offset) % ring_.size()]; }
+  std::uint32_t corner(std::size_t i, std::size_t offset) const {
+    return ring_[(i + offset) % ring_.size()];
+  }
 
   bool is_ear(std::size_t i) const {
     const std::uint32_t ia = corner(i, ring_.size() - 1), ib = ring_[i], ic = corner(i, 1);
@@ -85,8 +87,10 @@ class EarCutter {
     for (const std::uint32_t j : ring_) {
       if (j == ia || j == ib || j == ic) continue;
       const Flat& p = flat_[j];
-      const bool is_corner = (p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y);
-      if (!is_corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+      const bool is_corner =
+          (p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y);
+      if (!is_corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
+        return false;
     }
     return true;
   }
@@ -105,7 +109,8 @@ void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
   }
   const std::vector<Flat> flat = flattened(points, face);
   if (is_convex(flat)) {
-    for (std::size_t i = 2; i < face.size(); ++i) triangles.push_back({face[0], face[i - 1], face[i]});
+    for (std::size_t i = 2; i < face.size(); ++i)
+      triangles.push_back({face[0], face[i - 1], face[i]});
     return;
   }
   EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

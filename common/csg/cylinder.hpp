@@ -1,5 +1,6 @@
-// Capped cylinders and cones under any affine map. The lateral surface is solved in the primitive's frame;
-// the caps are planes of the world, so that a cap flush with another face has the same parameter.
+// Capped cylinders and cones under any affine map. The lateral surface is solved in the primitive's
+// frame; the caps are planes of the world, so that a cap flush with another face has the same
+// parameter.
 #pragma once
 
 #include "csg/half_space.hpp"
@@ -14,7 +15,8 @@ inline void clip_to_caps(Interval& i, const Primitive& p, const Ray& ray) {
   clip_to_slab(i, p.v[3], p.v[4], dot(n, ray.origin), dot(n, ray.direction));
 }
 
-/// The cap that a parameter belongs to, as an outward normal; zero when it is the lateral surface's.
+/// The cap that a parameter belongs to, as an outward normal; zero when it is the lateral
+/// surface's.
 inline Vec3 cap_at(const Primitive& p, const Ray& ray, double t) {
   const Vec3 n = cap_normal(p);
   const double o = dot(n, ray.origin);
@@ -76,17 +78,17 @@ inline CellSide classify_cylinder(const Primitive& p, const Aabb& cell) {
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cylinder_contains(p, q); });
 }
 
-/// w(z) = 1 + k z: the cone's radius at local height z; k < 0. The larger end is at z = 0 and the smaller at 1, unless the
-/// frame is another cone's with the same surface.
+/// w(z) = 1 + k z: the cone's radius at local height z; k < 0. The larger end is at z = 0 and the
+/// smaller at 1, unless the frame is another cone's with the same surface.
 inline double cone_slope(const Primitive& p) { return p.v[5]; }
 
-/// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the caps cut
-/// the other nappe off.
+/// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the
+/// caps cut the other nappe off.
 Interval cone_interval(double k, const Vec3& o, const Vec3& d);
 
 inline Spans cone_spans(const Primitive& p, const Ray& ray) {
-  Interval i = cone_interval(cone_slope(p), p.to_local.point(ray.origin),
-                             p.to_local.vector(ray.direction));
+  Interval i =
+      cone_interval(cone_slope(p), p.to_local.point(ray.origin), p.to_local.vector(ray.direction));
   if (i.is_empty()) return {};
   clip_to_caps(i, p, ray);
   return spans_of(i);

@@ -1,6 +1,6 @@
-// Cones between two ellipses of different shape: v and caps as for kCone, with the axes shrinking by different
-// shares. In the primitive's frame the solid is x² / (1 − z)² + y² / (1 − k z)² ≤ 1 between its caps; k = v[5] lies in
-// [−1, 1). It needs not be convex.
+// Cones between two ellipses of different shape: v and caps as for kCone, with the axes shrinking
+// by different shares. In the primitive's frame the solid is x² / (1 − z)² + y² / (1 − k z)² ≤ 1
+// between its caps; k = v[5] lies in [−1, 1). It needs not be convex.
 #pragma once
 
 #include "csg/cylinder.hpp"

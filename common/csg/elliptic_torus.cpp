@@ -32,8 +32,8 @@ Spans elliptic_torus_spans(const Primitive& p, const Ray& ray) {
                     alpha * r2.c + gamma * u.z * u.z};
   const double h0 = 2 * alpha - 2 * beta * q.z, h1 = -2 * beta * u.z;
   const ProductQuartic<2> line{{{{1, g, g}, {-1, product(h0, h1, h0, h1), r2}}}};
-  return quartic_spans(
-      line, QuarticRange::of_ray((nearest - reach) / speed, (nearest + reach) / speed, nearest, speed));
+  return quartic_spans(line, QuarticRange::of_ray((nearest - reach) / speed,
+                                                  (nearest + reach) / speed, nearest, speed));
 }
 
 bool elliptic_torus_contains(const Primitive& p, const Vec3& q) {
@@ -46,8 +46,8 @@ Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q) {
   const double outwards = ring_distance(l);
   const double rho = 1 + outwards;
   const double slope = rho > 0 ? (p.v[0] * outwards + p.v[1] * l.z) / rho : 0;
-  return normalized(p.to_local.transposed_vector(
-      {l.x * slope, l.y * slope, p.v[1] * outwards + p.v[2] * l.z}));
+  return normalized(
+      p.to_local.transposed_vector({l.x * slope, l.y * slope, p.v[1] * outwards + p.v[2] * l.z}));
 }
 
 CellSide classify_elliptic_torus(const Primitive& p, const Aabb& cell) {
@@ -59,7 +59,8 @@ CellSide classify_elliptic_torus(const Primitive& p, const Aabb& cell) {
   const double far_x = farther(l.lo.x, l.hi.x), far_y = farther(l.lo.y, l.hi.y);
   const double least = std::sqrt(x * x + y * y) - 1;
   const double most = std::sqrt(far_x * far_x + far_y * far_y) - 1;
-  if (least > p.v[3] || most < -p.v[3] || l.lo.z > p.v[4] || l.hi.z < -p.v[4]) return CellSide::kOutside;
+  if (least > p.v[3] || most < -p.v[3] || l.lo.z > p.v[4] || l.hi.z < -p.v[4])
+    return CellSide::kOutside;
   if (near != cell) return CellSide::kCrosses;
   // The ellipse is convex: a rectangle is inside when its corners are.
   for (const double outwards : {least, most}) {

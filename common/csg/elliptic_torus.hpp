@@ -1,5 +1,6 @@
 // Ellipses turned about an axis that they don't reach. In the primitive's frame, with ρ² = x² + y²,
-// v[0] (ρ − 1)² + 2 v[1] (ρ − 1) z + v[2] z² ≤ 1; the ellipse reaches v[3] outwards and v[4] along the axis.
+// v[0] (ρ − 1)² + 2 v[1] (ρ − 1) z + v[2] z² ≤ 1; the ellipse reaches v[3] outwards and v[4] along
+// the axis.
 #pragma once
 
 #include "csg/roots.hpp"

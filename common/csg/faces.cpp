@@ -59,7 +59,8 @@ Face face_of(const Model& model, std::uint32_t primitive, std::uint32_t slot) {
     case PrimitiveKind::kBox:
       return {side_of(world_axis(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive, slot};
     case PrimitiveKind::kParallelepiped:
-      return {side_of(p.to_local.row(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive, slot};
+      return {side_of(p.to_local.row(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive,
+              slot};
     case PrimitiveKind::kCylinder:
     case PrimitiveKind::kCone:
     case PrimitiveKind::kEllipticCone:
@@ -92,7 +93,8 @@ void set_face(Model& model, const Face& face) {
       return;
     default: {
       const Vec3& n = face.plane.normal;
-      model.planes[p.first_plane + face.slot] = {{n.x + 0.0, n.y + 0.0, n.z + 0.0}, face.plane.offset + 0.0};
+      model.planes[p.first_plane + face.slot] = {{n.x + 0.0, n.y + 0.0, n.z + 0.0},
+                                                 face.plane.offset + 0.0};
     }
   }
 }
@@ -115,8 +117,8 @@ double direction_tolerance(const Primitive& p, const Vec3& normal, const Exactne
 
 void settle_faces(Model& model, std::uint32_t primitive, double moved) {
   Primitive& p = model.primitives[primitive];
-  if (p.kind == PrimitiveKind::kParallelepiped && is_world_axis(p.to_local.row(0)) && is_world_axis(p.to_local.row(1)) &&
-      is_world_axis(p.to_local.row(2))) {
+  if (p.kind == PrimitiveKind::kParallelepiped && is_world_axis(p.to_local.row(0)) &&
+      is_world_axis(p.to_local.row(1)) && is_world_axis(p.to_local.row(2))) {
     become_box(p);
   }
   if (p.kind == PrimitiveKind::kBox) {

@@ -28,8 +28,7 @@ inline double greatest_along(const Vec3& normal, const Aabb& box) {
 
 inline CellSide classify_plane(const Plane& plane, const Aabb& cell) {
   if (least_along(plane.normal, cell) > plane.offset) return CellSide::kOutside;
-  return greatest_along(plane.normal, cell) < plane.offset ? CellSide::kInside
-                                                           : CellSide::kCrosses;
+  return greatest_along(plane.normal, cell) < plane.offset ? CellSide::kInside : CellSide::kCrosses;
 }
 
 inline Spans half_space_spans(const Primitive& p, const Ray& ray) {
@@ -81,8 +80,8 @@ inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> f
 /// Infinite but for a half-space across a world axis.
 Aabb half_space_bounds(const Plane& plane);
 
-/// Bounds of the intersection of the half-spaces. When it is unbounded, or a vertex lies farther out than some
-/// thousand times the largest offset, only faces across a world axis bound it.
+/// Bounds of the intersection of the half-spaces. When it is unbounded, or a vertex lies farther
+/// out than some thousand times the largest offset, only faces across a world axis bound it.
 Aabb polyhedron_bounds(std::span<const Plane> faces);
 
 }  // namespace graycube::csg

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Finds the least distance above 0 between faces of one primitive that look opposite ways, which come by offset.
+/// Finds the least distance above 0 between faces of one primitive that look opposite ways, which
+/// come by offset.
 class ThicknessFinder {
  public:
   void add(const Level& f) {
@@ -40,7 +41,8 @@ double least_thickness(std::span<const Extent> run, const std::vector<Level>& gi
   for (std::size_t first = 0; first < sides.size();) {
     ThicknessFinder finder;
     std::size_t i = first;
-    for (; i < sides.size() && sides[i]->primitive == sides[first]->primitive; ++i) finder.add(*sides[i]);
+    for (; i < sides.size() && sides[i]->primitive == sides[first]->primitive; ++i)
+      finder.add(*sides[i]);
     least = std::min(least, finder.least());
     first = i;
   }
@@ -58,7 +60,8 @@ Planes::Planes(std::vector<Level> levels) {
   std::vector<Extent> extents;
   extents.reserve(levels.size());
   for (std::uint32_t i = 0; i < levels.size(); ++i) {
-    extents.push_back({levels[i].offset - levels[i].tolerance, levels[i].offset + levels[i].tolerance, i});
+    extents.push_back(
+        {levels[i].offset - levels[i].tolerance, levels[i].offset + levels[i].tolerance, i});
   }
   levels_.reserve(levels.size());
   for_each_run(std::span(extents), [&](std::span<Extent> run) { add_run(run, levels); });
@@ -83,14 +86,18 @@ void Planes::add_plane(std::span<const Extent> plane, const std::vector<Level>& 
   for (const Extent& e : plane) levels_.push_back(given[e.item]);
   ends_.push_back(levels_.size());
   const auto added = std::span(levels_).subspan(first);
-  const bool is_equal = std::all_of(added.begin(), added.end(), [&](const Level& f) { return f.own == added.front().own; });
+  const bool is_equal = std::all_of(added.begin(), added.end(),
+                                    [&](const Level& f) { return f.own == added.front().own; });
   has_unequal_ = has_unequal_ || (!is_equal && is_shared(added));
 }
 
 double Planes::best_offset(std::span<const Level> plane) {
-  return std::min_element(plane.begin(), plane.end(), [](const Level& a, const Level& b) {
-           return std::tie(a.tolerance, a.offset) < std::tie(b.tolerance, b.offset);
-         })->offset;
+  return std::min_element(plane.begin(), plane.end(),
+                          [](const Level& a, const Level& b) {
+                            return std::tie(a.tolerance, a.offset) <
+                                   std::tie(b.tolerance, b.offset);
+                          })
+      ->offset;
 }
 
 }  // namespace graycube::csg

@@ -1,4 +1,5 @@
-// Faces of one direction, by how far along it they lie: those that may lie in one plane come together.
+// Faces of one direction, by how far along it they lie: those that may lie in one plane come
+// together.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,9 @@ struct Level {
 /// Whether the faces are of more than one primitive.
 bool is_shared(std::span<const Level> levels);
 
-/// Sorts levels into planes. A solid never becomes thinner than it was written: where opposite faces of one would come
-/// together, its numbers are better than was thought, and what lies there is told apart by an eighth of their distance.
+/// Sorts levels into planes. A solid never becomes thinner than it was written: where opposite
+/// faces of one would come together, its numbers are better than was thought, and what lies there
+/// is told apart by an eighth of their distance.
 class Planes {
  public:
   explicit Planes(std::vector<Level> levels);
@@ -36,7 +38,8 @@ class Planes {
   /// Whether faces of different primitives lie in one plane that don't agree to the bit.
   bool has_unequal() const { return has_unequal_; }
 
-  /// Calls visit(levels of one plane, its offset) for each; the offset is that of the face that is known best.
+  /// Calls visit(levels of one plane, its offset) for each; the offset is that of the face that is
+  /// known best.
   template <typename Visit>
   void for_each(const Visit& visit) const {
     std::size_t first = 0;

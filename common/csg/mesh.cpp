@@ -66,7 +66,8 @@ const MeshTree& Mesh::tree() const { return data_->tree; }
 
 std::size_t Mesh::memory_bytes() const {
   return sizeof(Data) + data_->surface.points.size() * sizeof(Vec3) +
-         data_->surface.triangles.size() * sizeof(Triangle) + data_->surface.planes.size() * sizeof(Plane) +
+         data_->surface.triangles.size() * sizeof(Triangle) +
+         data_->surface.planes.size() * sizeof(Plane) +
          data_->surface.plane_of.size() * sizeof(std::uint32_t) + data_->tree.memory_bytes();
 }
 
@@ -94,7 +95,8 @@ void Mesh::cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) c
   cuts_between(ray, from, csg::kInf, cuts);
 }
 
-void Mesh::cuts_between(const Ray& ray, double from, double below, std::vector<MeshCut>& cuts) const {
+void Mesh::cuts_between(const Ray& ray, double from, double below,
+                        std::vector<MeshCut>& cuts) const {
   cuts.clear();
   add_cuts(data_->tree, csg::MeshLine(ray), ray, from, below, cuts);
   sort_by_parameter(cuts);
@@ -129,7 +131,8 @@ Vec3 Mesh::outward_normal(const Ray& ray, double t) const {
   add_cuts(data_->tree, csg::MeshLine(ray), ray, t, std::nextafter(t, csg::kInf), cuts);
   std::int32_t sum = 0;
   for (const MeshCut& c : cuts) sum += c.count;
-  // Of several triangles one that is crossed as the surface is; which one may not depend on their order.
+  // Of several triangles one that is crossed as the surface is; which one may not depend on their
+  // order.
   Vec3 best;
   bool found = false;
   for (const MeshCut& c : cuts) {

@@ -105,7 +105,8 @@ std::optional<MeshEdge> agree_on_orientation(std::span<Triangle> triangles) {
       for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t other = across[3 * t + i];
         if (other == kNone) continue;
-        const MeshEdge mine = edge_of(triangles[t], i), theirs = edge_of(triangles[other / 3], other % 3);
+        const MeshEdge mine = edge_of(triangles[t], i),
+                       theirs = edge_of(triangles[other / 3], other % 3);
         const bool agrees = mine.from == theirs.to;
         const State wanted = agrees == (state[t] == State::kKept) ? State::kKept : State::kTurned;
         State& found = state[other / 3];

@@ -15,7 +15,8 @@ struct MeshEdge {
   std::uint32_t from, to;
 };
 
-/// Every edge with how often it is used from its lower to its higher point, and back. Points are below 2³¹.
+/// Every edge with how often it is used from its lower to its higher point, and back. Points are
+/// below 2³¹.
 class MeshEdges {
  public:
   struct Uses {
@@ -38,8 +39,9 @@ class MeshEdges {
   std::size_t count_ = 0, unbalanced_count_ = 0;
 };
 
-/// Turns triangles over so that neighbours at edges of exactly two triangles agree, starting from what the majority of
-/// each connected part says. The edge at which that can't be done (a one-sided surface), if there is one.
+/// Turns triangles over so that neighbours at edges of exactly two triangles agree, starting from
+/// what the majority of each connected part says. The edge at which that can't be done (a one-sided
+/// surface), if there is one.
 std::optional<MeshEdge> agree_on_orientation(std::span<Triangle> triangles);
 
 }  // namespace graycube

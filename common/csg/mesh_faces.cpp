@@ -6,7 +6,8 @@
 namespace graycube::csg {
 namespace {
 
-/// Primitives times meshes that are compared by their bounds; beyond it all triangles count as near.
+/// Primitives times meshes that are compared by their bounds; beyond it all triangles count as
+/// near.
 constexpr std::size_t kMostComparisons = std::size_t{1} << 22;
 
 Aabb touched_part(const Model& model, std::uint32_t primitive, double tolerance) {
@@ -31,7 +32,8 @@ MeshFaces::MeshFaces(const Model& model, std::uint32_t primitive, const Exactnes
 
 bool MeshFaces::is_near(std::uint32_t triangle) const {
   Aabb box = Aabb::nothing();
-  for (const std::uint32_t corner : surface().triangles[triangle]) box.include(surface().points[corner]);
+  for (const std::uint32_t corner : surface().triangles[triangle])
+    box.include(surface().points[corner]);
   return box.overlaps(near_);
 }
 
@@ -54,7 +56,8 @@ MeshFace MeshFaces::face(std::uint32_t triangle) const {
 bool MeshFaces::lies_in(std::uint32_t triangle, const Plane& plane) const {
   const double tolerance = 2 * exactness_.distance();
   for (const std::uint32_t corner : surface().triangles[triangle]) {
-    if (!(std::fabs(dot(plane.normal, surface().points[corner]) - plane.offset) <= tolerance)) return false;
+    if (!(std::fabs(dot(plane.normal, surface().points[corner]) - plane.offset) <= tolerance))
+      return false;
   }
   return true;
 }
@@ -78,9 +81,11 @@ void MeshFaces::spread_to_slender() {
   std::sort(planes_at.begin(), planes_at.end());
   planes_at.erase(std::unique(planes_at.begin(), planes_at.end()), planes_at.end());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (plane_of_[i] != TriangleMesh::kOwnPlane || face(i).direction_tolerance <= kWorstDirection) continue;
+    if (plane_of_[i] != TriangleMesh::kOwnPlane || face(i).direction_tolerance <= kWorstDirection)
+      continue;
     const std::uint32_t corner = triangles[i][0];
-    auto at = std::lower_bound(planes_at.begin(), planes_at.end(), std::pair(corner, std::uint32_t{0}));
+    auto at =
+        std::lower_bound(planes_at.begin(), planes_at.end(), std::pair(corner, std::uint32_t{0}));
     for (; at != planes_at.end() && at->first == corner; ++at) {
       if (!lies_in(i, planes_[at->second])) continue;
       plane_of_[i] = at->second;

@@ -18,9 +18,9 @@ struct MeshFace {
   double direction_tolerance = 0;
 };
 
-/// The triangles of one mesh that may touch other primitives, and the planes that they get. The mesh's corners and what is
-/// counted by them stay as they are: closed stays closed, only the parameter at which a line meets a triangle is that of the
-/// plane.
+/// The triangles of one mesh that may touch other primitives, and the planes that they get. The
+/// mesh's corners and what is counted by them stay as they are: closed stays closed, only the
+/// parameter at which a line meets a triangle is that of the plane.
 class MeshFaces {
  public:
   MeshFaces(const Model& model, std::uint32_t primitive, const Exactness& exactness);
@@ -38,10 +38,11 @@ class MeshFaces {
   }
   MeshFace face(std::uint32_t triangle) const;
 
-  /// The plane is left alone where it isn't the triangle's to within how exactly its corners are known.
+  /// The plane is left alone where it isn't the triangle's to within how exactly its corners are
+  /// known.
   void set(std::uint32_t triangle, const Plane& plane);
-  /// Puts the mesh with the planes set into the model, and grows its bounds. Slender triangles, by which no plane is known, get
-  /// that of neighbours with which they share their corners.
+  /// Puts the mesh with the planes set into the model, and grows its bounds. Slender triangles, by
+  /// which no plane is known, get that of neighbours with which they share their corners.
   void settle(Model& model);
 
  private:

@@ -1,10 +1,12 @@
-// Which triangles of a mesh a line passes through. The mesh is sheared so that the line becomes an axis (Woop, Benthin &
-// Wald 2013); then the question is how often each triangle's outline winds around the origin of a plane. That is counted
-// edge by edge: an edge of which exactly one end lies above the x axis counts where it cuts the axis' positive half,
-// +1 upwards and −1 downwards. Since an edge seen the other way counts the negative, whatever was rounded before, the
-// counts of all triangles of a closed mesh always add up to zero; and since the side on which the origin lies of an
-// edge is found exactly, each triangle's count is −1, 0 or 1. Lines through vertices and along edges need no rule
-// of their own: one triangle takes them, as if the line were moved by next to nothing.
+// Which triangles of a mesh a line passes through. The mesh is sheared so that the line becomes an
+// axis (Woop, Benthin & Wald 2013); then the question is how often each triangle's outline winds
+// around the origin of a plane. That is counted edge by edge: an edge of which exactly one end lies
+// above the x axis counts where it cuts the axis' positive half, +1 upwards and −1 downwards. Since
+// an edge seen the other way counts the negative, whatever was rounded before, the counts of all
+// triangles of a closed mesh always add up to zero; and since the side on which the origin lies of
+// an edge is found exactly, each triangle's count is −1, 0 or 1. Lines through vertices and along
+// edges need no rule of their own: one triangle takes them, as if the line were moved by next to
+// nothing.
 #pragma once
 
 #include <cmath>
@@ -44,8 +46,8 @@ class MeshLine {
   const Vec3& origin() const { return origin_; }
   const Vec3& x_axis() const { return x_; }
   const Vec3& y_axis() const { return y_; }
-  /// What turns a triangle's winding in the plane into what the line adds on its way: −1 when it looks along the plane's
-  /// normal.
+  /// What turns a triangle's winding in the plane into what the line adds on its way: −1 when it
+  /// looks along the plane's normal.
   int turn() const { return turn_; }
   /// The parameter at which the line passes the point.
   double parameter(const Vec3& p) const { return dot(t_, p - origin_); }
@@ -55,8 +57,9 @@ class MeshLine {
   int turn_ = 1;
 };
 
-/// The sign of a.x b.y − a.y b.x, exact but for underflow. Rounded products that differ are in the order of the exact
-/// ones; of equal ones the rounding errors decide, which a fused multiply-add gives exactly, on every machine.
+/// The sign of a.x b.y − a.y b.x, exact but for underflow. Rounded products that differ are in the
+/// order of the exact ones; of equal ones the rounding errors decide, which a fused multiply-add
+/// gives exactly, on every machine.
 inline int side_of_origin(const LinePoint& a, const LinePoint& b) {
   const double p = a.x * b.y, q = a.y * b.x;
   if (p != q) return p > q ? 1 : -1;
@@ -78,15 +81,18 @@ inline int winding_of(const LinePoint& a, const LinePoint& b, const LinePoint& c
   return edge_count(a, b) + edge_count(b, c) + edge_count(c, a);
 }
 
-/// +1 where the line enters through the triangle's outside, −1 where it leaves through it, 0 where it passes by.
+/// +1 where the line enters through the triangle's outside, −1 where it leaves through it, 0 where
+/// it passes by.
 inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, const Vec3& r) {
   return line.turn() * winding_of(line.see(p), line.see(q), line.see(r));
 }
 
-/// Where the line meets the triangle's plane, kept between the corners' parameters. The expression is that of all planes
-/// (roots.hpp), so that faces along the axes tie with boxes'. A triangle seen edge on, or without an area, has no plane
-/// worth the name: then it is the corners' parameters weighted by where the line passes.
-double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
+/// Where the line meets the triangle's plane, kept between the corners' parameters. The expression
+/// is that of all planes (roots.hpp), so that faces along the axes tie with boxes'. A triangle seen
+/// edge on, or without an area, has no plane worth the name: then it is the corners' parameters
+/// weighted by where the line passes.
+double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b,
+                          const Vec3& c);
 
 /// Planes met at less than this sine count as seen edge on.
 inline constexpr double kLeastSine = 1e-6;

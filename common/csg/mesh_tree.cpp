@@ -14,12 +14,15 @@ constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBins = 16;
 /// From here on groups are simply halved: 24 more levels end 2²³ triangles, and all fit the stack.
 constexpr std::size_t kMaxChosenDepth = 40;
-static_assert((kMaxChosenDepth + 24) * (WideNode::kWidth - 1) + WideNode::kWidth <= MeshTree::kMaxStack);
+static_assert((kMaxChosenDepth + 24) * (WideNode::kWidth - 1) + WideNode::kWidth <=
+              MeshTree::kMaxStack);
 
 bool has_own_plane(const TriangleMesh& mesh, std::size_t triangle) {
   return mesh.plane_of.empty() || mesh.plane_of[triangle] == TriangleMesh::kOwnPlane;
 }
-Vec3 on_plane(const Vec3& p, const Plane& plane) { return p + (plane.offset - dot(plane.normal, p)) * plane.normal; }
+Vec3 on_plane(const Vec3& p, const Plane& plane) {
+  return p + (plane.offset - dot(plane.normal, p)) * plane.normal;
+}
 
 struct FloatBox {
   std::array<float, 3> lo{kFloatInf, kFloatInf, kFloatInf}, hi{-kFloatInf, -kFloatInf, -kFloatInf};
@@ -37,8 +40,8 @@ struct FloatBox {
   float center(std::size_t a) const { return 0.5f * lo[a] + 0.5f * hi[a]; }
 };
 
-/// Boxes are larger than their triangles by this share of the largest coordinate: a line parallel to a box's side passes
-/// a point of that side to within rounding.
+/// Boxes are larger than their triangles by this share of the largest coordinate: a line parallel
+/// to a box's side passes a point of that side to within rounding.
 constexpr double kGrowth = 1e-9;
 
 FloatBox box_of(const TriangleMesh& mesh, std::size_t triangle, double grow) {
@@ -75,7 +78,9 @@ bool may_touch(const Vec3& a, const Vec3& b, const Vec3& c, const Aabb& cell) {
   box.include(b);
   box.include(c);
   if (!box.overlaps(cell)) return false;
-  const auto absolute = [](const Vec3& v) { return Vec3{std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; };
+  const auto absolute = [](const Vec3& v) {
+    return Vec3{std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
+  };
   const Aabb near = intersection_of(box, cell);
   const Vec3 n = cross(b - a, c - a), middle = near.center() - a, half = 0.5 * (near.hi - near.lo);
   const Vec3 size = absolute(n);
@@ -88,7 +93,8 @@ bool may_touch_any(const MeshTree& tree, std::uint32_t index, const Aabb& cell) 
   for (std::uint32_t i = 0; i < TriangleBlock::kWidth; ++i) {
     const Vec3 a = block.corner(i, 0), b = block.corner(i, 1), c = block.corner(i, 2);
     if (may_touch(a, b, c, cell)) return true;
-    const Plane* plane = tree.plane_of(index * static_cast<std::uint32_t>(TriangleBlock::kWidth) + i);
+    const Plane* plane =
+        tree.plane_of(index * static_cast<std::uint32_t>(TriangleBlock::kWidth) + i);
     if (plane == nullptr) continue;
     if (may_touch(on_plane(a, *plane), on_plane(b, *plane), on_plane(c, *plane), cell)) return true;
   }
@@ -99,11 +105,13 @@ bool may_touch_any(const MeshTree& tree, std::uint32_t index, const Aabb& cell) 
 
 class MeshTreeBuilder {
  public:
-  MeshTreeBuilder(const TriangleMesh& mesh, MeshTree& tree) : mesh_(mesh), tree_(tree), order_(mesh.triangles.size()) {
+  MeshTreeBuilder(const TriangleMesh& mesh, MeshTree& tree)
+      : mesh_(mesh), tree_(tree), order_(mesh.triangles.size()) {
     boxes_.reserve(order_.size());
     double largest = 0;
     for (const Vec3& p : mesh.points) largest = larger(max_abs(p), largest);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) boxes_.push_back(box_of(mesh, t, kGrowth * largest));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      boxes_.push_back(box_of(mesh, t, kGrowth * largest));
     tree_.planes_ = mesh.planes;
     std::iota(order_.begin(), order_.end(), 0u);
   }
@@ -138,7 +146,8 @@ class MeshTreeBuilder {
       std::size_t widest = groups.size();
       for (std::size_t g = 0; g < groups.size(); ++g) {
         if (groups[g].run.size() <= TriangleBlock::kWidth) continue;
-        if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area()) widest = g;
+        if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area())
+          widest = g;
       }
       if (widest == groups.size()) break;
       const Run all = groups[widest].run;
@@ -164,7 +173,8 @@ class MeshTreeBuilder {
     }
     tree_.nodes_[index] = node;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (groups[g].run.size() > TriangleBlock::kWidth) build_node(node.child[g], groups[g].run, depth + 1);
+      if (groups[g].run.size() > TriangleBlock::kWidth)
+        build_node(node.child[g], groups[g].run, depth + 1);
     }
   }
 
@@ -188,10 +198,13 @@ class MeshTreeBuilder {
   static std::size_t bin_of(float center, float lo, float scale) {
     const float at = (center - lo) * scale;
     // Written so that NaN, which boxes beyond all floats would give, stays within the bins.
-    return at > 0 ? std::min(static_cast<std::size_t>(std::min(at, static_cast<float>(kBins))), kBins - 1) : 0;
+    return at > 0 ? std::min(static_cast<std::size_t>(std::min(at, static_cast<float>(kBins))),
+                             kBins - 1)
+                  : 0;
   }
 
-  /// Splits the run where the surface-area heuristic wants it; the size of the first part, between both ends.
+  /// Splits the run where the surface-area heuristic wants it; the size of the first part, between
+  /// both ends.
   std::size_t partition(Run run) {
     FloatBox centers;
     for (const std::uint32_t i : run) {
@@ -227,7 +240,8 @@ class MeshTreeBuilder {
     for (std::size_t b = kBins - 1; b > 0; --b) {
       above.box.include(bins[b].box);
       above.count += bins[b].count;
-      above_cost[b] = above.count == 0 ? 0 : above.box.half_area() * static_cast<float>(above.count);
+      above_cost[b] =
+          above.count == 0 ? 0 : above.box.half_area() * static_cast<float>(above.count);
     }
     Bin below;
     std::size_t best = kBins;
@@ -236,7 +250,8 @@ class MeshTreeBuilder {
       below.box.include(bins[b].box);
       below.count += bins[b].count;
       if (below.count == 0 || below.count == all) continue;
-      const float cost = below.box.half_area() * static_cast<float>(below.count) + above_cost[b + 1];
+      const float cost =
+          below.box.half_area() * static_cast<float>(below.count) + above_cost[b + 1];
       if (cost < best_cost) {
         best_cost = cost;
         best = b;

@@ -12,7 +12,8 @@
 
 namespace graycube {
 
-/// The corners of up to four triangles, side by side by corner and axis. Unused places have three equal corners.
+/// The corners of up to four triangles, side by side by corner and axis. Unused places have three
+/// equal corners.
 struct alignas(32) TriangleBlock {
   static constexpr std::size_t kWidth = 4;
   std::array<std::array<std::array<double, kWidth>, 3>, 3> corners;
@@ -34,14 +35,16 @@ class MeshTree {
 
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const std::vector<TriangleBlock>& blocks() const { return blocks_; }
-  /// The plane of another solid in which a triangle lies, null for its own; numbered as MeshCut::triangle.
+  /// The plane of another solid in which a triangle lies, null for its own; numbered as
+  /// MeshCut::triangle.
   const Plane* plane_of(std::uint32_t triangle) const {
-    if (plane_of_.empty() || plane_of_[triangle] == TriangleMesh::kOwnPlane) [[likely]] return nullptr;
+    if (plane_of_.empty() || plane_of_[triangle] == TriangleMesh::kOwnPlane) [[likely]]
+      return nullptr;
     return &planes_[plane_of_[triangle]];
   }
   std::size_t memory_bytes() const {
-    return nodes_.size() * sizeof(WideNode) + blocks_.size() * sizeof(TriangleBlock) + planes_.size() * sizeof(Plane) +
-           plane_of_.size() * sizeof(std::uint32_t);
+    return nodes_.size() * sizeof(WideNode) + blocks_.size() * sizeof(TriangleBlock) +
+           planes_.size() * sizeof(Plane) + plane_of_.size() * sizeof(std::uint32_t);
   }
 
   /// Conservative: may any triangle touch the box?

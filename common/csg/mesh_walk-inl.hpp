@@ -1,5 +1,5 @@
-// A line's cuts with the triangles of one block. Included once for each instruction set, in the way of Highway's own
-// headers; which one runs can't show in a result.
+// A line's cuts with the triangles of one block. Included once for each instruction set, in the way
+// of Highway's own headers; which one runs can't show in a result.
 #if defined(GRAYCUBE_CSG_MESH_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_CSG_MESH_WALK_INL
 #undef GRAYCUBE_CSG_MESH_WALK_INL
@@ -28,12 +28,16 @@ struct SeenBlock {
   HWY_ALIGN double x[3][TriangleBlock::kWidth];
   HWY_ALIGN double y[3][TriangleBlock::kWidth];
 
-  csg::LinePoint corner(std::size_t place, std::size_t which) const { return {x[which][place], y[which][place]}; }
+  csg::LinePoint corner(std::size_t place, std::size_t which) const {
+    return {x[which][place], y[which][place]};
+  }
 };
 
-/// Sees the block's corners, by the expressions of MeshLine::see. Bit i of the result: triangle i is neither above nor below
-/// nor to the left of the line, and so might count; the others' counts are 0.
-HWY_INLINE std::uint32_t see(const TriangleBlock& block, const csg::MeshLine& line, SeenBlock& seen) {
+/// Sees the block's corners, by the expressions of MeshLine::see. Bit i of the result: triangle i
+/// is neither above nor below nor to the left of the line, and so might count; the others' counts
+/// are 0.
+HWY_INLINE std::uint32_t see(const TriangleBlock& block, const csg::MeshLine& line,
+                             SeenBlock& seen) {
   const Doubles4 d;
   const auto zero = hn::Zero(d);
   const Vec3 &o = line.origin(), &across = line.x_axis(), &upright = line.y_axis();
@@ -65,13 +69,15 @@ HWY_INLINE std::uint32_t see(const TriangleBlock& block, const csg::MeshLine& li
 }
 
 /// Appends the line's cuts with the block's triangles at least ≤ t < below.
-HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const csg::MeshLine& line, const Ray& ray,
-                               double least, double below, std::vector<MeshCut>& cuts) {
+HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const csg::MeshLine& line,
+                               const Ray& ray, double least, double below,
+                               std::vector<MeshCut>& cuts) {
   SeenBlock seen;
   const TriangleBlock& block = tree.blocks()[index];
   for (std::uint32_t rest = see(block, line, seen); rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(__builtin_ctz(rest));
-    const int count = line.turn() * csg::winding_of(seen.corner(i, 0), seen.corner(i, 1), seen.corner(i, 2));
+    const int count =
+        line.turn() * csg::winding_of(seen.corner(i, 0), seen.corner(i, 1), seen.corner(i, 2));
     if (count == 0) continue;
     const auto triangle = static_cast<std::uint32_t>(index * TriangleBlock::kWidth + i);
     const Plane* plane = tree.plane_of(triangle);
@@ -79,7 +85,8 @@ HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const 
     const double t =
         std::fabs(slope) > csg::kLeastSine * max_abs(ray.direction)
             ? csg::plane_parameter(plane->offset, dot(plane->normal, ray.origin), 1.0 / slope) + 0.0
-            : csg::triangle_parameter(line, ray, block.corner(i, 0), block.corner(i, 1), block.corner(i, 2));
+            : csg::triangle_parameter(line, ray, block.corner(i, 0), block.corner(i, 1),
+                                      block.corner(i, 2));
     if (t >= least && t < below) {
       cuts.push_back({t, count, triangle});
     }
@@ -87,9 +94,9 @@ HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const 
 }
 
 /// The same for all blocks below a node that the line may meet in [from, to].
-HWY_INLINE void add_cuts_below(const MeshTree& tree, std::uint32_t root, const CullingRay& culling, float from, float to,
-                               const csg::MeshLine& line, const Ray& ray, double least, double below,
-                               std::vector<MeshCut>& cuts) {
+HWY_INLINE void add_cuts_below(const MeshTree& tree, std::uint32_t root, const CullingRay& culling,
+                               float from, float to, const csg::MeshLine& line, const Ray& ray,
+                               double least, double below, std::vector<MeshCut>& cuts) {
   std::uint32_t stack[MeshTree::kMaxStack];
   std::size_t size = 0;
   stack[size++] = root;

@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace graycube {
 namespace HWY_NAMESPACE {
 
-void AddCuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least, double below,
-             std::vector<MeshCut>& cuts) {
+void AddCuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least,
+             double below, std::vector<MeshCut>& cuts) {
   if (tree.nodes().empty()) return;
   const bool is_ahead = least >= 0;
   const CullingRay culling(is_ahead ? ray : Ray{ray.origin, -ray.direction});
@@ -36,14 +36,15 @@ namespace graycube {
 
 GRAYCUBE_SIMD_TABLE(AddCuts);
 
-void add_cuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least, double below,
-              std::vector<MeshCut>& cuts) {
+void add_cuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least,
+              double below, std::vector<MeshCut>& cuts) {
   GRAYCUBE_SIMD_CALL(AddCuts)(tree, line, ray, least, below, cuts);
 }
 
 namespace csg {
 
-double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
+double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b,
+                          const Vec3& c) {
   // Rounding may exceed the corners' parameters by so much.
   constexpr double kSlackOfParameter = 1e-12;
   const double ta = line.parameter(a), tb = line.parameter(b), tc = line.parameter(c);

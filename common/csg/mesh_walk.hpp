@@ -9,7 +9,8 @@
 
 namespace graycube {
 
-/// Where a line passes through a triangle: `count` is what it adds to the winding number, +1 on the way in.
+/// Where a line passes through a triangle: `count` is what it adds to the winding number, +1 on the
+/// way in.
 struct MeshCut {
   double t;
   std::int32_t count;
@@ -18,7 +19,7 @@ struct MeshCut {
 };
 
 /// Appends the line's cuts with least ≤ t < below, in any order. 0 ≤ least or below ≤ 0.
-void add_cuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least, double below,
-              std::vector<MeshCut>& cuts);
+void add_cuts(const MeshTree& tree, const csg::MeshLine& line, const Ray& ray, double least,
+              double below, std::vector<MeshCut>& cuts);
 
 }  // namespace graycube

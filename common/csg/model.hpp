@@ -13,8 +13,9 @@
 
 namespace graycube {
 
-/// One node of a CSG tree in preorder. Differences and complements are gone: A − B is A ∧ ¬B, negations
-/// stand at the leaves. Children keep the order of the scene file; nested nodes of one kind are merged.
+/// One node of a CSG tree in preorder. Differences and complements are gone: A − B is A ∧ ¬B,
+/// negations stand at the leaves. Children keep the order of the scene file; nested nodes of one
+/// kind are merged.
 struct TreeNode {
   enum class Kind : std::uint8_t { kAnd, kOr, kLeaf, kInvertedLeaf };
   Kind kind = Kind::kLeaf;

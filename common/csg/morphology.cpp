@@ -13,8 +13,8 @@ namespace {
 
 using Kind = PrimitiveKind;
 
-/// How far a local point can move along each of the first `rows` local axes together when the world's moves by 1: at
-/// least the norm of these rows of the map (by Gershgorin's circles).
+/// How far a local point can move along each of the first `rows` local axes together when the
+/// world's moves by 1: at least the norm of these rows of the map (by Gershgorin's circles).
 double stretch(const Affine& to_local, int rows) {
   double most = 0;
   for (int i = 0; i < rows; ++i) {
@@ -51,9 +51,10 @@ Primitive box_around(const Primitive& p, double by) {
   return box;
 }
 
-/// Moves the surface outwards by `by`, inwards where it is negative; bounds stay. Nothing when no such solid is
-/// known, or it is empty.
-std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by, std::vector<Plane>& planes) {
+/// Moves the surface outwards by `by`, inwards where it is negative; bounds stay. Nothing when no
+/// such solid is known, or it is empty.
+std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by,
+                               std::vector<Plane>& planes) {
   const auto move_caps = [&] {
     p.v[3] -= by;
     p.v[4] += by;
@@ -85,9 +86,11 @@ std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by
       return p;
     }
     case Kind::kCone: {
-      // The radius at height z is (1 + k z): it grows by what a point moves across, and by what it moves along.
+      // The radius at height z is (1 + k z): it grows by what a point moves across, and by what it
+      // moves along.
       const double k = p.v[5];
-      const double radius = 1 + by * (stretch(p.to_local, 2) + std::fabs(k) * length(p.to_local.row(2)));
+      const double radius =
+          1 + by * (stretch(p.to_local, 2) + std::fabs(k) * length(p.to_local.row(2)));
       if (!(radius > 0) || !move_caps()) return std::nullopt;
       for (int i = 0; i < 2; ++i) divide_row(p.to_local, i, radius);
       p.v[5] = k / radius;
@@ -141,7 +144,8 @@ Aabb dilated_bounds(const Primitive& p, double by) {
 /// One scene from another, leaf by leaf.
 class Resizing {
  public:
-  Resizing(const Model& model, const ObjectDistance& by, bool grows) : model_(model), by_(by), grows_(grows) {
+  Resizing(const Model& model, const ObjectDistance& by, bool grows)
+      : model_(model), by_(by), grows_(grows) {
     out_.settings = model.settings;
     out_.delta = model.delta;
     out_.materials = model.materials;
@@ -165,7 +169,8 @@ class Resizing {
   bool is_opaque(const Object& object) const {
     const auto tree = tree_of(object);
     return std::all_of(tree.begin(), tree.end(), [&](const TreeNode& node) {
-      return !is_leaf(node) || !(model_.materials[model_.primitives[node.primitive].material].transmit > 0);
+      return !is_leaf(node) ||
+             !(model_.materials[model_.primitives[node.primitive].material].transmit > 0);
     });
   }
 
@@ -188,7 +193,8 @@ class Resizing {
       return result;
     }
     left.node_count = static_cast<std::uint32_t>(out_.nodes.size() - left.first_node);
-    left.bounds = bounds_of(std::span<const TreeNode>(out_.nodes).subspan(left.first_node), out_.primitives);
+    left.bounds =
+        bounds_of(std::span<const TreeNode>(out_.nodes).subspan(left.first_node), out_.primitives);
     out_.objects.push_back(left);
     return result;
   }
@@ -196,8 +202,8 @@ class Resizing {
   void resize(TreeNode& leaf, double by) {
     const Primitive& p = model_.primitives[leaf.primitive];
     const bool grows = grows_ == (leaf.kind == TreeNode::Kind::kLeaf);
-    const auto resized =
-        grows ? dilated(p, model_.data(), by, out_.planes) : eroded(p, model_.data(), by, out_.planes);
+    const auto resized = grows ? dilated(p, model_.data(), by, out_.planes)
+                               : eroded(p, model_.data(), by, out_.planes);
     leaf.primitive = static_cast<std::uint32_t>(out_.primitives.size());
     is_gone_.push_back(!resized);
     out_.primitives.push_back(resized.value_or(p));
@@ -214,20 +220,27 @@ class Resizing {
 
 }  // namespace
 
-Primitive dilated(const Primitive& p, const PrimitiveData& data, double by, std::vector<Plane>& planes) {
+Primitive dilated(const Primitive& p, const PrimitiveData& data, double by,
+                  std::vector<Plane>& planes) {
   auto larger = moved(p, data, by, planes);
   if (!larger) return box_around(p, by);
   larger->bounds = dilated_bounds(p, by);
-  if (larger->kind == Kind::kPolyhedron) larger->bounds = csg::polyhedron_bounds(csg::faces_of(*larger, planes));
+  if (larger->kind == Kind::kPolyhedron)
+    larger->bounds = csg::polyhedron_bounds(csg::faces_of(*larger, planes));
   return *larger;
 }
 
-std::optional<Primitive> eroded(const Primitive& p, const PrimitiveData& data, double by, std::vector<Plane>& planes) {
+std::optional<Primitive> eroded(const Primitive& p, const PrimitiveData& data, double by,
+                                std::vector<Plane>& planes) {
   return moved(p, data, -by, planes);
 }
 
-std::optional<Model> dilated(const Model& model, const ObjectDistance& by) { return Resizing(model, by, true).run(); }
+std::optional<Model> dilated(const Model& model, const ObjectDistance& by) {
+  return Resizing(model, by, true).run();
+}
 // A smaller solid never fills space.
-Model eroded(const Model& model, const ObjectDistance& by) { return *Resizing(model, by, false).run(); }
+Model eroded(const Model& model, const ObjectDistance& by) {
+  return *Resizing(model, by, false).run();
+}
 
 }  // namespace graycube

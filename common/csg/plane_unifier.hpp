@@ -18,11 +18,12 @@
 
 namespace graycube::csg {
 
-/// To be shown all primitives three times, since nearly none of them has a face in another's plane: that is quicker than to keep
-/// what is known of each.
+/// To be shown all primitives three times, since nearly none of them has a face in another's plane:
+/// that is quicker than to keep what is known of each.
 class PlaneUnifier {
  public:
-  PlaneUnifier(Model& model, std::span<const Exactness> exactness) : model_(model), exactness_(exactness) {}
+  PlaneUnifier(Model& model, std::span<const Exactness> exactness)
+      : model_(model), exactness_(exactness) {}
 
   void count(std::uint32_t primitive);
   /// `reach`: the largest coordinate of what is bounded.
@@ -37,8 +38,10 @@ class PlaneUnifier {
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   static double number_tolerance(double distance, double direction, double reach);
   Measured plane_number(const Heading& heading, double offset) const;
-  void add_levels(const Heading& heading, const Vec3& direction, double direction_tolerance, std::vector<Level>& group) const;
-  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction, double direction_tolerance) const;
+  void add_levels(const Heading& heading, const Vec3& direction, double direction_tolerance,
+                  std::vector<Level>& group) const;
+  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction,
+                 double direction_tolerance) const;
   void unify_directions();
   void unify_offsets(const Vec3& direction, std::vector<Level> group);
   void set(const Level& level, const Vec3& direction, double offset, bool is_shared_plane);

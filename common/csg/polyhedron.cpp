@@ -11,7 +11,9 @@ using Polygon = std::vector<Vec3>;
 /// A square in the plane, `reach` to each side of the point nearest to the origin.
 Polygon square_in(const Plane& plane, double reach) {
   const Vec3 n = plane.normal;
-  const Vec3 e = std::fabs(n.x) < 0.5 ? Vec3{1, 0, 0} : std::fabs(n.y) < 0.5 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 e = std::fabs(n.x) < 0.5   ? Vec3{1, 0, 0}
+                 : std::fabs(n.y) < 0.5 ? Vec3{0, 1, 0}
+                                        : Vec3{0, 0, 1};
   const Vec3 u = reach * normalized(cross(n, e));
   const Vec3 w = cross(n, u);
   const Vec3 c = plane.offset * n;
@@ -32,8 +34,8 @@ Polygon clipped(const Polygon& polygon, const Plane& plane) {
   return r;
 }
 
-/// Beyond half this multiple of the largest offset a vertex counts as infinitely far: bounds may always be
-/// too large, but clipping a larger square would lose the digits of the near vertices.
+/// Beyond half this multiple of the largest offset a vertex counts as infinitely far: bounds may
+/// always be too large, but clipping a larger square would lose the digits of the near vertices.
 constexpr double kReach = 1e4;
 /// Faces beyond this many make clipping every face by every other too slow; bounds stay infinite.
 constexpr std::size_t kMaxClippedFaces = 4096;
@@ -83,7 +85,8 @@ Aabb polyhedron_bounds(std::span<const Plane> faces) {
       }
     }
     for (const Vec3& v : polygon) {
-      // An unbounded solid may reach farther than its clipped faces in any direction, a half-space at once.
+      // An unbounded solid may reach farther than its clipped faces in any direction, a half-space
+      // at once.
       if (max_abs(v) > 0.5 * reach) return unclipped;
       bounds.include(v);
     }

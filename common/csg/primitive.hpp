@@ -1,5 +1,5 @@
-// A primitive: one leaf of a CSG tree, in world coordinates, ready to be intersected. Solving, bounding and
-// classifying each kind lives in one file per kind; this is what they share.
+// A primitive: one leaf of a CSG tree, in world coordinates, ready to be intersected. Solving,
+// bounding and classifying each kind lives in one file per kind; this is what they share.
 #pragma once
 
 #include <array>
@@ -21,15 +21,16 @@ enum class PrimitiveKind : std::uint8_t {
   kEllipsoid,       // to_local maps it to the unit sphere
   kBox,             // v[0..2] lower corner, v[3..5] upper corner, world axes
   kParallelepiped,  // to_local, whose rows are unit normals, maps it to the box v[0..2] … v[3..5]
-  kCylinder,        // to_local: x² + y² ≤ 1; world cap planes in v: normal 0..2, lower 3, upper 4 offset
-  kCone,            // as kCylinder with x² + y² ≤ (1 + v[5] z)², v[5] < 0, on the nappe with 1 + v[5] z ≥ 0
-  kTorus,           // to_local: major radius 1 about z, minor radius v[0]
-  kHalfSpace,       // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
-  kPolyhedron,      // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
-  kEllipticCone,    // caps as kCone; to_local: x² / (1 − z)² + y² / (1 − v[5] z)² ≤ 1 between them
-  kEllipticTorus,   // to_local, ρ² = x² + y²: v[0] (ρ−1)² + 2 v[1] (ρ−1) z + v[2] z² ≤ 1; reaches v[3] and v[4] far
-  kQuadric,         // to_local: x² + v[0] y² + v[1] z² + v[2] z + v[3] ≤ 0; and planes as kPolyhedron
-  kMesh,            // meshes[mesh]
+  kCylinder,  // to_local: x² + y² ≤ 1; world cap planes in v: normal 0..2, lower 3, upper 4 offset
+  kCone,  // as kCylinder with x² + y² ≤ (1 + v[5] z)², v[5] < 0, on the nappe with 1 + v[5] z ≥ 0
+  kTorus,       // to_local: major radius 1 about z, minor radius v[0]
+  kHalfSpace,   // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
+  kPolyhedron,  // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
+  kEllipticCone,  // caps as kCone; to_local: x² / (1 − z)² + y² / (1 − v[5] z)² ≤ 1 between them
+  kEllipticTorus,  // to_local, ρ² = x² + y²: v[0] (ρ−1)² + 2 v[1] (ρ−1) z + v[2] z² ≤ 1; reaches
+                   // v[3] and v[4] far
+  kQuadric,  // to_local: x² + v[0] y² + v[1] z² + v[2] z + v[3] ≤ 0; and planes as kPolyhedron
+  kMesh,     // meshes[mesh]
 };
 inline constexpr int kPrimitiveKinds = 13;
 
@@ -65,13 +66,14 @@ Spans spans_along(const Primitive& primitive, const PrimitiveData& data, const R
 /// Closed-set membership of a point, up to rounding.
 bool contains(const Primitive& primitive, const PrimitiveData& data, const Vec3& point);
 
-/// The unit normal pointing out of the primitive at parameter `t` of `ray`, where t is one of the ends that
-/// spans_along gave for the same ray: the face is the one whose root is t.
-Vec3 outward_normal(const Primitive& primitive, const PrimitiveData& data, const Ray& ray, double t);
+/// The unit normal pointing out of the primitive at parameter `t` of `ray`, where t is one of the
+/// ends that spans_along gave for the same ray: the face is the one whose root is t.
+Vec3 outward_normal(const Primitive& primitive, const PrimitiveData& data, const Ray& ray,
+                    double t);
 
-/// Where a cell lies: wholly outside the primitive, wholly inside, or perhaps crossed by its surface.
-/// Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ already; touching
-/// counts as crossing. Cells may be unbounded.
+/// Where a cell lies: wholly outside the primitive, wholly inside, or perhaps crossed by its
+/// surface. Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ
+/// already; touching counts as crossing. Cells may be unbounded.
 CellSide classify(const Primitive& primitive, const PrimitiveData& data, const Aabb& cell);
 
 }  // namespace graycube

@@ -96,8 +96,7 @@ Vec3 quadric_normal(const Primitive& p, std::span<const Plane> faces, const Ray&
   const Vec3 flat = polyhedron_normal(faces, ray, t);
   if (flat != Vec3{}) return flat;
   const Vec3 l = p.to_local.point(ray.at(t));
-  return normalized(p.to_local.transposed_vector(
-      {l.x, p.v[0] * l.y, p.v[1] * l.z + 0.5 * p.v[2]}));
+  return normalized(p.to_local.transposed_vector({l.x, p.v[0] * l.y, p.v[1] * l.z + 0.5 * p.v[2]}));
 }
 
 CellSide classify_quadric(const Primitive& p, std::span<const Plane> faces, const Aabb& cell) {

@@ -1,6 +1,6 @@
-// Where a quartic is negative on a piece of a line. It is never expanded: sums of products of quadratics keep
-// their digits. Extremes lie between the zeros of the second derivative, roots between extremes, and
-// membership is evaluated, never counted.
+// Where a quartic is negative on a piece of a line. It is never expanded: sums of products of
+// quadratics keep their digits. Extremes lie between the zeros of the second derivative, roots
+// between extremes, and membership is evaluated, never counted.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace graycube::csg {
 /// More than enough: each round at least halves the bracket or converges quadratically.
 inline constexpr int kMaxRootRounds = 100;
 
-/// The root of `f` in [lo, hi], where f(lo) and f(hi) have opposite signs: Newton, kept in a shrinking
-/// bracket, until steps are no longer than `enough`; 0: until the last bit settles.
+/// The root of `f` in [lo, hi], where f(lo) and f(hi) have opposite signs: Newton, kept in a
+/// shrinking bracket, until steps are no longer than `enough`; 0: until the last bit settles.
 template <typename F, typename Derivative>
 double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi, double enough = 0) {
   const bool rises = f(lo) < 0;
@@ -35,9 +35,10 @@ double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi, doub
   return s;
 }
 
-/// A root near which `f` changes its sign in [lo, hi], the same to the bit whatever the interval: f is evaluated on a fixed
-/// grid around the root, and the search begins anew in the step of the grid where its sign changes. What tells an interval
-/// from another is not more than which roots it holds.
+/// A root near which `f` changes its sign in [lo, hi], the same to the bit whatever the interval: f
+/// is evaluated on a fixed grid around the root, and the search begins anew in the step of the grid
+/// where its sign changes. What tells an interval from another is not more than which roots it
+/// holds.
 template <typename F, typename Derivative>
 double settled_root(F&& f, Derivative&& derivative, double lo, double hi) {
   constexpr double kStep = 0x1p-36;
@@ -47,8 +48,10 @@ double settled_root(F&& f, Derivative&& derivative, double lo, double hi) {
   if (!(std::fabs(s) < kFarthest)) return bracketed_root(f, derivative, lo, hi);
   const double below = std::floor(s / kStep) * kStep;
   const bool is_negative = f(below) < 0;
-  if ((f(below + kStep) < 0) != is_negative) return bracketed_root(f, derivative, below, below + kStep);
-  if ((f(below - kStep) < 0) != is_negative) return bracketed_root(f, derivative, below - kStep, below);
+  if ((f(below + kStep) < 0) != is_negative)
+    return bracketed_root(f, derivative, below, below + kStep);
+  if ((f(below - kStep) < 0) != is_negative)
+    return bracketed_root(f, derivative, below - kStep, below);
   // It touches more than it cuts.
   return bracketed_root(f, derivative, lo, hi);
 }
@@ -59,7 +62,8 @@ struct Knots {
   std::array<double, N> at{};
   int count = 0;
   void add(double s) {
-    if (count == 0 || s > at[static_cast<std::size_t>(count - 1)]) at[static_cast<std::size_t>(count++)] = s;
+    if (count == 0 || s > at[static_cast<std::size_t>(count - 1)])
+      at[static_cast<std::size_t>(count++)] = s;
   }
 };
 
@@ -92,13 +96,15 @@ struct ProductQuartic {
   }
   double df(double s) const {
     double sum = 0;
-    for (const Term& t : terms) sum += t.sign * (t.p.slope(s) * t.q.at(s) + t.p.at(s) * t.q.slope(s));
+    for (const Term& t : terms)
+      sum += t.sign * (t.p.slope(s) * t.q.at(s) + t.p.at(s) * t.q.slope(s));
     return sum;
   }
   double ddf(double s) const {
     double sum = 0;
     for (const Term& t : terms) {
-      sum += t.sign * (2 * t.p.c * t.q.at(s) + 2 * t.p.slope(s) * t.q.slope(s) + 2 * t.p.at(s) * t.q.c);
+      sum += t.sign *
+             (2 * t.p.c * t.q.at(s) + 2 * t.p.slope(s) * t.q.slope(s) + 2 * t.p.at(s) * t.q.c);
     }
     return sum;
   }
@@ -122,7 +128,8 @@ struct ProductQuartic {
   }
 };
 
-/// x² + y² − w²; what ProductQuartic computes, bit for bit, in half the operations: doubling is exact.
+/// x² + y² − w²; what ProductQuartic computes, bit for bit, in half the operations: doubling is
+/// exact.
 struct SquaresQuartic {
   Quadratic x, y, w;
 
@@ -165,7 +172,8 @@ Knots<5> quartic_extremes(const Line& line, double lo, double hi) {
   return r;
 }
 
-/// A piece of a ray, from `enter` to `leave`, and the quartic's parameters of its ends; t = (s + nearest) / speed.
+/// A piece of a ray, from `enter` to `leave`, and the quartic's parameters of its ends; t = (s +
+/// nearest) / speed.
 struct QuarticRange {
   double enter, leave;
   double s_enter, s_leave;
@@ -175,7 +183,8 @@ struct QuarticRange {
     return {enter, leave, enter * speed - nearest, leave * speed - nearest, nearest, speed};
   }
   static QuarticRange of_line(double s_enter, double s_leave, double nearest, double speed) {
-    return {(s_enter + nearest) / speed, (s_leave + nearest) / speed, s_enter, s_leave, nearest, speed};
+    return {
+        (s_enter + nearest) / speed, (s_leave + nearest) / speed, s_enter, s_leave, nearest, speed};
   }
   double t_of(double s) const { return (s + nearest) / speed; }
 };
@@ -184,18 +193,21 @@ struct QuarticRange {
 struct FindRoot {
   template <typename Line>
   double operator()(const Line& line, double a, double b) const {
-    return bracketed_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); }, a, b);
+    return bracketed_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); },
+                          a, b);
   }
 };
 /// The same to the bit whichever piece of the line is searched.
 struct FindSettledRoot {
   template <typename Line>
   double operator()(const Line& line, double a, double b) const {
-    return settled_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); }, a, b);
+    return settled_root([&](double x) { return line.f(x); }, [&](double x) { return line.df(x); },
+                        a, b);
   }
 };
 
-/// Where the quartic is negative between enter and leave; spans that reach an end have exactly its parameter.
+/// Where the quartic is negative between enter and leave; spans that reach an end have exactly its
+/// parameter.
 template <typename Line, typename Find = FindRoot>
 Spans quartic_spans(const Line& line, const QuarticRange& range, const Find& find = {}) {
   const Knots<5> knots = quartic_extremes(line, range.s_enter, range.s_leave);
@@ -212,7 +224,8 @@ Spans quartic_spans(const Line& line, const QuarticRange& range, const Find& fin
     const bool inside_at_b = line.f(b) < 0;
     if (inside_at_b == inside) continue;
     const double s = find(line, a, b);
-    const double t = std::fmax(range.t_of(s), spans.count > 0 ? spans.interval[0].leave : range.enter);
+    const double t =
+        std::fmax(range.t_of(s), spans.count > 0 ? spans.interval[0].leave : range.enter);
     if (inside) {
       leave_at(t);
     } else {

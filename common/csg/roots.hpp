@@ -1,4 +1,5 @@
-// What the solvers of the single kinds share: slabs, quadratics, boxes seen in a primitive's own frame.
+// What the solvers of the single kinds share: slabs, quadratics, boxes seen in a primitive's own
+// frame.
 #pragma once
 
 #include <algorithm>
@@ -34,9 +35,9 @@ inline Spans spans_of(const Interval& i) {
   return s;
 }
 
-/// Where the line o + t d crosses the plane at distance `offset` along the normal, given n·o and 1/(n·d).
-/// Every plane of every kind of primitive and of the subdivision uses this one expression, so that
-/// coincident faces have bitwise equal parameters.
+/// Where the line o + t d crosses the plane at distance `offset` along the normal, given n·o and
+/// 1/(n·d). Every plane of every kind of primitive and of the subdivision uses this one expression,
+/// so that coincident faces have bitwise equal parameters.
 inline double plane_parameter(double offset, double origin, double inverse) {
   return (offset - origin) * inverse;
 }
@@ -79,9 +80,7 @@ inline bool is_on_plane(double offset, double o, double d, double t) {
 }
 
 /// Distance from zero to the interval [lo, hi].
-inline double distance_to_zero(double lo, double hi) {
-  return lo > 0 ? lo : hi < 0 ? -hi : 0.0;
-}
+inline double distance_to_zero(double lo, double hi) { return lo > 0 ? lo : hi < 0 ? -hi : 0.0; }
 
 /// The bounds of a finite box seen through an affine map.
 inline Aabb mapped_bounds(const Affine& map, const Aabb& box) {
@@ -99,8 +98,8 @@ bool all_corners(const Aabb& box, Predicate&& is_inside) {
   return true;
 }
 
-/// Where a cell lies relative to a bounded primitive whose own frame gives `misses(local bounds of the part
-/// of the cell near the primitive)` and, for a convex primitive, `holds(world point)`.
+/// Where a cell lies relative to a bounded primitive whose own frame gives `misses(local bounds of
+/// the part of the cell near the primitive)` and, for a convex primitive, `holds(world point)`.
 template <typename Misses, typename Holds>
 CellSide classify_bounded(const Primitive& p, const Aabb& cell, Misses&& misses, Holds&& holds) {
   const Aabb near = intersection_of(cell, p.bounds);

@@ -7,8 +7,8 @@ namespace graycube::csg {
 
 inline Vec3 sphere_center(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
 
-/// Recentred at the point of the line nearest the centre: b² − 4ac of the textbook loses all digits for a
-/// small sphere far away (Haines, Günther, Akenine-Möller 2019).
+/// Recentred at the point of the line nearest the centre: b² − 4ac of the textbook loses all digits
+/// for a small sphere far away (Haines, Günther, Akenine-Möller 2019).
 inline Interval sphere_interval(const Vec3& origin, const Vec3& direction, double radius2) {
   const double dd = dot(direction, direction);
   const double nearest = -dot(origin, direction) / dd;

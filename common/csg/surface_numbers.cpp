@@ -16,7 +16,8 @@ struct Form {
   std::array<double, 6> m{};
 
   void add(const Vec3& v, double factor) {
-    const std::array<double, 6> products{v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.y * v.z, v.z * v.x};
+    const std::array<double, 6> products{v.x * v.x, v.y * v.y, v.z * v.z,
+                                         v.x * v.y, v.y * v.z, v.z * v.x};
     for (std::size_t i = 0; i < 6; ++i) m[i] += factor * products[i];
   }
 };
@@ -55,8 +56,8 @@ class Numbers {
 double column(const Affine& map, int row) { return map.m[static_cast<std::size_t>(row)][3]; }
 double square(const Vec3& v) { return dot(v, v); }
 
-/// How far forms of the frame's rows, of squared length `square`, may be off: as much as surfaces are in places, by their
-/// size, and as they are in direction.
+/// How far forms of the frame's rows, of squared length `square`, may be off: as much as surfaces
+/// are in places, by their size, and as they are in direction.
 double form_tolerance(const Exactness& e, double square) {
   return 2 * square * (e.distance() * std::sqrt(square) + e.direction);
 }
@@ -82,8 +83,8 @@ void ball_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 void cylinder_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const Vec3 x = p.to_local.row(0), y = p.to_local.row(1), along = cross(x, y);
   // The point of the axis nearest the origin.
-  const Vec3 foot = (1 / square(along)) *
-                    (-column(p.to_local, 0) * cross(y, along) - column(p.to_local, 1) * cross(along, x));
+  const Vec3 foot = (1 / square(along)) * (-column(p.to_local, 0) * cross(y, along) -
+                                           column(p.to_local, 1) * cross(along, x));
   const double beside = p.bounds.is_finite() ? length(p.bounds.center() - foot) : 0;
   if (n.point(foot, e.distance() + e.direction * beside)) return;
   Form across = form_of(x);
@@ -96,8 +97,9 @@ void cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const double k = p.v[5];
   const Vec3 x = p.to_local.row(0), y = p.to_local.row(1), w = k * p.to_local.row(2);
   const double determinant = dot(x, cross(y, w));
-  const Vec3 apex = (-1 / determinant) * (column(p.to_local, 0) * cross(y, w) + column(p.to_local, 1) * cross(w, x) +
-                                          (k * column(p.to_local, 2) + 1) * cross(x, y));
+  const Vec3 apex = (-1 / determinant) *
+                    (column(p.to_local, 0) * cross(y, w) + column(p.to_local, 1) * cross(w, x) +
+                     (k * column(p.to_local, 2) + 1) * cross(x, y));
   const double size = length(p.bounds.hi - p.bounds.lo);
   const double angle = e.direction + e.distance() / size;
   const double off = e.distance() + angle * length(p.bounds.center() - apex);
@@ -129,8 +131,8 @@ void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   for (int a = 0; a < 3; ++a) n.number(p.v[1] * z[a], (tolerance + most * e.direction) * length(z));
 }
 
-/// One of an elliptic cone's two semi-axes: the plane that it is measured from, and its length, which grows linearly with the
-/// place.
+/// One of an elliptic cone's two semi-axes: the plane that it is measured from, and its length,
+/// which grows linearly with the place.
 struct SemiAxis {
   Vec3 normal, foot;
   double length_at_origin;
@@ -140,13 +142,16 @@ SemiAxis semi_axis_of(const Primitive& p, int row, double k) {
   const Vec3 r = p.to_local.row(row);
   const double l = length(r);
   const Vec3 normal = (1 / l) * r;
-  return {normal, (-column(p.to_local, row) / l) * normal, (1 - k * column(p.to_local, 2)) / l, (-k / l) * p.to_local.row(2)};
+  return {normal, (-column(p.to_local, row) / l) * normal, (1 - k * column(p.to_local, 2)) / l,
+          (-k / l) * p.to_local.row(2)};
 }
 
 void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, p.v[5]);
   // Which of them is x depends on where the frame begins.
-  if (std::fabs(dot(kGenericDirection, first.normal)) < std::fabs(dot(kGenericDirection, second.normal))) std::swap(first, second);
+  if (std::fabs(dot(kGenericDirection, first.normal)) <
+      std::fabs(dot(kGenericDirection, second.normal)))
+    std::swap(first, second);
   const double size = length(p.bounds.hi - p.bounds.lo), away = length(p.bounds.center()) + size;
   const double angle = e.direction + e.distance() / size;
   for (const SemiAxis& a : {first, second}) {
@@ -204,7 +209,8 @@ SurfaceFamily family_of(const Primitive& p) {
     case PrimitiveKind::kTorus: return SurfaceFamily::kTorus;
     case PrimitiveKind::kEllipticTorus: return SurfaceFamily::kEllipticTorus;
     case PrimitiveKind::kEllipticCone: return SurfaceFamily::kEllipticCone;
-    case PrimitiveKind::kQuadric: return is_tube(p) ? SurfaceFamily::kCylinder : SurfaceFamily::kQuadric;
+    case PrimitiveKind::kQuadric:
+      return is_tube(p) ? SurfaceFamily::kCylinder : SurfaceFamily::kQuadric;
     default: return SurfaceFamily::kNone;
   }
 }

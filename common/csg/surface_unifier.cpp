@@ -10,7 +10,8 @@ namespace graycube::csg {
 namespace {
 
 void copy_rows(const Affine& from, int count, Affine& to) {
-  for (int i = 0; i < count; ++i) to.m[static_cast<std::size_t>(i)] = from.m[static_cast<std::size_t>(i)];
+  for (int i = 0; i < count; ++i)
+    to.m[static_cast<std::size_t>(i)] = from.m[static_cast<std::size_t>(i)];
 }
 
 /// The cone's half that the other is on, too.
@@ -25,8 +26,8 @@ void divide_row(Affine& map, std::size_t row, double by) {
   for (double& x : map.m[row]) x /= by;
 }
 
-/// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a cylinder what they are, up to
-/// `tolerance` in the world.
+/// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a
+/// cylinder what they are, up to `tolerance` in the world.
 void simplify(Primitive& p, double tolerance) {
   // In the frame, across the axis.
   const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
@@ -87,18 +88,22 @@ void SurfaceUnifier::count(std::uint32_t primitive) {
 }
 
 void SurfaceUnifier::begin_marking() {
-  candidates_.emplace(4 * distances_ / static_cast<double>(std::max<std::size_t>(count_, 1)), count_);
+  candidates_.emplace(4 * distances_ / static_cast<double>(std::max<std::size_t>(count_, 1)),
+                      count_);
 }
 
 void SurfaceUnifier::mark(std::uint32_t primitive) {
   const Primitive& p = model_.primitives[primitive];
-  if (family_of(p) != SurfaceFamily::kNone) candidates_->mark(surface_number(p, exactness_[primitive], 0));
+  if (family_of(p) != SurfaceFamily::kNone)
+    candidates_->mark(surface_number(p, exactness_[primitive], 0));
 }
 
 void SurfaceUnifier::collect(std::uint32_t primitive) {
   const Primitive& p = model_.primitives[primitive];
   const SurfaceFamily family = family_of(p);
-  if (family == SurfaceFamily::kNone || !candidates_->may_meet(surface_number(p, exactness_[primitive], 0))) return;
+  if (family == SurfaceFamily::kNone ||
+      !candidates_->may_meet(surface_number(p, exactness_[primitive], 0)))
+    return;
   families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
 }
 
@@ -108,7 +113,8 @@ void SurfaceUnifier::unify() {
   };
   const auto unify = [&](std::span<const Extent> cluster) { unify_cluster(cluster); };
   for (std::size_t f = 0; f < families_.size(); ++f) {
-    for_each_cluster(std::move(families_[f]), number_count(static_cast<SurfaceFamily>(f)), measure, unify);
+    for_each_cluster(std::move(families_[f]), number_count(static_cast<SurfaceFamily>(f)), measure,
+                     unify);
   }
 }
 

@@ -18,9 +18,11 @@ namespace graycube::csg {
 /// To be shown all primitives three times, as PlaneUnifier.
 class SurfaceUnifier {
  public:
-  SurfaceUnifier(Model& model, std::span<const Exactness> exactness) : model_(model), exactness_(exactness) {}
+  SurfaceUnifier(Model& model, std::span<const Exactness> exactness)
+      : model_(model), exactness_(exactness) {}
 
-  /// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a cylinder what they are.
+  /// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a
+  /// cylinder what they are.
   void count(std::uint32_t primitive);
   void begin_marking();
   void mark(std::uint32_t primitive);

@@ -7,8 +7,8 @@
 namespace graycube::csg {
 namespace {
 
-/// f(s) = (s² + 2Bs + A)² − 4 (e s² + 2hs + k) along the line q + s u, |u| = 1: negative inside. Kept in
-/// this form, since the expanded quartic has lost the digits by the time it is evaluated.
+/// f(s) = (s² + 2Bs + A)² − 4 (e s² + 2hs + k) along the line q + s u, |u| = 1: negative inside.
+/// Kept in this form, since the expanded quartic has lost the digits by the time it is evaluated.
 struct TorusLine {
   double B, A, e, h, k;
 
@@ -35,9 +35,9 @@ struct TorusLine {
   }
 };
 
-/// The part of the line q + s u that is in the bounding sphere and between the planes that the torus touches;
-/// nothing where it passes outside or through the hole. Everything is a little larger than the torus, so that
-/// both ends lie outside of it.
+/// The part of the line q + s u that is in the bounding sphere and between the planes that the
+/// torus touches; nothing where it passes outside or through the hole. Everything is a little
+/// larger than the torus, so that both ends lie outside of it.
 std::optional<Interval> part_near_torus(const Vec3& q, const Vec3& u, double minor, double reach) {
   constexpr double kMargin = 1e-6;
   Interval part;

@@ -12,9 +12,9 @@ namespace graycube {
 /// What a tree became in a cell: a constant, or still something with a surface.
 enum class Pruned : std::uint8_t { kNothing, kEverything, kVaries };
 
-/// Appends to `out` the tree restricted to a cell: `side_of(primitive)` gives each leaf's CellSide, constants
-/// are folded, single children replace their parent, nested nodes of one kind merge; the order of children
-/// stays. Appends nothing when the result is a constant.
+/// Appends to `out` the tree restricted to a cell: `side_of(primitive)` gives each leaf's CellSide,
+/// constants are folded, single children replace their parent, nested nodes of one kind merge; the
+/// order of children stays. Appends nothing when the result is a constant.
 template <typename SideOf>
 Pruned prune(std::span<const TreeNode> tree, SideOf&& side_of, std::vector<TreeNode>& out) {
   const TreeNode& root = tree.front();

@@ -1,5 +1,6 @@
-// Triangle meshes as values: closed surfaces whose triangles turn counterclockwise seen from outside. What makes
-// one from the polygons of a file is csg/close_mesh.hpp, what intersects it csg/mesh.hpp.
+// Triangle meshes as values: closed surfaces whose triangles turn counterclockwise seen from
+// outside. What makes one from the polygons of a file is csg/close_mesh.hpp, what intersects it
+// csg/mesh.hpp.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  /// Planes of other solids in which triangles lie (csg/coincidence.hpp), and each triangle's, or kOwnPlane; none when no
-  /// triangle has one.
+  /// Planes of other solids in which triangles lie (csg/coincidence.hpp), and each triangle's, or
+  /// kOwnPlane; none when no triangle has one.
   static constexpr std::uint32_t kOwnPlane = 0xFFFFFFFFu;
   std::vector<Plane> planes{};
   std::vector<std::uint32_t> plane_of{};

@@ -1,5 +1,5 @@
-// Arbitrary output variables: what a picture may say of each pixel beside its light. They are values of the
-// first hit of one primary ray, never sums, and travel and rest as bit patterns.
+// Arbitrary output variables: what a picture may say of each pixel beside its light. They are
+// values of the first hit of one primary ray, never sums, and travel and rest as bit patterns.
 #pragma once
 
 #include <array>
@@ -43,14 +43,14 @@ class AovSet {
   std::uint8_t bits_ = 0;
 };
 
-/// "depth,normal": names in any order, each at most once; the empty text is the empty set. Nothing for
-/// anything else.
+/// "depth,normal": names in any order, each at most once; the empty text is the empty set. Nothing
+/// for anything else.
 std::optional<AovSet> parse_aovs(std::string_view text);
 /// What parse_aovs reads.
 std::string to_string(AovSet aovs);
 
-/// AOVs are kept in planes of three 32-bit words a pixel: normal X, Y, Z; albedo R, G, B; depth, object and
-/// an unused one. A plane exists where one of its AOVs is asked for.
+/// AOVs are kept in planes of three 32-bit words a pixel: normal X, Y, Z; albedo R, G, B; depth,
+/// object and an unused one. A plane exists where one of its AOVs is asked for.
 inline constexpr std::size_t kAovPlanes = 3;
 using AovWords = std::array<std::uint32_t, 3>;
 inline constexpr std::size_t kNormalPlane = 0, kAlbedoPlane = 1, kDepthPlane = 2;
@@ -64,8 +64,8 @@ constexpr bool has_plane(AovSet aovs, std::size_t plane) {
 /// What a plane holds where nothing is hit.
 AovWords aov_background(std::size_t plane);
 
-/// Where light and AOVs are addressed alike: slot plane number · pixels + pixel, light first, then the
-/// kAovPlanes planes.
+/// Where light and AOVs are addressed alike: slot plane number · pixels + pixel, light first, then
+/// the kAovPlanes planes.
 constexpr std::uint32_t aov_slot(std::size_t plane, std::uint64_t pixels, std::uint32_t pixel) {
   return static_cast<std::uint32_t>((plane + 1) * pixels + pixel);
 }

@@ -63,9 +63,8 @@ Imf::FrameBuffer frame_of(Picture& picture, const Imath::Box2i& window) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < kChannels.size(); ++c) {
-    frame.insert(kChannels[c],
-                 Imf::Slice::Make(Imf::FLOAT, picture.rgb.data() + c, window, kPixelBytes,
-                                  width * kPixelBytes));
+    frame.insert(kChannels[c], Imf::Slice::Make(Imf::FLOAT, picture.rgb.data() + c, window,
+                                                kPixelBytes, width * kPixelBytes));
   }
   for (const AovChannel& c : kAovChannels) {
     if (!picture.aovs.has(c.aov)) continue;
@@ -110,8 +109,9 @@ AovSet aovs_among(const Imf::ChannelList& channels) {
 }
 
 /// Shading is noise to a compressor: ZIP takes 200 to 300 ms for a megapixel of it, a good part of
-/// what tracing takes, to halve the file. Where three quarters repeat the pixel before, as on a plain
-/// background, it is fast and shrinks the file to a fraction. ARCHITECTURE.md has the figures.
+/// what tracing takes, to halve the file. Where three quarters repeat the pixel before, as on a
+/// plain background, it is fast and shrinks the file to a fraction. ARCHITECTURE.md has the
+/// figures.
 Imf::Compression compression_for(const Picture& picture) {
   constexpr std::size_t kStep = 3;
   std::size_t repeats = 0;

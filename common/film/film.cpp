@@ -52,7 +52,8 @@ class ShortMean {
     if (is_power_) return static_cast<float>(sum) * scale_;
     if (sum == 0) return 0;
     const auto size = static_cast<std::uint64_t>(sum < 0 ? -sum : sum);
-    // 63 bits over 32 leave 31 at least, more than the 25 that rounding needs beside the folded rest.
+    // 63 bits over 32 leave 31 at least, more than the 25 that rounding needs beside the folded
+    // rest.
     const int shift = std::countl_zero(size) - 1;
     const std::uint64_t shifted = size << shift;
     const std::uint64_t quotient = shifted / rays_ | (shifted % rays_ != 0 ? 1u : 0u);
@@ -81,8 +82,8 @@ std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
 
 std::uint64_t checked_pixels(std::uint32_t width, std::uint32_t height) {
   const std::uint64_t pixels = std::uint64_t{width} * height;
-  GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 && height <= kMaxPictureSide &&
-                     pixels <= kMaxPicturePixels,
+  GRAYCUBE_CHECK(width >= 1 && width <= kMaxPictureSide && height >= 1 &&
+                     height <= kMaxPictureSide && pixels <= kMaxPicturePixels,
                  "%u x %u pixels", width, height);
   return pixels;
 }
@@ -108,14 +109,17 @@ bool Film::has_slot(std::uint32_t slot) const {
 }
 
 void Film::add(std::uint32_t slot, const FixedRgb& light) {
-  if (slot >= pixel_count()) [[unlikely]] return set_aovs(slot, light);
+  if (slot >= pixel_count()) [[unlikely]]
+    return set_aovs(slot, light);
   Low& low = low_[slot];
   const High change{add_low(low.r, light.r), add_low(low.g, light.g), add_low(low.b, light.b)};
-  if ((change.r | change.g | change.b) != 0) [[unlikely]] carry(slot, change);
+  if ((change.r | change.g | change.b) != 0) [[unlikely]]
+    carry(slot, change);
 }
 
 void Film::set_aovs(std::uint32_t slot, const FixedRgb& words) {
-  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot, static_cast<std::size_t>(pixel_count()));
+  GRAYCUBE_CHECK(has_slot(slot), "slot %u, %zu pixels", slot,
+                 static_cast<std::size_t>(pixel_count()));
   planes_[slot / pixel_count() - 1][slot % pixel_count()] = {static_cast<std::uint32_t>(words.r),
                                                              static_cast<std::uint32_t>(words.g),
                                                              static_cast<std::uint32_t>(words.b)};

@@ -29,15 +29,15 @@ struct Picture {
 class Film {
  public:
   /// `rays_per_pixel` is S × S, at least 1; every pixel's sum is divided by it at the end. Sides
-  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, 24 more for those whose sums
-  /// leave 64 bits, and 12 more for each plane of AOVs. Throws std::bad_alloc.
+  /// are 1 to kMaxPictureSide, pixels up to kMaxPicturePixels: 24 bytes each, 24 more for those
+  /// whose sums leave 64 bits, and 12 more for each plane of AOVs. Throws std::bad_alloc.
   Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs = {});
 
   std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
   /// Whether `add` takes this slot: a pixel, or one of a plane of AOVs that is kept.
   bool has_slot(std::uint32_t slot) const;
-  /// Adds light to pixel number y · width + x, or sets AOVs (see aov_slot); has_slot(slot). Different threads
-  /// may add to different pixels at once.
+  /// Adds light to pixel number y · width + x, or sets AOVs (see aov_slot); has_slot(slot).
+  /// Different threads may add to different pixels at once.
   void add(std::uint32_t slot, const FixedRgb& light);
   /// Forgets what a pixel has received, its AOVs too (its tile will be traced again).
   void clear(std::uint32_t pixel);
@@ -58,8 +58,8 @@ class Film {
   bool has_high() const;
 
   std::uint32_t width_, height_, rays_per_pixel_;
-  /// Sums in two's complement, 128 bits each: high · 2^64 + low. Hardly any sum needs its upper half,
-  /// so those lie apart, in zero pages that the system provides when they are first written.
+  /// Sums in two's complement, 128 bits each: high · 2^64 + low. Hardly any sum needs its upper
+  /// half, so those lie apart, in zero pages that the system provides when they are first written.
   ZeroedArray<Low> low_;
   /// One more than there are pixels: the last one's r is not 0 when any of the others was written.
   ZeroedArray<High> high_;

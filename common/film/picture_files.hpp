@@ -22,9 +22,10 @@ struct PictureOrigin {
   std::string version;  // attribute "graycube"
 };
 
-/// Writes R, G, B as 32-bit floats, and the picture's AOVs as depth.Z, normal.X/Y/Z, albedo.R/G/B and object.I
-/// (unsigned); ZIP-compressed where that pays, as the pixels alone decide. Identical input gives identical bytes
-/// whatever the thread count. The file appears whole or not at all (written beside, then renamed).
+/// Writes R, G, B as 32-bit floats, and the picture's AOVs as depth.Z, normal.X/Y/Z, albedo.R/G/B
+/// and object.I (unsigned); ZIP-compressed where that pays, as the pixels alone decide. Identical
+/// input gives identical bytes whatever the thread count. The file appears whole or not at all
+/// (written beside, then renamed).
 void write_exr(const std::filesystem::path& path, const Picture& picture,
                const PictureOrigin& origin);
 Picture read_exr(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
-// Boxes and rays in floats, made so that no box which the exact ray meets is missed. They only cull: which boxes a ray
-// passes never shows in a result.
+// Boxes and rays in floats, made so that no box which the exact ray meets is missed. They only
+// cull: which boxes a ray passes never shows in a result.
 #pragma once
 
 #include <array>
@@ -20,15 +20,17 @@ inline constexpr float kFlattest = 1e-30f;
 /// The nearest float not above (not below) a double.
 inline float float_below(double v) {
   const auto f = static_cast<float>(v);
-  return static_cast<double>(f) > v ? std::nextafterf(f, -std::numeric_limits<float>::infinity()) : f;
+  return static_cast<double>(f) > v ? std::nextafterf(f, -std::numeric_limits<float>::infinity())
+                                    : f;
 }
 inline float float_above(double v) {
   const auto f = static_cast<float>(v);
-  return static_cast<double>(f) < v ? std::nextafterf(f, std::numeric_limits<float>::infinity()) : f;
+  return static_cast<double>(f) < v ? std::nextafterf(f, std::numeric_limits<float>::infinity())
+                                    : f;
 }
 
-/// One coordinate of a ray: distances are taken from a little before the origin to the near planes, from a little behind
-/// it to the far ones, and the reciprocals carry the slack.
+/// One coordinate of a ray: distances are taken from a little before the origin to the near planes,
+/// from a little behind it to the far ones, and the reciprocals carry the slack.
 struct CullingAxis {
   CullingAxis(double origin, double direction) {
     const auto f = static_cast<float>(origin);

@@ -47,8 +47,9 @@ std::int64_t available() {
   const bool avx2 = sse4 && has_all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("bmi"),
                                     __builtin_cpu_supports("bmi2"), __builtin_cpu_supports("fma"),
                                     has_f16c(), has_lzcnt());
-  const bool avx512 = avx2 && has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
-                                      __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"));
+  const bool avx512 =
+      avx2 && has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
+                      __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"));
   if (sse4) found |= HWY_SSE4;
   if (avx2) found |= HWY_AVX2;
   if (avx512) found |= HWY_AVX3;

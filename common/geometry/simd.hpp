@@ -1,5 +1,5 @@
-// Which of the processor's vector instructions the walk uses. It can't show in a result; choosing fewer is
-// for tests, for comparisons, and for doubting a machine.
+// Which of the processor's vector instructions the walk uses. It can't show in a result; choosing
+// fewer is for tests, for comparisons, and for doubting a machine.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,27 @@
 
 namespace graycube {
 
-/// Names, narrowest first, of the instruction sets that this processor has and this build knows: of "scalar",
-/// "sse4", "avx2", "avx512" and "neon".
+/// Names, narrowest first, of the instruction sets that this processor has and this build knows: of
+/// "scalar", "sse4", "avx2", "avx512" and "neon".
 std::vector<std::string> simd_names();
 
-/// Uses one of simd_names() from now on; "" and "best" mean the widest. False for any other name. Not to be
-/// called while rays are traced.
+/// Uses one of simd_names() from now on; "" and "best" mean the widest. False for any other name.
+/// Not to be called while rays are traced.
 bool choose_simd(std::string_view name);
 
 /// Where tables made by GRAYCUBE_SIMD_TABLE hold the function to call.
 std::size_t simd_index();
 
-/// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it; empty when all is well.
+/// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it; empty when all is
+/// well.
 std::string choose_simd_from_environment();
 
 }  // namespace graycube
 
-/// The versions of a function that Highway compiled, and a call of the one chosen. As HWY_EXPORT and
-/// HWY_DYNAMIC_DISPATCH, but without libhwy, which measures a timer for 4 ms whenever a process starts.
-#define GRAYCUBE_SIMD_TABLE(function)                                        \
+/// The versions of a function that Highway compiled, and a call of the one chosen. As HWY_EXPORT
+/// and HWY_DYNAMIC_DISPATCH, but without libhwy, which measures a timer for 4 ms whenever a process
+/// starts.
+#define GRAYCUBE_SIMD_TABLE(function)                                            \
   constexpr decltype(&HWY_STATIC_DISPATCH(function)) k##function##Versions[] = { \
       nullptr, HWY_CHOOSE_TARGET_LIST(function), HWY_CHOOSE_FALLBACK(function)}
 #define GRAYCUBE_SIMD_CALL(function) k##function##Versions[graycube::simd_index()]

@@ -11,7 +11,8 @@ namespace graycube {
 void ask_for_large_pages(void* begin, std::size_t bytes) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto place = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (place + page - 1) / page * page, end = (place + bytes) / page * page;
+  const std::uintptr_t first = (place + page - 1) / page * page,
+                       end = (place + bytes) / page * page;
 #ifdef MADV_HUGEPAGE
   // Only advice: whatever it answers, the memory is there.
   if (first < end) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);

@@ -1,5 +1,5 @@
-// Large pages of memory. A page of 4 KiB costs 0.5 to 10 µs when it is first touched, by machine: often more than what is then
-// done with it. One of 2 MiB costs about 100 µs.
+// Large pages of memory. A page of 4 KiB costs 0.5 to 10 µs when it is first touched, by machine:
+// often more than what is then done with it. One of 2 MiB costs about 100 µs.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace graycube {
 /// Where the system has larger ones, they are multiples of this.
 inline constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// Asks the system for large pages under `bytes` of memory that nobody has touched yet. It gives them to whole ones only, and
-/// none where it has none ready; then everything is as ever.
+/// Asks the system for large pages under `bytes` of memory that nobody has touched yet. It gives
+/// them to whole ones only, and none where it has none ready; then everything is as ever.
 void ask_for_large_pages(void* begin, std::size_t bytes);
 
 /// Zeros straight from the system, which provides them page by page as they are first touched.

@@ -1,5 +1,5 @@
-// BRL-CAD's binary database of version 5: a row of objects, each framed by two magic bytes, with lengths of 1,
-// 2, 4 or 8 bytes and everything big-endian.
+// BRL-CAD's binary database of version 5: a row of objects, each framed by two magic bytes, with
+// lengths of 1, 2, 4 or 8 bytes and everything big-endian.
 #include <zlib.h>
 
 #include <bit>
@@ -136,13 +136,15 @@ class BinaryReader {
     const auto minor = static_cast<unsigned>(r.integer(1));
     const std::uint64_t length = r.integer(width_of(header >> 6)) * 8;
     if (!r.ok() || magic != kMagicStart || length < 8 || length > bytes_.size() - at_ ||
-        static_cast<unsigned char>(bytes_[at_ + static_cast<std::size_t>(length) - 1]) != kMagicEnd) {
+        static_cast<unsigned char>(bytes_[at_ + static_cast<std::size_t>(length) - 1]) !=
+            kMagicEnd) {
       return fail("no object of a version 5 database begins here");
     }
     BigReader inside(bytes_.substr(at_, static_cast<std::size_t>(length) - 1));
     inside.take(6 + width_of(header >> 6));
     constexpr unsigned kApplicationData = 0;
-    if ((header & 3u) == kApplicationData) content(inside, header, attribute_flags, body_flags, major, minor);
+    if ((header & 3u) == kApplicationData)
+      content(inside, header, attribute_flags, body_flags, major, minor);
     at_ += static_cast<std::size_t>(length);
   }
 
@@ -192,8 +194,9 @@ class BinaryReader {
     }
   }
 
-  /// A width code; the numbers of matrices, leaves, bytes of leaves, operations and levels; matrices; leaves,
-  /// each a name and the number of its matrix; operations in postfix order, none where all are united.
+  /// A width code; the numbers of matrices, leaves, bytes of leaves, operations and levels;
+  /// matrices; leaves, each a name and the number of its matrix; operations in postfix order, none
+  /// where all are united.
   bool tree(BigReader& r, const std::string& name, BrlcadComb& comb) {
     if (r.remaining() == 0) return true;
     const unsigned width = width_of(static_cast<unsigned>(r.integer(1)));
@@ -295,12 +298,13 @@ class BinaryReader {
   }
 
   static std::string foreign_name(unsigned minor) {
-    constexpr const char* kNames[] = {"",      "tor",  "tgc",     "ell",       "arb8",     "ars",    "half",
-                                      "rec",   "poly", "bspline", "sph",       "nmg",      "ebm",    "vol",
-                                      "arbn",  "pipe", "part",    "rpc",       "rhc",      "epa",    "ehy",
-                                      "eto",   "grip", "joint",   "hf",        "dsp",      "sketch", "extrude",
-                                      "submodel", "cline", "bot", "comb",      "unused",   "datum",  "unused",
-                                      "superell", "metaball", "brep", "hyp",   "constrnt", "revolve"};
+    constexpr const char* kNames[] = {
+        "",         "tor",      "tgc",     "ell",  "arb8",     "ars",    "half",
+        "rec",      "poly",     "bspline", "sph",  "nmg",      "ebm",    "vol",
+        "arbn",     "pipe",     "part",    "rpc",  "rhc",      "epa",    "ehy",
+        "eto",      "grip",     "joint",   "hf",   "dsp",      "sketch", "extrude",
+        "submodel", "cline",    "bot",     "comb", "unused",   "datum",  "unused",
+        "superell", "metaball", "brep",    "hyp",  "constrnt", "revolve"};
     if (minor < std::size(kNames)) return kNames[minor];
     return "kind " + std::to_string(minor);
   }
@@ -331,7 +335,9 @@ class BinaryReader {
       out.values.push_back(r.number());
       is_finite = std::isfinite(out.values.back());
     }
-    if (!is_finite) fail(name + ": a " + std::to_string(count) + "-number solid with too few, or with one that is none");
+    if (!is_finite)
+      fail(name + ": a " + std::to_string(count) +
+           "-number solid with too few, or with one that is none");
   }
 
   void counted(BigReader& r, std::size_t each, const std::string& name, BrlcadSolid& out) {
@@ -361,7 +367,8 @@ class BinaryReader {
       return fail(name + ": expected two curves or more of three points or more");
     }
     if (!points(r, curves * per_curve, name, all)) return;
-    out.mesh = brlcad_ars_mesh(all, static_cast<std::size_t>(curves), static_cast<std::size_t>(per_curve));
+    out.mesh =
+        brlcad_ars_mesh(all, static_cast<std::size_t>(curves), static_cast<std::size_t>(per_curve));
   }
 
   bool bot(BigReader& r, BrlcadObject& object, BrlcadSolid& out) {
@@ -371,7 +378,8 @@ class BinaryReader {
     r.integer(1);
     constexpr std::uint64_t kSolidMode = 2;
     if (r.ok() && mode != kSolidMode) {
-      object.value = BrlcadForeign{std::string("bot in ") + (mode == 1 ? "surface" : "plate") + " mode"};
+      object.value =
+          BrlcadForeign{std::string("bot in ") + (mode == 1 ? "surface" : "plate") + " mode"};
       return false;
     }
     if (!points(r, vertices, object.name, out.mesh.vertices)) return true;

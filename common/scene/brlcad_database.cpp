@@ -47,7 +47,8 @@ std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m) {
   return map;
 }
 
-BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves, std::size_t per_curve) {
+BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
+                           std::size_t per_curve) {
   BrlcadMesh mesh;
   mesh.vertices = points;
   const auto index = [&](std::size_t curve, std::size_t point) {
@@ -110,7 +111,8 @@ void add_color_ranges(std::string_view table, std::vector<BrlcadColorRange>& col
     if (count < entry.size()) continue;
     count = 0;
     BrlcadColorRange& range = colors.emplace_back(BrlcadColorRange{entry[0], entry[1], {}});
-    for (std::size_t i = 0; i < 3; ++i) range.rgb[i] = static_cast<int>(std::clamp(entry[2 + i], 0l, 255l));
+    for (std::size_t i = 0; i < 3; ++i)
+      range.rgb[i] = static_cast<int>(std::clamp(entry[2 + i], 0l, 255l));
   }
 }
 
@@ -146,8 +148,9 @@ BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report
     if (text.starts_with(word)) return read_brlcad_v5_text(bytes, report);
   }
   if (text.starts_with("I ")) return read_brlcad_v4_text(bytes, report);
-  report.error("", "this is no BRL-CAD database: expected version 5 binary (.g), or text (.asc) that "
-                   "begins with 'title', 'put' or an 'I' record");
+  report.error("",
+               "this is no BRL-CAD database: expected version 5 binary (.g), or text (.asc) that "
+               "begins with 'title', 'put' or an 'I' record");
   return {};
 }
 

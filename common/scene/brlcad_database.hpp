@@ -1,5 +1,5 @@
-// A BRL-CAD database as plain values, whichever of its formats it came from: solids with the numbers that
-// version 5 stores, combinations as Boolean trees over names. Lengths are millimetres.
+// A BRL-CAD database as plain values, whichever of its formats it came from: solids with the
+// numbers that version 5 stores, combinations as Boolean trees over names. Lengths are millimetres.
 #pragma once
 
 #include <array>
@@ -26,22 +26,22 @@ inline constexpr std::size_t kMaxBrlcadNumbers = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxBrlcadVertices = std::size_t{1} << 24;
 
 enum class BrlcadKind : std::uint8_t {
-  kArb8,  // 8 corners
-  kTgc,   // V H A B C D
-  kEll,   // V A B C
-  kTor,   // V, unit N, major, minor radius
-  kHalf,  // unit N, distance
-  kRpc,   // V H B, half width
-  kRhc,   // V H B, half width, distance to the asymptotes
-  kEpa,   // V H, unit A, radii
-  kEhy,   // V H, unit A, radii, distance to the asymptotes
-  kHyp,   // V H A, second radius, neck to base ratio
-  kEto,   // V N C, radius of revolution, second radius
-  kPart,  // V H, radii
-  kArbn,  // planes N d
-  kPipe,  // points: position, inner, outer diameter, bend radius
-  kArs,   // mesh
-  kBot,   // mesh
+  kArb8,      // 8 corners
+  kTgc,       // V H A B C D
+  kEll,       // V A B C
+  kTor,       // V, unit N, major, minor radius
+  kHalf,      // unit N, distance
+  kRpc,       // V H B, half width
+  kRhc,       // V H B, half width, distance to the asymptotes
+  kEpa,       // V H, unit A, radii
+  kEhy,       // V H, unit A, radii, distance to the asymptotes
+  kHyp,       // V H A, second radius, neck to base ratio
+  kEto,       // V N C, radius of revolution, second radius
+  kPart,      // V H, radii
+  kArbn,      // planes N d
+  kPipe,      // points: position, inner, outer diameter, bend radius
+  kArs,       // mesh
+  kBot,       // mesh
   kSuperell,  // V A B C, exponents n and e
 };
 
@@ -109,9 +109,11 @@ std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m);
 
 /// The points of an ars: `curves` polylines of `points` points each, the first and the last of them
 /// collapsed to a point, as a mesh.
-BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves, std::size_t per_curve);
+BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
+                           std::size_t per_curve);
 
-/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. What is wrong goes to the report.
+/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. What is wrong goes to the
+/// report.
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report);
 
 // Their parts, by format.
@@ -119,9 +121,11 @@ BrlcadDatabase read_brlcad_v4_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_v5_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
 
-/// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean nothing here.
+/// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean
+/// nothing here.
 void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_view value);
-/// The same for the attributes of the database itself, `_GLOBAL`: `title` and `regionid_colortable`.
+/// The same for the attributes of the database itself, `_GLOBAL`: `title` and
+/// `regionid_colortable`.
 void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value);
 /// "r/g/b" or "r g b", 0 … 255 each; nothing otherwise.
 std::optional<std::array<int, 3>> parse_brlcad_rgb(std::string_view text);

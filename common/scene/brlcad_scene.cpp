@@ -1,4 +1,5 @@
-// From a BRL-CAD database to a scene: regions become objects, materials are inherited, the eye is placed.
+// From a BRL-CAD database to a scene: regions become objects, materials are inherited, the eye is
+// placed.
 #include "scene/brlcad.hpp"
 
 #include <algorithm>
@@ -73,8 +74,8 @@ class SceneBuilder {
       return false;
     }
     if (path_.size() >= kMaxBrlcadNesting) {
-      report_.error(name, "combinations are nested more than " + std::to_string(kMaxBrlcadNesting) +
-                              " deep");
+      report_.error(
+          name, "combinations are nested more than " + std::to_string(kMaxBrlcadNesting) + " deep");
       return false;
     }
     path_.push_back(object);
@@ -114,8 +115,8 @@ class SceneBuilder {
       case Op::kDifference:
       case Op::kIntersection: return collect_cut(tree, state, cuts);
       default:
-        add_object(path_.back()->name, build(tree, state.to_world, false), surface_of(state, nullptr),
-                   cuts);
+        add_object(path_.back()->name, build(tree, state.to_world, false),
+                   surface_of(state, nullptr), cuts);
     }
   }
 
@@ -147,7 +148,8 @@ class SceneBuilder {
   void region(const BrlcadObject& object, const BrlcadComb& comb, const State& state,
               const std::vector<Cut>& cuts) {
     if (comb.air != 0) return;
-    add_object(object.name, build(*comb.tree, state.to_world, false), surface_of(state, &comb), cuts);
+    add_object(object.name, build(*comb.tree, state.to_world, false), surface_of(state, &comb),
+               cuts);
   }
 
   BrlcadSurface surface_of(const State& state, const BrlcadComb* region) {
@@ -161,7 +163,7 @@ class SceneBuilder {
   }
 
   MaterialIndex material_of(const Material& m) {
-    const std::array<double, 10> key{m.color.r, m.color.g, m.color.b, m.ambient, m.diffuse,
+    const std::array<double, 10> key{m.color.r,  m.color.g,   m.color.b, m.ambient,  m.diffuse,
                                      m.specular, m.shininess, m.reflect, m.transmit, m.ior};
     const auto index = static_cast<MaterialIndex>(scene_.materials.size());
     const auto [known, is_new] = materials_.emplace(key, index);
@@ -179,7 +181,8 @@ class SceneBuilder {
     }
     if (!part.node || !check_limits(name, part)) return;
     if (surface.is_light) lamps_.emplace_back(scene_.objects.size(), surface.brightness);
-    scene_.objects.push_back({printable(name), material_of(surface.material), std::move(*part.node)});
+    scene_.objects.push_back(
+        {printable(name), material_of(surface.material), std::move(*part.node)});
   }
 
   /// A scene's text is UTF-8; names in databases are any bytes.
@@ -202,7 +205,8 @@ class SceneBuilder {
     if (part.levels > kMaxBrlcadLevels) {
       report_.error(name, "its tree has more than " + std::to_string(kMaxBrlcadLevels) + " levels");
     } else if (leaves_ > kMaxBrlcadLeaves) {
-      report_.error(name, "the model has more than " + std::to_string(kMaxBrlcadLeaves) + " solids");
+      report_.error(name,
+                    "the model has more than " + std::to_string(kMaxBrlcadLeaves) + " solids");
     }
     return !report_.has_errors();
   }
@@ -232,8 +236,10 @@ class SceneBuilder {
       }
       case Op::kXor: {
         const BrlcadTree &a = tree.children[0], &b = tree.children[1];
-        Part one = join(Operation::kDifference, build(a, to_world, is_cut), build(b, to_world, !is_cut));
-        Part other = join(Operation::kDifference, build(b, to_world, is_cut), build(a, to_world, !is_cut));
+        Part one =
+            join(Operation::kDifference, build(a, to_world, is_cut), build(b, to_world, !is_cut));
+        Part other =
+            join(Operation::kDifference, build(b, to_world, is_cut), build(a, to_world, !is_cut));
         return join(Operation::kUnion, std::move(one), std::move(other));
       }
       default: break;
@@ -302,13 +308,13 @@ class SceneBuilder {
                                      " triangles, each use of one counted");
       return {};
     }
-    BrlcadNode built =
-        brlcad_node(is, to_world, is_cut ? kBrlcadSkin : 0);
+    BrlcadNode built = brlcad_node(is, to_world, is_cut ? kBrlcadSkin : 0);
     if (!built.node) {
       if (built.is_error) {
         report_.error(object.name, built.problem);
       } else {
-        report_.warning_once("solid " + object.name, object.name, built.problem + "; it is left out");
+        report_.warning_once("solid " + object.name, object.name,
+                             built.problem + "; it is left out");
       }
       return {};
     }
@@ -349,7 +355,8 @@ std::vector<std::string> top_names(const BrlcadDatabase& database) {
   return names;
 }
 
-/// The finite bounds of each object: where a half-space makes them infinite, those of its finite primitives.
+/// The finite bounds of each object: where a half-space makes them infinite, those of its finite
+/// primitives.
 std::vector<Aabb> finite_bounds(const Model& model) {
   std::vector<Aabb> all;
   for (const Object& o : model.objects) {
@@ -374,12 +381,14 @@ constexpr double kLampDistance = 1.0001;
 constexpr Vec3 kKeyDirection{-0.8, 0.9, 1.2}, kFillDirection{1.0, 0.2, 0.7};
 constexpr double kKeyBrightness = 1.0, kFillBrightness = 0.4, kLightDistance = 4;
 
-void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps, const std::vector<Aabb>& bounds,
-                const Aabb& whole, Scene& scene, BrlcadReport& report) {
+void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps,
+                const std::vector<Aabb>& bounds, const Aabb& whole, Scene& scene,
+                BrlcadReport& report) {
   auto& lights = scene.settings.lights;
   for (const auto& [object, brightness] : lamps) {
     if (lights.size() == kMaxCreditLights) {
-      report.warning("", "lamps beyond the first " + std::to_string(kMaxCreditLights) + " don't shine");
+      report.warning("",
+                     "lamps beyond the first " + std::to_string(kMaxCreditLights) + " don't shine");
       break;
     }
     const Aabb& box = bounds[object];
@@ -388,22 +397,24 @@ void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps, const 
     const Vec3 towards = normalized(whole.center() - box.center());
     const double radius = 0.5 * length(box.hi - box.lo);
     const Rgb color = scene.materials[scene.objects[object].material].material.color;
-    lights.push_back({box.center() + kLampDistance * radius * towards, brightness * color, Falloff::kNone});
+    lights.push_back(
+        {box.center() + kLampDistance * radius * towards, brightness * color, Falloff::kNone});
   }
   if (!lights.empty()) return;
   const BrlcadAxes axes = brlcad_axes(scene.settings.camera);
   const double size = std::max(length(whole.hi - whole.lo), 1e-3);
   const auto light = [&](const Vec3& d, double brightness) {
     const Vec3 to = d.x * axes.right + d.y * axes.up + d.z * axes.backward;
-    lights.push_back({whole.center() + kLightDistance * size * to, Rgb{brightness, brightness, brightness},
-                      Falloff::kNone});
+    lights.push_back({whole.center() + kLightDistance * size * to,
+                      Rgb{brightness, brightness, brightness}, Falloff::kNone});
   };
   light(kKeyDirection, kKeyBrightness);
   light(kFillDirection, kFillBrightness);
 }
 
-void place_eye(const BrlcadOptions& options, const std::vector<std::pair<std::size_t, double>>& lamps,
-               Scene& scene, BrlcadReport& report) {
+void place_eye(const BrlcadOptions& options,
+               const std::vector<std::pair<std::size_t, double>>& lamps, Scene& scene,
+               BrlcadReport& report) {
   RenderSettings& s = scene.settings;
   s.image = options.image;
   s.max_depth = options.max_depth;
@@ -431,11 +442,13 @@ BrlcadResult read_brlcad(std::string_view bytes, const BrlcadOptions& options) {
     for (const std::string& name : options.objects) {
       if (database.find(name) == nullptr) report.error(name, "is not in the database");
     }
-    for (const std::string& name : options.objects.empty() ? top_names(database) : options.objects) {
+    for (const std::string& name :
+         options.objects.empty() ? top_names(database) : options.objects) {
       builder.add(name);
     }
     Scene scene = builder.take();
-    if (!report.has_errors() && scene.objects.empty()) report.warning("", "there is nothing to see");
+    if (!report.has_errors() && scene.objects.empty())
+      report.warning("", "there is nothing to see");
     if (!report.has_errors()) place_eye(options, builder.lamps(), scene, report);
     if (!report.has_errors()) result.scene = std::move(scene);
   }
@@ -487,7 +500,8 @@ BrlcadTops list_brlcad_tops(std::string_view bytes) {
   const BrlcadDatabase database = read_brlcad_database(bytes, report);
   if (!report.has_errors()) {
     PrimitiveCounter counter(database);
-    for (const std::string& name : top_names(database)) result.tops.push_back({name, counter.count(name)});
+    for (const std::string& name : top_names(database))
+      result.tops.push_back({name, counter.count(name)});
   }
   result.errors = report.take_errors();
   return result;

@@ -16,8 +16,9 @@ struct BrlcadSurface {
   double brightness = 1;
 };
 
-/// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. Others than plastic, glass, mirror and
-/// light become plastic, with one warning a kind.
-BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb, BrlcadReport& report);
+/// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. Others than
+/// plastic, glass, mirror and light become plastic, with one warning a kind.
+BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb,
+                             BrlcadReport& report);
 
 }  // namespace graycube

@@ -9,9 +9,11 @@
 namespace graycube {
 namespace {
 
-/// Vectors shorter than this part of a solid's size count as zero; directions as near as this as parallel.
+/// Vectors shorter than this part of a solid's size count as zero; directions as near as this as
+/// parallel.
 constexpr double kTiny = 1e-9;
-/// Ratios of a cone's ends as near as this count as equal: databases of version 4 hold single precision.
+/// Ratios of a cone's ends as near as this count as equal: databases of version 4 hold single
+/// precision.
 constexpr double kEqualRatio = 1e-6;
 
 CsgNode node_of(decltype(CsgNode::value) value, std::optional<Affine> transform = std::nullopt) {
@@ -35,15 +37,20 @@ bool is_direction(const Vec3& v) { return is_fair(v) && length(v) > 0; }
 
 /// What read_scene asks of each shape.
 struct IsSound {
-  bool operator()(const SphereShape& s) const { return is_fair(s.center) && is_fair(s.radius) && s.radius > 0; }
+  bool operator()(const SphereShape& s) const {
+    return is_fair(s.center) && is_fair(s.radius) && s.radius > 0;
+  }
   bool operator()(const CylinderShape& s) const { return is_fair(s.radius) && s.radius > 0; }
   bool operator()(const ConeShape& s) const {
     return is_fair(s.top_radius) && s.top_radius >= 0 && s.base_radius > 0;
   }
   bool operator()(const TorusShape& s) const {
-    return is_fair(s.center) && is_direction(s.axis) && is_fair(s.major) && 0 < s.minor && s.minor < s.major;
+    return is_fair(s.center) && is_direction(s.axis) && is_fair(s.major) && 0 < s.minor &&
+           s.minor < s.major;
   }
-  bool operator()(const HalfSpaceShape& s) const { return is_direction(s.normal) && is_fair(s.offset); }
+  bool operator()(const HalfSpaceShape& s) const {
+    return is_direction(s.normal) && is_fair(s.offset);
+  }
   bool operator()(const EllipsoidShape& s) const {
     return is_fair(s.center) && is_fair(s.axes[0]) && is_fair(s.axes[1]) && is_fair(s.axes[2]);
   }
@@ -85,7 +92,6 @@ BrlcadNode built(CsgNode node) {
   if (!IsSound::is_sound_node(node)) return problem("it is empty, or its numbers are out of range");
   return {std::move(node), {}, false};
 }
-
 
 /// The map whose columns are x, y, z and the origin.
 Affine frame(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
@@ -135,8 +141,9 @@ BrlcadNode ellipsoid(const Vec3& center, std::array<Vec3, 3> axes, double grow) 
   return built(node_of(EllipsoidShape{center, axes}));
 }
 
-/// (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1: only what is an ellipsoid. rt itself never looks at the exponents when
-/// it shoots rays (superell.c: a quadric of its own), so there is nothing that others could be held against.
+/// (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1: only what is an ellipsoid. rt itself never looks
+/// at the exponents when it shoots rays (superell.c: a quadric of its own), so there is nothing
+/// that others could be held against.
 BrlcadNode superell(const Values& p, double grow) {
   if (p.number(12) == 1 && p.number(13) == 1) {
     return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
@@ -149,7 +156,8 @@ CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double
   if (base_radius < top_radius) return round_cone(top, top_radius, base, base_radius);
   const Vec3 axis = top - base;
   const Vec3 along = normalized(axis);
-  const Vec3 aside = normalized(cross(along, std::fabs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 aside =
+      normalized(cross(along, std::fabs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
   const Affine map = frame(base_radius * aside, base_radius * cross(along, aside), axis, base);
   if (base_radius == top_radius) return node_of(CylinderShape{{0, 0, 0}, {0, 0, 1}, 1}, map);
   return node_of(ConeShape{{0, 0, 0}, 1, {0, 0, 1}, top_radius / base_radius}, map);
@@ -159,7 +167,8 @@ CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double
 struct Ends {
   double base, top;
 };
-/// The lengths at both ends when the cone is made longer by the share e at each and wider by `grow`.
+/// The lengths at both ends when the cone is made longer by the share e at each and wider by
+/// `grow`.
 Ends grown(Ends ends, double e, double grow) {
   const double slope = ends.top - ends.base;
   return {std::fmax(0, ends.base - e * slope) + grow, std::fmax(0, ends.top + e * slope) + grow};
@@ -185,8 +194,8 @@ BrlcadNode tgc(const Values& p, double grow) {
   const double e = grow / height;
   const Ends first = grown({length(a), length(c)}, e, grow);
   const Ends second = grown({length(b), length(d)}, e, grow);
-  const Affine map = frame((first.base / length(a)) * a, (second.base / length(b)) * b, (1 + 2 * e) * h,
-                           v - e * h);
+  const Affine map = frame((first.base / length(a)) * a, (second.base / length(b)) * b,
+                           (1 + 2 * e) * h, v - e * h);
   if (!map.inverse()) return problem("it has no volume");
   double x = first.top / first.base, y = second.top / second.base;
   if (x < kTiny) x = 0;
@@ -261,7 +270,8 @@ BrlcadNode arb(const Values& p, double grow) {
     double offset = dot(n, distinct[0]);
     for (const Vec3& q : distinct) {
       if (std::fabs(dot(n, q) - offset) <= slack) continue;
-      return refusal("a face is not flat: a corner lies " + std::to_string(std::fabs(dot(n, q) - offset)) +
+      return refusal("a face is not flat: a corner lies " +
+                     std::to_string(std::fabs(dot(n, q) - offset)) +
                      " mm off the plane of the others");
     }
     if (dot(n, center) > offset) {
@@ -277,8 +287,8 @@ BrlcadNode arb(const Values& p, double grow) {
   return built(node_of(std::move(shape)));
 }
 
-/// A quadric's box in a frame whose axes are made longer by `grow` on both sides; the surface itself moves outwards
-/// by a shift of its constant.
+/// A quadric's box in a frame whose axes are made longer by `grow` on both sides; the surface
+/// itself moves outwards by a shift of its constant.
 BrlcadNode quadric(std::array<double, 4> q, Vec3 lo, Vec3 hi, const Affine& map, double grow) {
   if (!map.inverse()) return problem("it has no volume");
   double shift = 0;
@@ -295,7 +305,8 @@ BrlcadNode quadric(std::array<double, 4> q, Vec3 lo, Vec3 hi, const Affine& map,
   return built(node_of(QuadricShape{q, lo, hi}, map));
 }
 
-/// The depth of the hyperbola's asymptotes' crossing behind its tip, in heights, gives 1, z and z² their factors.
+/// The depth of the hyperbola's asymptotes' crossing behind its tip, in heights, gives 1, z and z²
+/// their factors.
 std::array<double, 4> hyperbola(double second, double c) {
   const double k = 2 * c + 1;
   return {second, -1 / k, 2 * (c + 1) / k, -1};
@@ -309,7 +320,8 @@ BrlcadNode trough(const Values& p, bool is_hyperbolic, double grow) {
   const double c = is_hyperbolic ? p.number(10) * p.scale() / length(b) : 0;
   if (is_hyperbolic && !(c > 0)) return problem("its distance to the asymptotes is not above 0");
   const auto q = is_hyperbolic ? hyperbola(0, c) : std::array<double, 4>{0, 0, 1, -1};
-  return quadric(q, {-1, 0, 0}, {1, 1, 1}, frame(r * normalized(cross(h, b)), h, b, p.point(0)), grow);
+  return quadric(q, {-1, 0, 0}, {1, 1, 1}, frame(r * normalized(cross(h, b)), h, b, p.point(0)),
+                 grow);
 }
 
 /// epa and ehy.
@@ -328,10 +340,12 @@ BrlcadNode bowl(const Values& p, bool is_hyperbolic, double grow) {
 BrlcadNode hyp(const Values& p, double grow) {
   const Vec3 h = p.vector(1), a = p.vector(2);
   const double b = p.number(9) * p.scale(), neck = p.number(10);
-  if (!(neck > 0 && neck <= 1 && b > 0)) return problem("a radius or its neck's ratio is out of range");
+  if (!(neck > 0 && neck <= 1 && b > 0))
+    return problem("a radius or its neck's ratio is out of range");
   const double most = 1 / neck;
   return quadric({1, 1 - most * most, 0, -1}, {-most, -most, -1}, {most, most, 1},
-                 frame(neck * a, neck * b * normalized(cross(h, a)), 0.5 * h, p.point(0) + 0.5 * h), grow);
+                 frame(neck * a, neck * b * normalized(cross(h, a)), 0.5 * h, p.point(0) + 0.5 * h),
+                 grow);
 }
 
 BrlcadNode eto(const Values& p, double grow) {
@@ -361,10 +375,10 @@ BrlcadNode particle(const Values& p, double grow) {
   const double sine = (rv - rh) / l;
   const double cosine = std::sqrt(1 - sine * sine);
   const Vec3 along = (1 / l) * h;
-  return built(operation(Operation::kUnion,
-                         {node_of(SphereShape{v, rv}), node_of(SphereShape{v + h, rh}),
-                          round_cone(v + rv * sine * along, rv * cosine, v + h + rh * sine * along,
-                                     rh * cosine)}));
+  return built(operation(
+      Operation::kUnion,
+      {node_of(SphereShape{v, rv}), node_of(SphereShape{v + h, rh}),
+       round_cone(v + rv * sine * along, rv * cosine, v + h + rh * sine * along, rh * cosine)}));
 }
 
 struct PipePoint {
@@ -373,9 +387,11 @@ struct PipePoint {
 };
 
 /// The solid that a pipe's outside (or inside) sweeps: cones, and sectors of tori around the bends.
-bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow, std::vector<CsgNode>& out,
-           std::string& why) {
-  const auto radius = [&](const PipePoint& p) { return 0.5 * (is_inner ? p.inner : p.outer) + grow; };
+bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
+           std::vector<CsgNode>& out, std::string& why) {
+  const auto radius = [&](const PipePoint& p) {
+    return 0.5 * (is_inner ? p.inner : p.outer) + grow;
+  };
   const auto has_any = [&](const PipePoint& p) { return (is_inner ? p.inner : p.outer) > 0; };
   Vec3 from = points.front().at;
   const auto straight = [&](const Vec3& to, const PipePoint& a, const PipePoint& b) {
@@ -429,7 +445,8 @@ BrlcadNode pipe(const Values& p, double grow) {
     const double* v = p.v.data() + i;
     points.push_back({p.map.point({v[0], v[1], v[2]}), v[3] * scale, v[4] * scale, v[5] * scale});
     is_hollow = is_hollow || v[3] > 0;
-    if (!(v[4] > 0) || v[3] < 0 || v[3] > v[4] || v[5] < 0) return problem("a diameter is out of range");
+    if (!(v[4] > 0) || v[3] < 0 || v[3] > v[4] || v[5] < 0)
+      return problem("a diameter is out of range");
   }
   if (points.size() < 2) return problem("it has fewer than two points");
   std::vector<CsgNode> outside, inside;
@@ -452,7 +469,8 @@ BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double 
   switch (solid.kind) {
     case BrlcadKind::kArb8: return arb(p, grow);
     case BrlcadKind::kTgc: return tgc(p, grow);
-    case BrlcadKind::kEll: return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
+    case BrlcadKind::kEll:
+      return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
     case BrlcadKind::kSuperell: return superell(p, grow);
     case BrlcadKind::kTor: return torus(p, grow);
     case BrlcadKind::kHalf: return half(p, grow);

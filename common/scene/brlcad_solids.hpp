@@ -9,12 +9,13 @@
 
 namespace graycube {
 
-/// rt takes surfaces of one region that are nearer to each other than this, in mm, for one: so a cut flush with
-/// a face leaves no skin. Here what is cut off is that much larger.
+/// rt takes surfaces of one region that are nearer to each other than this, in mm, for one: so a
+/// cut flush with a face leaves no skin. Here what is cut off is that much larger.
 inline constexpr double kBrlcadSkin = 0.0005;
 /// Coordinates further off than this, in mm, mean nothing; their products might overflow.
 inline constexpr double kMostBrlcadSize = 1e12;
-/// Corners of an arb may lie so far off their face's plane, in parts of the arb's size, or in kBrlcadSkin.
+/// Corners of an arb may lie so far off their face's plane, in parts of the arb's size, or in
+/// kBrlcadSkin.
 inline constexpr double kBrlcadPlanar = 1e-3;
 
 struct BrlcadNode {

@@ -1,4 +1,5 @@
-// The Boolean tree of one BRL-CAD combination: built from operations in postfix order, or read from Tcl text.
+// The Boolean tree of one BRL-CAD combination: built from operations in postfix order, or read from
+// Tcl text.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ inline constexpr std::size_t kMaxBrlcadMembers = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxBrlcadTreeDepth = 100;
 
 struct BrlcadTree {
-  /// Unions and intersections of two or more, a difference of the first and the others, either and not both,
-  /// the complement of one.
+  /// Unions and intersections of two or more, a difference of the first and the others, either and
+  /// not both, the complement of one.
   enum class Op : std::uint8_t { kLeaf, kUnion, kIntersection, kDifference, kXor, kNot };
   Op op = Op::kLeaf;
   std::string name;
@@ -25,9 +26,9 @@ struct BrlcadTree {
   std::vector<BrlcadTree> children;
 };
 
-/// Builds a tree from its operations in postfix order. Chains of unions, of intersections and of differences
-/// from one solid become one node. However a chain leans, each member is moved a logarithmic number of
-/// times at most, and once if it leans to one side.
+/// Builds a tree from its operations in postfix order. Chains of unions, of intersections and of
+/// differences from one solid become one node. However a chain leans, each member is moved a
+/// logarithmic number of times at most, and once if it leans to one side.
 class BrlcadTreeBuilder {
  public:
   void leaf(std::string name, std::optional<Affine> matrix);
@@ -55,8 +56,9 @@ class BrlcadTreeBuilder {
   std::size_t leaves_ = 0;
 };
 
-/// Reads {l NAME MATRIX?} or {OP LEFT RIGHT}, without the outermost braces, in one pass; the operations are u, n or +, -, ^
-/// and ! (of one operand). Nothing when the text is something else, and then `problem` says what.
+/// Reads {l NAME MATRIX?} or {OP LEFT RIGHT}, without the outermost braces, in one pass; the
+/// operations are u, n or +, -, ^ and ! (of one operand). Nothing when the text is something else,
+/// and then `problem` says what.
 std::optional<BrlcadTree> read_brlcad_tree_text(std::string_view text, std::string& problem);
 
 }  // namespace graycube

@@ -1,5 +1,5 @@
-// Reads a combination's tree from Tcl text. Each byte is looked at once, however deep the lists nest: levels live on a
-// stack here, and words are cut where their level ends.
+// Reads a combination's tree from Tcl text. Each byte is looked at once, however deep the lists
+// nest: levels live on a stack here, and words are cut where their level ends.
 #include <algorithm>
 #include <array>
 
@@ -63,8 +63,9 @@ class TreeTextReader {
     return operand() && (is_in_braces_ || tail());
   }
 
-  /// Goes into the operand that comes where it is in braces, as BRL-CAD writes them; reads it whole where it is quoted in
-  /// another of Tcl's ways. Few of those stand in each other: each takes twice the backslashes of the one around it.
+  /// Goes into the operand that comes where it is in braces, as BRL-CAD writes them; reads it whole
+  /// where it is quoted in another of Tcl's ways. Few of those stand in each other: each takes
+  /// twice the backslashes of the one around it.
   bool operand() {
     is_in_braces_ = words_.open_list();
     if (is_in_braces_) return true;
@@ -79,7 +80,8 @@ class TreeTextReader {
     if (words_.next(matrix)) {
       std::vector<double> numbers;
       std::array<double, 16> m{};
-      if (append_brlcad_numbers(matrix, 16, numbers)) std::copy(numbers.begin(), numbers.end(), m.begin());
+      if (append_brlcad_numbers(matrix, 16, numbers))
+        std::copy(numbers.begin(), numbers.end(), m.begin());
       map = brlcad_matrix(m);
       if (!map) {
         problem_ = "the matrix of its member " + name + " is no invertible affine map";

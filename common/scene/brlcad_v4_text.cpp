@@ -25,7 +25,9 @@ enum SolidType : long {
 
 using Values = std::vector<double>;
 
-double length_at(const Values& v, std::size_t at) { return length(Vec3{v[at], v[at + 1], v[at + 2]}); }
+double length_at(const Values& v, std::size_t at) {
+  return length(Vec3{v[at], v[at + 1], v[at + 2]});
+}
 
 void make_unit(Values& v, std::size_t at) {
   const double l = length_at(v, at);
@@ -77,7 +79,8 @@ class V4TextReader {
       case 'w': return pipe();
       case 'n': return arbn();
       case 't': return bot();
-      case 'M': return report_.warning_once("M", where(), "a member without its combination is left out");
+      case 'M':
+        return report_.warning_once("M", where(), "a member without its combination is left out");
       default: return foreign();
     }
   }
@@ -88,7 +91,8 @@ class V4TextReader {
     if (words.size() < 2 || words.front().size() != 1) {
       return report_.warning_once("?", where(), "a record of unknown kind is left out");
     }
-    if (line_.front() == 's' && words.size() > 2) return add(words[2], BrlcadForeign{std::string(words[1])});
+    if (line_.front() == 's' && words.size() > 2)
+      return add(words[2], BrlcadForeign{std::string(words[1])});
     add(words[1], BrlcadForeign{"a record '" + std::string(words.front()) + "'"});
   }
 
@@ -150,8 +154,8 @@ class V4TextReader {
     add(words[2], std::move(out));
   }
 
-  /// C FLAG NAME region air members reference material los override r g b [shader? parameters? inherit],
-  /// then lines for shader and parameters, then its members.
+  /// C FLAG NAME region air members reference material los override r g b [shader? parameters?
+  /// inherit], then lines for shader and parameters, then its members.
   void comb() {
     const auto words = blank_separated(line_, 17);
     const std::string name(words.size() > 2 ? words[2] : "");
@@ -177,7 +181,8 @@ class V4TextReader {
     database_.add({name, at, std::move(out)});
   }
 
-  /// u, + and − in the order of their binding: products of intersections and subtractions, then their union.
+  /// u, + and − in the order of their binding: products of intersections and subtractions, then
+  /// their union.
   bool members(const std::string& name, BrlcadComb& out) {
     using Op = BrlcadTree::Op;
     BrlcadTreeBuilder builder;
@@ -200,7 +205,8 @@ class V4TextReader {
       }
       const auto matrix = brlcad_matrix(m);
       if (!matrix) {
-        fail("the matrix of " + std::string(words[2]) + " in " + name + " is no invertible affine map");
+        fail("the matrix of " + std::string(words[2]) + " in " + name +
+             " is no invertible affine map");
         return false;
       }
       const char relation = products == 0 ? 'u' : words[1].front();
@@ -225,12 +231,15 @@ class V4TextReader {
   /// A NAME … curves points, then B records of up to 8 points each.
   void ars() {
     const auto words = blank_separated(line_, 5);
-    const auto curves = words.size() > 3 ? parse_brlcad_integer(words[words.size() - 2]) : std::nullopt;
+    const auto curves =
+        words.size() > 3 ? parse_brlcad_integer(words[words.size() - 2]) : std::nullopt;
     const auto per_curve = words.size() > 3 ? parse_brlcad_integer(words.back()) : std::nullopt;
     if (!curves || !per_curve || *curves < 2 || *per_curve < 3 ||
         static_cast<double>(*curves) * static_cast<double>(*per_curve) >
             static_cast<double>(kMaxBrlcadVertices)) {
-      return fail("an ars wants a name, the number of its curves (2 or more) and of their points (3 or more)");
+      return fail(
+          "an ars wants a name, the number of its curves (2 or more) and of their points (3 or "
+          "more)");
     }
     const std::string name(words[words.size() - 3]);
     const std::string at = where();
@@ -315,7 +324,8 @@ class V4TextReader {
     const long vertices = integer(5), faces = integer(6);
     if (vertices < 0 || faces < 0 || vertices > static_cast<long>(kMaxBrlcadVertices) ||
         faces > static_cast<long>(kMaxBrlcadVertices)) {
-      return fail("a bot wants name, mode, orientation, error mode, number of vertices and of faces");
+      return fail(
+          "a bot wants name, mode, orientation, error mode, number of vertices and of faces");
     }
     const std::string name(words[1]), at = where();
     const long mode = integer(2);
@@ -340,7 +350,9 @@ class V4TextReader {
     constexpr long kSolidMode = 2, kPlateMode = 3;
     if (mode == kPlateMode) next_line();
     if (mode != kSolidMode) {
-      database_.add({name, at, BrlcadForeign{"bot in " + std::string(mode == 1 ? "surface" : "plate") + " mode"}});
+      database_.add(
+          {name, at,
+           BrlcadForeign{"bot in " + std::string(mode == 1 ? "surface" : "plate") + " mode"}});
       return;
     }
     database_.add({name, at, std::move(out)});

@@ -1,5 +1,5 @@
-// BRL-CAD's text of version 5: a Tcl script of `put NAME KIND KEY VALUE …`, `attr set NAME KEY VALUE …`, `title`,
-// `units` and `color`.
+// BRL-CAD's text of version 5: a Tcl script of `put NAME KIND KEY VALUE …`, `attr set NAME KEY
+// VALUE …`, `title`, `units` and `color`.
 #include <span>
 #include <unordered_map>
 
@@ -36,24 +36,32 @@ constexpr Key kSuperell[] = {{"V", 3}, {"A", 3}, {"B", 3}, {"C", 3}, {"n", 1}, {
 constexpr Key kPart[] = {{"V", 3}, {"H", 3}, {"r_v", 1}, {"r_h", 1}};
 
 constexpr Layout kLayouts[] = {
-    {"arb8", BrlcadKind::kArb8, kArb8}, {"tgc", BrlcadKind::kTgc, kTgc},
-    {"rec", BrlcadKind::kTgc, kTgc},    {"ell", BrlcadKind::kEll, kEll},
-    {"sph", BrlcadKind::kEll, kEll},    {"tor", BrlcadKind::kTor, kTor},
-    {"half", BrlcadKind::kHalf, kHalf}, {"rpc", BrlcadKind::kRpc, kRpc},
-    {"rhc", BrlcadKind::kRhc, kRhc},    {"epa", BrlcadKind::kEpa, kEpa},
-    {"ehy", BrlcadKind::kEhy, kEhy},    {"hyp", BrlcadKind::kHyp, kHyp},
-    {"eto", BrlcadKind::kEto, kEto},    {"part", BrlcadKind::kPart, kPart},
+    {"arb8", BrlcadKind::kArb8, kArb8},
+    {"tgc", BrlcadKind::kTgc, kTgc},
+    {"rec", BrlcadKind::kTgc, kTgc},
+    {"ell", BrlcadKind::kEll, kEll},
+    {"sph", BrlcadKind::kEll, kEll},
+    {"tor", BrlcadKind::kTor, kTor},
+    {"half", BrlcadKind::kHalf, kHalf},
+    {"rpc", BrlcadKind::kRpc, kRpc},
+    {"rhc", BrlcadKind::kRhc, kRhc},
+    {"epa", BrlcadKind::kEpa, kEpa},
+    {"ehy", BrlcadKind::kEhy, kEhy},
+    {"hyp", BrlcadKind::kHyp, kHyp},
+    {"eto", BrlcadKind::kEto, kEto},
+    {"part", BrlcadKind::kPart, kPart},
     {"superell", BrlcadKind::kSuperell, kSuperell},
 };
 
 using Words = std::vector<std::string>;
 
-/// g2asc puts a name in braces and a backslash before each brace of its own. Tcl leaves the backslashes there, but in a tree
-/// the name stands without them.
+/// g2asc puts a name in braces and a backslash before each brace of its own. Tcl leaves the
+/// backslashes there, but in a tree the name stands without them.
 std::string name_of(std::string_view word) {
   std::string name;
   for (std::size_t i = 0; i < word.size(); ++i) {
-    const bool escapes = word[i] == '\\' && i + 1 < word.size() && (word[i + 1] == '{' || word[i + 1] == '}');
+    const bool escapes =
+        word[i] == '\\' && i + 1 < word.size() && (word[i + 1] == '{' || word[i + 1] == '}');
     if (!escapes) name += word[i];
   }
   return name;
@@ -193,7 +201,8 @@ class V5TextReader {
   BrlcadSolid arbn(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kArbn, {}, {}};
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
-      if (words[i].size() < 2 || words[i][0] != 'P' || solid.values.size() >= kMaxBrlcadNumbers) continue;
+      if (words[i].size() < 2 || words[i][0] != 'P' || solid.values.size() >= kMaxBrlcadNumbers)
+        continue;
       if (!append_brlcad_numbers(words[i + 1], 4, solid.values)) {
         fail(words[1], "expected " + words[i] + " with 4 numbers");
         break;
@@ -212,13 +221,14 @@ class V5TextReader {
       for (std::size_t i = at; i < at + 8; i += 2) {
         std::vector<double> v;
         const bool is_place = words[i] == "V" + number;
-        const std::size_t slot = is_place                 ? 0
+        const std::size_t slot = is_place                   ? 0
                                  : words[i] == "I" + number ? 3
                                  : words[i] == "O" + number ? 4
                                  : words[i] == "R" + number ? 5
                                                             : 6;
         if (slot == 6 || !append_brlcad_numbers(words[i + 1], is_place ? 3 : 1, v)) {
-          fail(words[1], "expected V" + number + ", O" + number + ", I" + number + " and R" + number);
+          fail(words[1],
+               "expected V" + number + ", O" + number + ", I" + number + " and R" + number);
           return solid;
         }
         std::copy(v.begin(), v.end(), point.begin() + static_cast<std::ptrdiff_t>(slot));

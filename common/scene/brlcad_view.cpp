@@ -20,7 +20,8 @@ Camera looking(const Vec3& eye, const Vec3& up, const Vec3& backward, double vie
   Camera camera;
   camera.projection = Projection::kOrthographic;
   camera.eye = eye;
-  // As far as the picture is wide, or as the eye from the origin: subtracting the eye must leave digits.
+  // As far as the picture is wide, or as the eye from the origin: subtracting the eye must leave
+  // digits.
   camera.look_at = eye - std::fmax(view_size, max_abs(eye)) * backward;
   camera.up = up;
   camera.width = view_size;
@@ -60,9 +61,10 @@ class ViewReader {
     }
     if (look_at_) orient_by_point();
     if (!view_size_ || !eye_ || !axes_) {
-      report_.error("", "the view lacks " + std::string(!view_size_ ? "viewsize"
-                                                        : !eye_     ? "eye_pt"
-                                                                    : "viewrot, orientation or lookat_pt"));
+      report_.error("",
+                    "the view lacks " + std::string(!view_size_ ? "viewsize"
+                                                    : !eye_     ? "eye_pt"
+                                                            : "viewrot, orientation or lookat_pt"));
       return std::nullopt;
     }
     Camera camera = looking(*eye_, axes_->up, axes_->backward, *view_size_);
@@ -86,7 +88,8 @@ class ViewReader {
     for (std::size_t i = 0; i < count; ++i) {
       const auto v = from + i < words.size() ? parse_brlcad_number(words[from + i]) : std::nullopt;
       if (!v || std::fabs(*v) > kMostNumber) {
-        return fail(words.front(), "expected " + std::to_string(count) + " numbers, none beyond 1e12");
+        return fail(words.front(),
+                    "expected " + std::to_string(count) + " numbers, none beyond 1e12");
       }
       out[i] = *v;
     }

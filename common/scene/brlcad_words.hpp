@@ -10,22 +10,24 @@
 
 namespace graycube {
 
-/// Cuts Tcl words off a text: `{braced, nested}` as they are, `"quoted"`, or bare; backslashes escape one
-/// character in the last two. In a script (kAtLine), words end with their line or at a semicolon. Lists in lists are read
-/// in one pass by kAtBrace: words end at the brace that closes the list.
+/// Cuts Tcl words off a text: `{braced, nested}` as they are, `"quoted"`, or bare; backslashes
+/// escape one character in the last two. In a script (kAtLine), words end with their line or at a
+/// semicolon. Lists in lists are read in one pass by kAtBrace: words end at the brace that closes
+/// the list.
 class TclWords {
  public:
   enum class Ends : std::uint8_t { kAtLine, kAtText, kAtBrace };
 
   explicit TclWords(std::string_view text, Ends ends = Ends::kAtText) : text_(text), ends_(ends) {}
 
-  /// False when there is none any more (in a script: on this line), or when one has no end (is_broken).
+  /// False when there is none any more (in a script: on this line), or when one has no end
+  /// (is_broken).
   bool next(std::string& word);
   /// A script's next line with words on it; false at the text's end.
   bool next_line();
   bool is_broken() const { return is_broken_; }
-  /// Goes into the list that is the next word, or out of the list whose words are done; false when what comes is something
-  /// else. For kAtBrace.
+  /// Goes into the list that is the next word, or out of the list whose words are done; false when
+  /// what comes is something else. For kAtBrace.
   bool open_list() { return take_brace('{'); }
   bool close_list() { return take_brace('}'); }
   bool at_end_of_list();

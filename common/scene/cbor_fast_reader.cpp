@@ -6,7 +6,14 @@
 namespace graycube {
 namespace {
 
-enum Major : std::uint8_t { kUnsigned = 0, kNegative = 1, kText = 3, kArray = 4, kMap = 5, kSimple = 7 };
+enum Major : std::uint8_t {
+  kUnsigned = 0,
+  kNegative = 1,
+  kText = 3,
+  kArray = 4,
+  kMap = 5,
+  kSimple = 7
+};
 
 template <int kBytes>
 std::uint64_t big_endian(const char* at) {
@@ -35,7 +42,8 @@ bool FastCborReader::read_up_to(std::string_view last) {
     if (!read_key(key) || (left > 1 && !read_value(key))) return false;
   }
   if (std::string_view(begin_ + key.begin, key.length) != last) return false;
-  if (!read_head(at_, end_, head) || head.major != kArray || head.argument > 0xFFFFFFFFu) return false;
+  if (!read_head(at_, end_, head) || head.major != kArray || head.argument > 0xFFFFFFFFu)
+    return false;
   add(JsonKind::kArray, at_, head.argument, key);
   outer_levels_ = 2;
   kept_values_ = tree_.values_.size();
@@ -85,7 +93,8 @@ bool FastCborReader::read_value(Key key) {
       if (outer_levels_ + levels_.size() >= kMaxJsonNesting) return false;
       --level.left;
       levels_.push_back(level);
-      level = {add(is_map ? JsonKind::kObject : JsonKind::kArray, at, head.argument, key), is_map, head.argument};
+      level = {add(is_map ? JsonKind::kObject : JsonKind::kArray, at, head.argument, key), is_map,
+               head.argument};
       key = {};
       continue;
     } else {
@@ -109,7 +118,8 @@ bool FastCborReader::read_key(Key& key) {
 inline bool FastCborReader::read_head(const char*& at, const char* end, Head& head) {
   if (at == end) return false;
   const auto first = static_cast<std::uint8_t>(*at++);
-  head = {static_cast<std::uint8_t>(first >> 5), static_cast<std::uint8_t>(first & 31), first & 31u};
+  head = {static_cast<std::uint8_t>(first >> 5), static_cast<std::uint8_t>(first & 31),
+          first & 31u};
   if (head.info < 24) return true;
   if (head.info > 27) return false;
   const int count = 1 << (head.info - 24);
@@ -125,7 +135,8 @@ inline bool FastCborReader::read_head(const char*& at, const char* end, Head& he
 }
 
 inline bool FastCborReader::skip_text(const char*& at, const char* end, const Head& head) {
-  if (head.argument > kMaxJsonString || static_cast<std::size_t>(end - at) < head.argument) return false;
+  if (head.argument > kMaxJsonString || static_cast<std::size_t>(end - at) < head.argument)
+    return false;
   at += head.argument;
   return true;
 }
@@ -150,9 +161,11 @@ inline bool FastCborReader::scalar_of(const Head& head, JsonKind& kind, std::uin
   return std::isfinite(number);
 }
 
-inline JsonIndex FastCborReader::add(JsonKind kind, const char* at, std::uint64_t payload, const Key& key) {
+inline JsonIndex FastCborReader::add(JsonKind kind, const char* at, std::uint64_t payload,
+                                     const Key& key) {
   const auto self = static_cast<JsonIndex>(tree_.values_.size());
-  tree_.values_.push_back({payload, offset(at), self + 1, key.begin, key.length, kind, false, false});
+  tree_.values_.push_back(
+      {payload, offset(at), self + 1, key.begin, key.length, kind, false, false});
   return self;
 }
 

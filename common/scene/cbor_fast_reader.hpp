@@ -1,5 +1,6 @@
-// Reads what our writer writes in CBOR in one plain loop, and gives up at the first thing that is wrong or unusual. A scene
-// can be read without ever holding the whole tree: all but its objects first, then these one at a time.
+// Reads what our writer writes in CBOR in one plain loop, and gives up at the first thing that is
+// wrong or unusual. A scene can be read without ever holding the whole tree: all but its objects
+// first, then these one at a time.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +12,19 @@
 
 namespace graycube {
 
-/// Accepts heads with a length, doubles, singles, integers, texts in one piece, arrays, maps, true, false and null. Each
-/// function returns false at anything else; the tree then holds anything.
+/// Accepts heads with a length, doubles, singles, integers, texts in one piece, arrays, maps, true,
+/// false and null. Each function returns false at anything else; the tree then holds anything.
 class FastCborReader {
  public:
   /// `tree` must be empty, and its text begin with the magic.
   explicit FastCborReader(JsonTree& tree);
 
   bool read_whole();
-  /// Everything up to the elements of the root's last member, which must be an array called `key`: it gets its size, but no
-  /// children. Elements come by read_element().
+  /// Everything up to the elements of the root's last member, which must be an array called `key`:
+  /// it gets its size, but no children. Elements come by read_element().
   bool read_up_to(std::string_view key);
-  /// Reads the next element behind what read_up_to() has read, in the place of the one before; `at` is where it is.
+  /// Reads the next element behind what read_up_to() has read, in the place of the one before; `at`
+  /// is where it is.
   bool read_element(JsonIndex& at);
   bool is_at_end() const { return at_ == end_; }
 

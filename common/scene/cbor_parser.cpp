@@ -1,4 +1,5 @@
-// Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser: it decides what is CBOR here, and words what is wrong.
+// Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser: it decides what is CBOR here, and
+// words what is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +26,8 @@ class CborEvents {
   void parse() {
     const char* const begin = bytes_.data() + kCborMagic.size();
     reached_ = begin;
-    Json::sax_parse(TrackedText(begin, &reached_), TrackedText(bytes_.data() + bytes_.size(), &reached_), this,
+    Json::sax_parse(TrackedText(begin, &reached_),
+                    TrackedText(bytes_.data() + bytes_.size(), &reached_), this,
                     Json::input_format_t::cbor, true);
     // Also after a failure, so that pointers to what was read stay right.
     filling_.close_all();
@@ -33,8 +35,12 @@ class CborEvents {
 
   bool null() { return add(JsonKind::kNull); }
   bool boolean(bool value) { return add(value ? JsonKind::kTrue : JsonKind::kFalse); }
-  bool number_integer(Json::number_integer_t value) { return add_number(static_cast<double>(value)); }
-  bool number_unsigned(Json::number_unsigned_t value) { return add_number(static_cast<double>(value)); }
+  bool number_integer(Json::number_integer_t value) {
+    return add_number(static_cast<double>(value));
+  }
+  bool number_unsigned(Json::number_unsigned_t value) {
+    return add_number(static_cast<double>(value));
+  }
   bool number_float(double value, std::string_view) {
     if (!std::isfinite(value)) return filling_.fail(offset(), "expected a finite number");
     return add_number(value);
@@ -56,7 +62,8 @@ class CborEvents {
   bool binary(Json::binary_t&) { return filling_.fail(offset(), "byte strings are not accepted"); }
 
   /// `position` counts the bytes read behind the magic, the end as one.
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) {
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::detail::exception& error) {
     std::string_view why = error.what();
     constexpr std::string_view kParsing = "while parsing ";
     const std::size_t parsing = why.find(kParsing);
@@ -87,7 +94,8 @@ class CborEvents {
   bool open(JsonKind kind) {
     if (!has_room()) return false;
     return filling_.open(kind, offset()) ||
-           filling_.fail(offset(), "arrays and maps nest deeper than " + std::to_string(kMaxJsonNesting));
+           filling_.fail(offset(),
+                         "arrays and maps nest deeper than " + std::to_string(kMaxJsonNesting));
   }
   bool close() {
     filling_.close();
@@ -96,7 +104,8 @@ class CborEvents {
 
   bool fits(std::string_view value) {
     return value.size() <= kMaxJsonString ||
-           filling_.fail(offset(), "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
+           filling_.fail(offset(),
+                         "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
   }
   /// A string in one piece stays among the bytes; one in chunks is copied.
   JsonFilling::Text kept(std::string_view value) {

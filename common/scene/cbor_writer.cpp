@@ -7,7 +7,14 @@
 namespace graycube {
 namespace {
 
-enum Major : std::uint8_t { kUnsigned = 0, kNegative = 1, kText = 3, kArray = 4, kMap = 5, kSimple = 7 };
+enum Major : std::uint8_t {
+  kUnsigned = 0,
+  kNegative = 1,
+  kText = 3,
+  kArray = 4,
+  kMap = 5,
+  kSimple = 7
+};
 constexpr std::uint8_t kFalse = 20, kTrue = 21, kNull = 22, kSingle = 26, kDouble = 27;
 /// Integers up to here are written as such; beyond, doubles are as short.
 constexpr double kMaxInteger = 4294967296.0;
@@ -41,9 +48,11 @@ class CborWriter {
     bytes_ += s;
   }
   void number(double v) {
-    const bool is_integer = v == std::floor(v) && std::fabs(v) < kMaxInteger && !(v == 0 && std::signbit(v));
+    const bool is_integer =
+        v == std::floor(v) && std::fabs(v) < kMaxInteger && !(v == 0 && std::signbit(v));
     if (is_integer) {
-      return v >= 0 ? head(kUnsigned, static_cast<std::uint64_t>(v)) : head(kNegative, static_cast<std::uint64_t>(-v) - 1);
+      return v >= 0 ? head(kUnsigned, static_cast<std::uint64_t>(v))
+                    : head(kNegative, static_cast<std::uint64_t>(-v) - 1);
     }
     const auto single = static_cast<float>(v);
     if (static_cast<double>(single) == v) {

@@ -36,7 +36,8 @@ class Compiler {
     exactness_.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
     unify_coincident_surfaces(model_, exactness_);
-    for (Object& object : model_.objects) object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    for (Object& object : model_.objects)
+      object.bounds = bounds_of(model_.tree(object), model_.primitives);
     model_.delta = delta();
     return std::move(model_);
   }
@@ -65,7 +66,9 @@ class Compiler {
         Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
                    [&](const ReferenceNode& n) { emit(scene_.shapes[n.shape].node, context); },
                    [&](const PrismShape& shape) { emit_prism(shape, context); },
-                   [&](const auto& shape) { emit_leaf(node, build(context.to_world.map, shape), context); }},
+                   [&](const auto& shape) {
+                     emit_leaf(node, build(context.to_world.map, shape), context);
+                   }},
         node.value);
   }
 
@@ -97,7 +100,8 @@ class Compiler {
 
   void emit_prism(const PrismShape& shape, const Context& context) {
     const auto solid = prism_of(shape);
-    GRAYCUBE_CHECK(solid.has_value(), "a prism without an area, of %zu points", shape.points.size());
+    GRAYCUBE_CHECK(solid.has_value(), "a prism without an area, of %zu points",
+                   shape.points.size());
     emit(*solid, context);
   }
 
@@ -150,7 +154,9 @@ class Compiler {
     return build_polyhedron(m, faces, model_.planes);
   }
 
-  Primitive build(const Affine& m, const MeshShape& s) { return build_mesh(m, s.mesh, model_.meshes); }
+  Primitive build(const Affine& m, const MeshShape& s) {
+    return build_mesh(m, s.mesh, model_.meshes);
+  }
 
   double delta() const {
     double largest = max_abs(scene_.settings.camera.eye);

@@ -1,5 +1,5 @@
-// From the scene as written to the model as rendered: references expanded, transforms applied, trees in
-// negation normal form, everything in world coordinates.
+// From the scene as written to the model as rendered: references expanded, transforms applied,
+// trees in negation normal form, everything in world coordinates.
 #pragma once
 
 #include "csg/model.hpp"
@@ -8,7 +8,8 @@
 namespace graycube {
 
 /// The scene must have passed read_scene's checks (no cycles, every leaf has a material, all maps
-/// invertible). Objects whose tree is empty space or everything for good are kept: they have no surface.
+/// invertible). Objects whose tree is empty space or everything for good are kept: they have no
+/// surface.
 Model compile_scene(const Scene& scene);
 
 }  // namespace graycube

@@ -21,7 +21,8 @@ std::vector<SceneError> ErrorReport::take(std::string_view text) {
   std::vector<SceneError> errors;
   for (std::size_t i = 0; i < found_.size(); ++i)
     errors.push_back({tree_.pointer(found_[i].where), std::move(found_[i].message),
-                      tree_.is_cbor() ? 0 : positions[i].line, tree_.is_cbor() ? 0 : positions[i].column});
+                      tree_.is_cbor() ? 0 : positions[i].line,
+                      tree_.is_cbor() ? 0 : positions[i].column});
   if (not_kept_ > 0) errors.push_back({"", "and " + std::to_string(not_kept_) + " more errors"});
   found_.clear();
   return errors;

@@ -33,10 +33,10 @@ struct TreeSummary {
   std::vector<ShapeUse> uses;
 };
 
-/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves, nodes or triangles of meshes than
-/// kMaxLeaves, kMaxExpandedNodes and kMaxMeshTriangles, and uses of shapes whose leaves stay without a material. Bare leaves of
-/// the objects' own trees are the caller's to report. `objects_at` is where the number of leaves is
-/// complained of.
+/// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves, nodes or triangles of
+/// meshes than kMaxLeaves, kMaxExpandedNodes and kMaxMeshTriangles, and uses of shapes whose leaves
+/// stay without a material. Bare leaves of the objects' own trees are the caller's to report.
+/// `objects_at` is where the number of leaves is complained of.
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,
                      std::vector<TreeSummary>& shapes, const std::vector<TreeSummary>& objects,
                      JsonIndex objects_at);

@@ -18,8 +18,8 @@ double beyond(const FlatEdge& edge, const FlatPoint& p) {
   return edge.normal.x * p.x + edge.normal.y * p.y - edge.offset;
 }
 
-/// The positions of the hull's corners in a simple loop, ascending; nothing when they don't stand in the loop's
-/// order, as they do in every simple one.
+/// The positions of the hull's corners in a simple loop, ascending; nothing when they don't stand
+/// in the loop's order, as they do in every simple one.
 std::optional<std::vector<std::size_t>> hull_positions(const FlatLoop& loop) {
   std::vector<std::size_t> order(loop.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -49,7 +49,8 @@ std::optional<std::vector<std::size_t>> hull_positions(const FlatLoop& loop) {
   return hull;
 }
 
-/// Cuts a polygon by a line: the corners on its inner side and where it crosses (Sutherland & Hodgman 1974).
+/// Cuts a polygon by a line: the corners on its inner side and where it crosses (Sutherland &
+/// Hodgman 1974).
 FlatLoop clipped(const FlatLoop& corners, const FlatEdge& edge) {
   FlatLoop kept;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -65,22 +66,24 @@ FlatLoop clipped(const FlatLoop& corners, const FlatEdge& edge) {
   return kept;
 }
 
-/// The convex part when the side between its last corner and its first is moved outwards by `distance`: the
-/// quadrangle between the old side and the new is cut by the two sides next to it.
+/// The convex part when the side between its last corner and its first is moved outwards by
+/// `distance`: the quadrangle between the old side and the new is cut by the two sides next to it.
 FlatLoop reaching_out(FlatLoop corners, const std::vector<FlatEdge>& edges, double distance) {
   const FlatPoint first = corners.front(), last = corners.back();
   const FlatPoint n = edges.back().normal;
   const FlatPoint along{-n.y, n.x};  // from `last` to `first`
-  // The neighbours widen by less than the whole piece is wide, since a piece is deep only where they are steep.
+  // The neighbours widen by less than the whole piece is wide, since a piece is deep only where
+  // they are steep.
   double extent = 0;
   for (const FlatPoint& p : corners) {
     extent = std::max(extent, std::fabs(along.x * (p.x - last.x) + along.y * (p.y - last.y)));
   }
   const double wide = 4 * (extent + distance);
-  FlatLoop strip{{last.x - wide * along.x, last.y - wide * along.y},
-                 {last.x - wide * along.x + distance * n.x, last.y - wide * along.y + distance * n.y},
-                 {first.x + wide * along.x + distance * n.x, first.y + wide * along.y + distance * n.y},
-                 {first.x + wide * along.x, first.y + wide * along.y}};
+  FlatLoop strip{
+      {last.x - wide * along.x, last.y - wide * along.y},
+      {last.x - wide * along.x + distance * n.x, last.y - wide * along.y + distance * n.y},
+      {first.x + wide * along.x + distance * n.x, first.y + wide * along.y + distance * n.y},
+      {first.x + wide * along.x, first.y + wide * along.y}};
   std::reverse(strip.begin(), strip.end());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) strip = clipped(strip, edges[i]);
   corners.insert(corners.end(), strip.begin(), strip.end());
@@ -90,7 +93,8 @@ FlatLoop reaching_out(FlatLoop corners, const std::vector<FlatEdge>& edges, doub
 class Cutter {
  public:
   /// The piece of a simple loop, counter-clockwise; `is_pocket`: its last side is the opening.
-  std::optional<FlatPiece> cut(const FlatLoop& loop, const FlatLoops& holes, bool is_pocket, int level) {
+  std::optional<FlatPiece> cut(const FlatLoop& loop, const FlatLoops& holes, bool is_pocket,
+                               int level) {
     if (level > kMaxPieceLevels) {
       too_deep_ = true;
       return std::nullopt;
@@ -117,7 +121,8 @@ class Cutter {
 
  private:
   /// What lies between the hull's side and the outline from one of its ends to the other.
-  bool add_pocket(const FlatLoop& loop, std::size_t from, std::size_t to, int level, FlatPiece& piece) {
+  bool add_pocket(const FlatLoop& loop, std::size_t from, std::size_t to, int level,
+                  FlatPiece& piece) {
     const std::size_t count = (to + loop.size() - from) % loop.size();
     if (count < 2) return true;
     FlatLoop pocket;

@@ -14,7 +14,8 @@ using ClipperLib::cInt;
 constexpr int kGridBits = 40;
 constexpr double kMiterLimit = 1e6;
 
-/// An exact sum of doubles, each part below the last bit of the next (Shewchuk 1997, Grow-Expansion).
+/// An exact sum of doubles, each part below the last bit of the next (Shewchuk 1997,
+/// Grow-Expansion).
 class ExactSum {
  public:
   void add(double value) {
@@ -162,7 +163,8 @@ FlatMap compose(const FlatMap& then, const FlatMap& first) {
   FlatMap r;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      r.m[i][j] = then.m[i][0] * first.m[0][j] + then.m[i][1] * first.m[1][j] + (j == 2 ? then.m[i][2] : 0.0);
+      r.m[i][j] = then.m[i][0] * first.m[0][j] + then.m[i][1] * first.m[1][j] +
+                  (j == 2 ? then.m[i][2] : 0.0);
     }
   }
   return r;
@@ -216,7 +218,9 @@ std::array<FlatPoint, 2> flat_bounds(std::span<const FlatLoop> loops) {
 
 // Andrew's monotone chain.
 FlatLoop flat_hull(std::vector<FlatPoint> points) {
-  const auto before = [](const FlatPoint& a, const FlatPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  const auto before = [](const FlatPoint& a, const FlatPoint& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  };
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
@@ -224,7 +228,8 @@ FlatLoop flat_hull(std::vector<FlatPoint> points) {
   const auto add_chain = [&](auto begin, auto end) {
     const std::size_t start = hull.size();
     for (auto p = begin; p != end; ++p) {
-      while (hull.size() >= start + 2 && orientation(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
+      while (hull.size() >= start + 2 && orientation(hull[hull.size() - 2], hull.back(), *p) <= 0)
+        hull.pop_back();
       hull.push_back(*p);
     }
     hull.pop_back();
@@ -243,11 +248,15 @@ bool crossings_are_few(std::span<const FlatLoops> operands) {
     for (const FlatLoop& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-        sides.push_back({a, b, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}});
+        sides.push_back({a,
+                         b,
+                         {std::min(a.x, b.x), std::min(a.y, b.y)},
+                         {std::max(a.x, b.x), std::max(a.y, b.y)}});
       }
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.lo.x < t.lo.x; });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& s, const Side& t) { return s.lo.x < t.lo.x; });
   const auto cross = [](const Side& s, const Side& t) {
     return orientation(s.a, s.b, t.a) * orientation(s.a, s.b, t.b) < 0 &&
            orientation(t.a, t.b, s.a) * orientation(t.a, t.b, s.b) < 0;
@@ -275,7 +284,8 @@ FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands)
       clipper.Clear();
       clipper.AddPaths(result, ClipperLib::ptSubject, true);
       clipper.AddPaths(simplified(grid.placed(loops)), ClipperLib::ptClip, true);
-      clipper.Execute(ClipperLib::ctIntersection, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+      clipper.Execute(ClipperLib::ctIntersection, result, ClipperLib::pftNonZero,
+                      ClipperLib::pftNonZero);
     }
     return grid.taken_back(result);
   }
@@ -283,12 +293,15 @@ FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands)
   for (const FlatLoops& loops : operands.subspan(1)) {
     clipper.AddPaths(simplified(grid.placed(loops)), ClipperLib::ptClip, true);
   }
-  clipper.Execute(operation == FlatOperation::kUnion ? ClipperLib::ctUnion : ClipperLib::ctDifference, result,
-                  ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  clipper.Execute(
+      operation == FlatOperation::kUnion ? ClipperLib::ctUnion : ClipperLib::ctDifference, result,
+      ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   return grid.taken_back(result);
 }
 
-FlatLoops resolved(const FlatLoops& loops) { return combined(FlatOperation::kUnion, std::span(&loops, 1)); }
+FlatLoops resolved(const FlatLoops& loops) {
+  return combined(FlatOperation::kUnion, std::span(&loops, 1));
+}
 
 std::vector<FlatRegion> regions_of(const FlatLoops& loops) {
   Grid grid(std::span(&loops, 1));

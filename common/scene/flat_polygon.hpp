@@ -38,8 +38,9 @@ struct FlatMap {
 FlatMap compose(const FlatMap& then, const FlatMap& first);
 FlatLoops mapped(const FlatMap& map, FlatLoops loops);
 
-/// The sign of the area of the triangle a, b, c: positive where it turns left. Exact: the error-free
-/// products of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), where rounding could tell.
+/// The sign of the area of the triangle a, b, c: positive where it turns left. Exact: the
+/// error-free products of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), where
+/// rounding could tell.
 int orientation(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c);
 
 /// Whether the point is within the loops, by the even-odd rule.
@@ -48,15 +49,15 @@ bool is_within(std::span<const FlatLoop> loops, const FlatPoint& p);
 /// The smallest rectangle that holds all corners; lower corner first. Not for no loops.
 std::array<FlatPoint, 2> flat_bounds(std::span<const FlatLoop> loops);
 
-/// The corners of the convex hull, counter-clockwise, none of them on a line between others. Fewer than three
-/// where the points lie in one line.
+/// The corners of the convex hull, counter-clockwise, none of them on a line between others. Fewer
+/// than three where the points lie in one line.
 FlatLoop flat_hull(std::vector<FlatPoint> points);
 
-/// Clipper works on integers: coordinates are rounded to 2^-40 of the largest one's power of two, corners that stay
-/// keep their own values. All results are outlines counter-clockwise and holes clockwise that touch one another at
-/// corners only. Coordinates must be finite.
-/// Whether the operations below end soon: at most so many pairs of sides cross, and so many have boxes that overlap.
-/// (Clipper's time grows faster than the crossings: 70 000 took 7 s.)
+/// Clipper works on integers: coordinates are rounded to 2^-40 of the largest one's power of two,
+/// corners that stay keep their own values. All results are outlines counter-clockwise and holes
+/// clockwise that touch one another at corners only. Coordinates must be finite. Whether the
+/// operations below end soon: at most so many pairs of sides cross, and so many have boxes that
+/// overlap. (Clipper's time grows faster than the crossings: 70 000 took 7 s.)
 inline constexpr std::size_t kMaxFlatCrossings = std::size_t{1} << 15;
 inline constexpr std::size_t kMaxFlatOverlaps = std::size_t{1} << 22;
 bool crossings_are_few(std::span<const FlatLoops> operands);
@@ -70,11 +71,13 @@ FlatLoops resolved(const FlatLoops& loops);
 std::vector<FlatRegion> regions_of(const FlatLoops& loops);
 
 enum class FlatJoin : std::uint8_t { kRound, kMiter, kSquare };
-/// Grown by `distance` everywhere, shrunk if negative. Round joins have corners at most `arc_tolerance` > 0 off the arc.
+/// Grown by `distance` everywhere, shrunk if negative. Round joins have corners at most
+/// `arc_tolerance` > 0 off the arc.
 FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance);
 
-/// For fine outlines, whose touching corners nobody asks for: the above takes quadratic time to separate these.
-/// Loops that don't cross, outlines counter-clockwise and holes clockwise, grown or shrunk.
+/// For fine outlines, whose touching corners nobody asks for: the above takes quadratic time to
+/// separate these. Loops that don't cross, outlines counter-clockwise and holes clockwise, grown or
+/// shrunk.
 FlatLoops offset_simple(const FlatLoops& loops, double distance, FlatJoin join,
                         double arc_tolerance);
 /// Whether the second holds all of the first; both even-odd.

@@ -16,14 +16,17 @@ constexpr double kReachBeyond = 0.25;
 /// Sides that are all but level make cones no wider than this.
 constexpr double kWidestCone = 1e40;
 
-CsgNode leaf(decltype(CsgNode::value) value) { return {std::move(value), std::nullopt, kInheritMaterial}; }
+CsgNode leaf(decltype(CsgNode::value) value) {
+  return {std::move(value), std::nullopt, kInheritMaterial};
+}
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   if (children.size() == 1) return std::move(children.front());
   return leaf(OperationNode{kind, std::move(children)});
 }
 
-/// A piece less its pieces. `solid_of(piece, level)` gives the convex part, nothing where it is empty.
+/// A piece less its pieces. `solid_of(piece, level)` gives the convex part, nothing where it is
+/// empty.
 template <typename SolidOf>
 std::optional<CsgNode> solid_of_piece(const FlatPiece& piece, int level, const SolidOf& solid_of) {
   std::optional<CsgNode> whole = solid_of(piece, level);
@@ -31,7 +34,8 @@ std::optional<CsgNode> solid_of_piece(const FlatPiece& piece, int level, const S
   std::vector<CsgNode> children;
   children.push_back(std::move(*whole));
   for (const FlatPiece& inner : piece.less) {
-    if (auto node = solid_of_piece(inner, level + 1, solid_of)) children.push_back(std::move(*node));
+    if (auto node = solid_of_piece(inner, level + 1, solid_of))
+      children.push_back(std::move(*node));
   }
   return operation(Operation::kDifference, std::move(children));
 }
@@ -63,8 +67,8 @@ CsgNode convex_prism(const std::vector<FlatEdge>& edges, double low, double high
   return leaf(std::move(solid));
 }
 
-/// A convex polygon turned about the axis. Each side makes a cone about it: its inside for a side that looks away from the
-/// axis, its outside for one that looks towards it.
+/// A convex polygon turned about the axis. Each side makes a cone about it: its inside for a side
+/// that looks away from the axis, its outside for one that looks towards it.
 class TurnedPiece {
  public:
   TurnedPiece(const FlatPiece& piece, int level) : piece_(piece) {
@@ -76,7 +80,8 @@ class TurnedPiece {
     }
     margin_ = kReachBeyond * (high_ - low_);
     if (level > 0) {
-      // Pieces that are subtracted may end anywhere beyond their corners, but where a side is level.
+      // Pieces that are subtracted may end anywhere beyond their corners, but where a side is
+      // level.
       low_ -= margin_;
       high_ += margin_;
     }
@@ -95,7 +100,8 @@ class TurnedPiece {
         if (!cone) return std::nullopt;
         within.push_back(std::move(*cone));
       } else if (e.normal.x < 0) {
-        if (auto cone = cone_of(e, low_ - margin_, high_ + margin_)) beyond.push_back(std::move(*cone));
+        if (auto cone = cone_of(e, low_ - margin_, high_ + margin_))
+          beyond.push_back(std::move(*cone));
       }
     }
     std::vector<CsgNode> all;
@@ -105,7 +111,8 @@ class TurnedPiece {
   }
 
  private:
-  /// The points between two heights that are nearer to the axis than the side's line; nothing where none is.
+  /// The points between two heights that are nearer to the axis than the side's line; nothing where
+  /// none is.
   static std::optional<CsgNode> cone_of(const FlatEdge& e, double low, double high) {
     if (!(low < high)) return std::nullopt;
     if (e.normal.y == 0) {
@@ -186,7 +193,8 @@ std::optional<CsgNode> turned(const FlatLoops& loops) {
     const FlatLoops both[] = {loops, half};
     right = combined(FlatOperation::kIntersection, both);
   }
-  return solid_of_loops(right, [](const FlatPiece& piece, int level) { return TurnedPiece(piece, level).solid(); });
+  return solid_of_loops(
+      right, [](const FlatPiece& piece, int level) { return TurnedPiece(piece, level).solid(); });
 }
 
 }  // namespace graycube

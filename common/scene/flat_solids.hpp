@@ -8,8 +8,8 @@
 
 namespace graycube {
 
-/// The polygon × [low, high] along z: convex polyhedra and boxes, united and subtracted. Nothing for an empty
-/// polygon, or one whose outline crosses itself in a way that can't be resolved.
+/// The polygon × [low, high] along z: convex polyhedra and boxes, united and subtracted. Nothing
+/// for an empty polygon, or one whose outline crosses itself in a way that can't be resolved.
 std::optional<CsgNode> prism_of(const FlatLoops& loops, double low, double high);
 std::optional<CsgNode> prism_of(const PrismShape& shape);
 
@@ -18,8 +18,8 @@ FlatLoops loops_of(const PrismShape& shape);
 /// A prism of these loops.
 PrismShape prism_shape(const FlatLoops& loops, double low, double high);
 
-/// The part x ≥ 0 of the polygon, x being the distance from the z axis and y the height: cones and cylinders, united
-/// and subtracted. Nothing as above.
+/// The part x ≥ 0 of the polygon, x being the distance from the z axis and y the height: cones and
+/// cylinders, united and subtracted. Nothing as above.
 std::optional<CsgNode> turned(const FlatLoops& loops);
 
 }  // namespace graycube

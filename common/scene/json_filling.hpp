@@ -50,13 +50,15 @@ class JsonFilling {
   }
   bool has_open() const { return !open_.empty(); }
 
-  /// A string of at most kMaxJsonString bytes that the text has at `begin` as it is, or else in another way.
+  /// A string of at most kMaxJsonString bytes that the text has at `begin` as it is, or else in
+  /// another way.
   Text keep(std::string_view string, bool is_as_it_is, std::size_t begin) {
     if (!is_as_it_is) {
       begin = tree_.decoded_.size();
       tree_.decoded_.emplace_back(string);
     }
-    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(string.size()), !is_as_it_is};
+    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(string.size()),
+            !is_as_it_is};
   }
   /// Of the next value.
   void set_key(const Text& key) { key_ = key; }
@@ -64,7 +66,8 @@ class JsonFilling {
   /// Always false.
   bool fail(std::size_t at, std::string message) {
     const std::size_t count = tree_.values_.size();
-    tree_.syntax_error_ = {at, static_cast<JsonIndex>(count == 0 ? 0 : count - 1), std::move(message)};
+    tree_.syntax_error_ = {at, static_cast<JsonIndex>(count == 0 ? 0 : count - 1),
+                           std::move(message)};
     return false;
   }
 

@@ -1,4 +1,5 @@
-// Fills a JsonTree from the events of nlohmann's parser. It decides what is JSON here, and words what is wrong.
+// Fills a JsonTree from the events of nlohmann's parser. It decides what is JSON here, and words
+// what is wrong.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -121,7 +122,8 @@ class JsonEvents {
                      [&](const Expectation& e) { return e.context == complaint.context; });
     if (!complaint.is_about_token() || known == kExpectations.end())
       return filling_.fail(last_read, std::string(complaint.reason));
-    return filling_.fail(token, "expected " + std::string(known->expected) + ", found " + found(token));
+    return filling_.fail(token,
+                         "expected " + std::string(known->expected) + ", found " + found(token));
   }
 
  private:
@@ -158,7 +160,8 @@ class JsonEvents {
   bool open(JsonKind kind) {
     const std::size_t begin = next_token();
     if (!filling_.open(kind, begin))
-      return filling_.fail(begin, "arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
+      return filling_.fail(
+          begin, "arrays and objects nest deeper than " + std::to_string(kMaxJsonNesting));
     last_end_ = read_so_far();
     return true;
   }
@@ -171,7 +174,8 @@ class JsonEvents {
 
   bool fits(std::string_view decoded) {
     return decoded.size() <= kMaxJsonString ||
-           filling_.fail(next_token(), "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
+           filling_.fail(next_token(),
+                         "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
   }
   /// A string without escapes stays in the text; its length tells.
   JsonFilling::Text kept(std::string_view decoded) {

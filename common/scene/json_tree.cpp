@@ -98,7 +98,8 @@ std::string JsonTree::describe_cbor_array(JsonIndex i) const {
   constexpr std::uint32_t kMaxShown = 4;
   std::string text = "[";
   for (JsonIndex c = first_child(i); c != end(i); c = next(c)) {
-    if (kind(c) != JsonKind::kNumber || size(i) > kMaxShown) return "an array of " + std::to_string(size(i));
+    if (kind(c) != JsonKind::kNumber || size(i) > kMaxShown)
+      return "an array of " + std::to_string(size(i));
     if (text.size() > 1) text += ',';
     text += shortest_text(number(c));
   }

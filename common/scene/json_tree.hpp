@@ -59,8 +59,8 @@ class JsonTree {
   JsonTree(std::string_view text, Unread) : text_(text), was_read_fast_(true), is_cbor_(true) {}
   explicit JsonTree(const PaddedText& text);
 
-  /// Whether the text was CBOR: maps with keys that are texts, arrays, texts, finite numbers, true, false and null; no other
-  /// tags, no byte strings. Offsets are in bytes, lines have no meaning.
+  /// Whether the text was CBOR: maps with keys that are texts, arrays, texts, finite numbers, true,
+  /// false and null; no other tags, no byte strings. Offsets are in bytes, lines have no meaning.
   bool is_cbor() const { return is_cbor_; }
   /// False when the careful parser had to read the text.
   bool was_read_fast() const { return was_read_fast_; }

@@ -24,7 +24,9 @@ LeafReach along_axis(const Vec3& base, const Vec3& top, const Vec3& beside) {
 LeafReach reach(const SphereShape& s) { return {absolute(s.center) + all(s.radius), 1}; }
 LeafReach reach(const BoxShape& s) { return {larger_of(s.min, s.max), 1}; }
 LeafReach reach(const CylinderShape& s) { return along_axis(s.base, s.top, all(s.radius)); }
-LeafReach reach(const ConeShape& s) { return along_axis(s.base, s.top, all(std::max(s.base_radius, s.top_radius))); }
+LeafReach reach(const ConeShape& s) {
+  return along_axis(s.base, s.top, all(std::max(s.base_radius, s.top_radius)));
+}
 LeafReach reach(const TorusShape& s) { return {absolute(s.center) + all(s.major + s.minor), 1}; }
 LeafReach reach(const HalfSpaceShape& s) {
   const double square = dot(s.normal, s.normal);
@@ -38,7 +40,9 @@ LeafReach reach(const EllipticConeShape& s) {
   return along_axis(s.base, s.top, widest * (absolute(s.a) + absolute(s.b)));
 }
 LeafReach reach(const EllipticTorusShape& s) {
-  return {absolute(s.center) + all(s.radius + std::fabs(s.outward) + std::fabs(s.upward) + std::fabs(s.across)), 1};
+  return {absolute(s.center) +
+              all(s.radius + std::fabs(s.outward) + std::fabs(s.upward) + std::fabs(s.across)),
+          1};
 }
 LeafReach reach(const QuadricShape& s) { return {larger_of(s.min, s.max), 1}; }
 LeafReach reach(const MeshShape& s) {
@@ -47,7 +51,8 @@ LeafReach reach(const MeshShape& s) {
   return {most, 1};
 }
 
-/// By its bounds in the world, taken back; unbounded ones by where their planes come nearest the origin.
+/// By its bounds in the world, taken back; unbounded ones by where their planes come nearest the
+/// origin.
 LeafReach reach(const PolyhedronShape& s, const Primitive& built, const Affine& to_world) {
   Vec3 most;
   const auto inverse = built.bounds.is_finite() ? to_world.inverse() : std::nullopt;
@@ -67,7 +72,8 @@ LeafReach reach_of(const CsgNode& leaf, const Primitive& built, const Affine& to
         using Shape = std::decay_t<decltype(shape)>;
         if constexpr (std::is_same_v<Shape, PolyhedronShape>) {
           return reach(shape, built, to_world);
-        } else if constexpr (std::is_same_v<Shape, OperationNode> || std::is_same_v<Shape, ReferenceNode> ||
+        } else if constexpr (std::is_same_v<Shape, OperationNode> ||
+                             std::is_same_v<Shape, ReferenceNode> ||
                              std::is_same_v<Shape, PrismShape>) {
           return {};
         } else {

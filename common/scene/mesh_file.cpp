@@ -33,7 +33,9 @@ class Words {
   std::string_view next() {
     skip();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_space(text_[at_]) && (comment_ == '\0' || text_[at_] != comment_)) ++at_;
+    while (at_ < text_.size() && !is_space(text_[at_]) &&
+           (comment_ == '\0' || text_[at_] != comment_))
+      ++at_;
     return text_.substr(begin, at_ - begin);
   }
   void skip_line() {
@@ -57,7 +59,9 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), out);
     return error == std::errc{} && end == word.data() + word.size() && !word.empty();
   }
-  MeshFault fault(const std::string& why) const { return {"line " + std::to_string(line_) + ": " + why}; }
+  MeshFault fault(const std::string& why) const {
+    return {"line " + std::to_string(line_) + ": " + why};
+  }
   std::size_t left() const { return text_.size() - at_; }
   /// Of all doubles so far.
   std::uint32_t digits() const { return digits_.most(); }
@@ -99,13 +103,15 @@ void add_triangle(PolygonMesh& mesh) {
 constexpr std::size_t kMaxFacets = kMaxMeshPoints / 3;
 
 MeshFault too_many_facets(std::size_t found) {
-  return {"at most " + std::to_string(kMaxFacets) + " facets are accepted, found " + std::to_string(found)};
+  return {"at most " + std::to_string(kMaxFacets) + " facets are accepted, found " +
+          std::to_string(found)};
 }
 
 std::variant<PolygonMesh, MeshFault> read_binary_stl(std::string_view bytes) {
   const std::size_t facets = little_u32(bytes.substr(80));
   if ((bytes.size() - kStlHeadBytes) / kStlFacetBytes < facets) {
-    return MeshFault{"binary STL with " + std::to_string(facets) + " facets announced and bytes for " +
+    return MeshFault{"binary STL with " + std::to_string(facets) +
+                     " facets announced and bytes for " +
                      std::to_string((bytes.size() - kStlHeadBytes) / kStlFacetBytes)};
   }
   if (facets > kMaxFacets) return too_many_facets(facets);
@@ -142,7 +148,8 @@ std::optional<MeshFault> read_facet(Words& words, PolygonMesh& mesh) {
       if (!words.read(p[a])) return words.fault("expected a vertex's three numbers");
     }
   }
-  if (!expect("endloop") || !expect("endfacet")) return words.fault("expected \"endloop\" and \"endfacet\"");
+  if (!expect("endloop") || !expect("endfacet"))
+    return words.fault("expected \"endloop\" and \"endfacet\"");
   add_triangle(mesh);
   return std::nullopt;
 }
@@ -165,7 +172,8 @@ std::variant<PolygonMesh, MeshFault> read_ascii_stl(std::string_view text) {
   return mesh;
 }
 
-std::optional<MeshFault> read_off_face(Words& words, PolygonMesh& mesh, std::vector<std::uint32_t>& face) {
+std::optional<MeshFault> read_off_face(Words& words, PolygonMesh& mesh,
+                                       std::vector<std::uint32_t>& face) {
   std::uint32_t corners = 0;
   if (!words.read(corners)) return words.fault("expected a face's number of corners");
   if (corners < 3 || corners > kMaxFaceCorners) {
@@ -175,7 +183,8 @@ std::optional<MeshFault> read_off_face(Words& words, PolygonMesh& mesh, std::vec
   for (std::uint32_t& i : face) {
     if (!words.read(i)) return words.fault("expected the numbers of a face's points");
     if (i >= mesh.points.size()) {
-      return words.fault("no point " + std::to_string(i) + ", there are " + std::to_string(mesh.points.size()));
+      return words.fault("no point " + std::to_string(i) + ", there are " +
+                         std::to_string(mesh.points.size()));
     }
   }
   mesh.add_face(face);
@@ -210,7 +219,9 @@ std::string lower_ending(const fs::path& path) {
 std::variant<PolygonMesh, MeshFault> read_stl(std::string_view bytes) {
   // Binary files may begin with "solid" too: their size tells.
   const bool has_head = bytes.size() >= kStlHeadBytes;
-  const auto announced = [&] { return kStlHeadBytes + std::uint64_t{little_u32(bytes.substr(80))} * kStlFacetBytes; };
+  const auto announced = [&] {
+    return kStlHeadBytes + std::uint64_t{little_u32(bytes.substr(80))} * kStlFacetBytes;
+  };
   if (has_head && bytes.size() == announced()) return read_binary_stl(bytes);
   if (equal_words(Words(bytes).next(), "solid")) return read_ascii_stl(bytes);
   if (has_head) return read_binary_stl(bytes);
@@ -221,12 +232,15 @@ std::variant<PolygonMesh, MeshFault> read_off(std::string_view text) {
   Words words(text, '#');
   if (!equal_words(words.next(), "OFF")) return words.fault("expected \"OFF\"");
   std::uint32_t points = 0, faces = 0, edges = 0;
-  if (!words.read(points) || !words.read(faces)) return words.fault("expected the numbers of points, faces and edges");
-  if (!words.at_line_end() && !words.read(edges)) return words.fault("expected the number of edges");
+  if (!words.read(points) || !words.read(faces))
+    return words.fault("expected the numbers of points, faces and edges");
+  if (!words.at_line_end() && !words.read(edges))
+    return words.fault("expected the number of edges");
   // Each takes six characters at least.
-  if (points > kMaxMeshPoints || faces > kMaxMeshTriangles || (std::uint64_t{points} + faces) * 6 > words.left() + 6) {
-    return words.fault("more points or faces than are accepted or can follow: " + std::to_string(points) + " and " +
-                       std::to_string(faces));
+  if (points > kMaxMeshPoints || faces > kMaxMeshTriangles ||
+      (std::uint64_t{points} + faces) * 6 > words.left() + 6) {
+    return words.fault("more points or faces than are accepted or can follow: " +
+                       std::to_string(points) + " and " + std::to_string(faces));
   }
   PolygonMesh mesh;
   mesh.points.resize(points);
@@ -258,11 +272,14 @@ std::variant<MeshShape, MeshFault> read_mesh_file(const fs::path& path) {
   if (auto* wrong = std::get_if<MeshFault>(&polygons)) return here(std::move(*wrong));
   auto closed = closed_mesh(std::get<PolygonMesh>(polygons));
   if (auto* wrong = std::get_if<MeshFault>(&closed)) return here(std::move(*wrong));
-  return MeshShape{std::get<TriangleMesh>(std::move(closed)), std::get<PolygonMesh>(polygons).digits};
+  return MeshShape{std::get<TriangleMesh>(std::move(closed)),
+                   std::get<PolygonMesh>(polygons).digits};
 }
 
 MeshLoader mesh_files_beside(const fs::path& scene_file) {
-  return [folder = scene_file.parent_path()](std::string_view file) { return read_mesh_file(folder / fs::path(file)); };
+  return [folder = scene_file.parent_path()](std::string_view file) {
+    return read_mesh_file(folder / fs::path(file));
+  };
 }
 
 }  // namespace graycube

@@ -13,7 +13,8 @@ Scene scene_of_mesh(MeshShape mesh, const OpenscadOptions& options) {
   // A mesh reaches as far as its points do.
   CsgNode hull;
   hull.value = PolyhedronShape{};
-  scene.settings = framed_settings(reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(options)), options);
+  scene.settings = framed_settings(
+      reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(options)), options);
   OpenscadPalette palette;
   SceneObject object{"mesh", palette.index_of(ScadColor{}), {}};
   object.csg.value = std::move(mesh);

@@ -69,8 +69,8 @@ struct OpenscadOptions {
   OpenscadProgram* program = nullptr;
   /// Where the names of files in the text start from.
   std::string folder{};
-  /// What OpenSCAD evaluates the same model to with openscad_exact_definitions(): it has all digits of the text's
-  /// numbers. What doesn't agree with the text is ignored. Empty: there is none.
+  /// What OpenSCAD evaluates the same model to with openscad_exact_definitions(): it has all digits
+  /// of the text's numbers. What doesn't agree with the text is ignored. Empty: there is none.
   std::string_view spelled_out{};
 };
 

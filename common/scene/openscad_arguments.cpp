@@ -15,7 +15,8 @@ constexpr double kPi = 3.14159265358979323846;
 }  // namespace
 
 ScadFineness fineness_of(ScadArguments& arguments) {
-  return {arguments.number("$fn", -1, 0), arguments.number("$fa", -1, 12), arguments.number("$fs", -1, 2)};
+  return {arguments.number("$fn", -1, 0), arguments.number("$fa", -1, 12),
+          arguments.number("$fs", -1, 2)};
 }
 
 int fragments(double radius, const ScadFineness& fineness) {

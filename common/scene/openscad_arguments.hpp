@@ -13,7 +13,8 @@ namespace graycube {
 /// Reads one module's arguments. What is wrong is reported at once; `ok` tells in the end.
 class ScadArguments {
  public:
-  ScadArguments(const ScadModule& module, OpenscadReport& report) : module_(module), report_(report) {}
+  ScadArguments(const ScadModule& module, OpenscadReport& report)
+      : module_(module), report_(report) {}
 
   bool ok() const { return ok_; }
   bool has(const char* name) const { return module_.argument(name) != nullptr; }
@@ -83,7 +84,8 @@ ScadFineness fineness_of(ScadArguments& arguments);
 /// The sides of a circle of that radius in OpenSCAD: at least 3, at most kMaxOpenscadSides.
 int fragments(double radius, const ScadFineness& fineness);
 
-/// The sides that an explicit $fn below 9 asks for: then the corners are meant. 0 for something round.
+/// The sides that an explicit $fn below 9 asks for: then the corners are meant. 0 for something
+/// round.
 int asked_sides(const ScadFineness& fineness);
 
 }  // namespace graycube

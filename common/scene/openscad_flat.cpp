@@ -62,7 +62,8 @@ class FlatReader {
     return by_program(module, map);
   }
 
-  std::optional<FlatShape> united(const std::vector<ScadModule>& modules, const FlatMap& map, int line) {
+  std::optional<FlatShape> united(const std::vector<ScadModule>& modules, const FlatMap& map,
+                                  int line) {
     std::vector<FlatShape> parts;
     for (const ScadModule& module : modules) {
       if (!takes_part(module)) continue;
@@ -76,7 +77,8 @@ class FlatReader {
     if (parts.empty()) return std::nullopt;
     if (parts.size() == 1) return std::move(parts.front());
     const auto is_round = [](const FlatShape& s) { return s.has_curves(); };
-    const auto middle = std::stable_partition(parts.begin() + (kind == Kind::kDifference ? 1 : 0), parts.end(), is_round);
+    const auto middle = std::stable_partition(parts.begin() + (kind == Kind::kDifference ? 1 : 0),
+                                              parts.end(), is_round);
     std::vector<FlatLoops> straight;
     // What is taken off may be united, too.
     const bool is_all_straight = std::none_of(parts.begin(), parts.end(), is_round);
@@ -86,7 +88,8 @@ class FlatReader {
     if (is_all_straight) return of_loops(combined_loops(operation_of(kind), straight, line));
     parts.erase(middle, parts.end());
     const bool intersects = kind == Kind::kIntersection;
-    auto loops = combined_loops(intersects ? FlatOperation::kIntersection : FlatOperation::kUnion, straight, line);
+    auto loops = combined_loops(intersects ? FlatOperation::kIntersection : FlatOperation::kUnion,
+                                straight, line);
     if (intersects && !straight.empty() && !loops) return std::nullopt;
     if (loops) parts.push_back({Kind::kPolygon, std::move(*loops), {}, 0});
     if (parts.size() == 1) return std::move(parts.front());
@@ -94,16 +97,19 @@ class FlatReader {
   }
 
   /// Nothing when the result is empty, or when there is too much of it, with an error.
-  std::optional<FlatLoops> combined_loops(FlatOperation operation, std::span<const FlatLoops> operands, int line) {
+  std::optional<FlatLoops> combined_loops(FlatOperation operation,
+                                          std::span<const FlatLoops> operands, int line) {
     std::size_t corners = 0;
     for (const FlatLoops& loops : operands) {
       for (const FlatLoop& loop : loops) corners += loop.size();
     }
     if (corners > kMaxOpenscadCorners || !crossings_are_few(operands)) {
-      import_.report.error(line, "the outlines have too many corners, or cross one another too often");
+      import_.report.error(line,
+                           "the outlines have too many corners, or cross one another too often");
       return std::nullopt;
     }
-    FlatLoops loops = combined_flush(operation, operands, flush_tolerance(operands, import_.digits));
+    FlatLoops loops =
+        combined_flush(operation, operands, flush_tolerance(operands, import_.digits));
     if (loops.empty()) return std::nullopt;
     return loops;
   }
@@ -121,7 +127,8 @@ class FlatReader {
   bool takes_part(const ScadModule& module) {
     if (module.left_out) return false;
     if (module.dimension != 3) return true;
-    import_.report.warning(module.line, module.name + "() is left out: it is three-dimensional among flat shapes");
+    import_.report.warning(
+        module.line, module.name + "() is left out: it is three-dimensional among flat shapes");
     return false;
   }
 
@@ -148,7 +155,8 @@ class FlatReader {
     return operated(Kind::kIntersection, std::move(parts), module.line);
   }
 
-  std::optional<FlatShape> square(const ScadModule& module, ScadArguments& arguments, const FlatMap& map) {
+  std::optional<FlatShape> square(const ScadModule& module, ScadArguments& arguments,
+                                  const FlatMap& map) {
     FlatPoint size{1, 1};
     if (const ScadValue* value = module.argument("size", 0)) {
       const double* edge = value->number();
@@ -166,9 +174,11 @@ class FlatReader {
   }
 
   std::optional<FlatShape> circle(ScadArguments& arguments, const FlatMap& map) {
-    const double r = arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
+    const double r =
+        arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
     const ScadFineness fineness = fineness_of(arguments);
-    if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive")) return std::nullopt;
+    if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive"))
+      return std::nullopt;
     FlatShape disk{
         Kind::kDisk, {}, compose(map, FlatMap{{{{r, 0, 0}, {0, r, 0}}}}), fragments(r, fineness)};
     const int few = asked_sides(fineness);
@@ -176,7 +186,8 @@ class FlatReader {
     return FlatShape{Kind::kPolygon, {circle_of(disk.disk, disk.sides)}, {}, 0};
   }
 
-  std::optional<FlatShape> polygon(const ScadModule& module, ScadArguments& arguments, const FlatMap& map) {
+  std::optional<FlatShape> polygon(const ScadModule& module, ScadArguments& arguments,
+                                   const FlatMap& map) {
     const ScadValue* value_of_points = module.argument("points", 0);
     if (arguments.empty_unless(value_of_points != nullptr, "it has no points")) return std::nullopt;
     const ScadList* list = arguments.list("points", 0);
@@ -185,7 +196,8 @@ class FlatReader {
     for (const ScadValue& value : *list) {
       const auto p = ScadArguments::pair(value);
       if (!p || !(std::max(std::fabs(p->x), std::fabs(p->y)) <= kMaxOpenscadCoordinate)) {
-        arguments.fail("point " + std::to_string(points.size()) + " is not two numbers of sensible size");
+        arguments.fail("point " + std::to_string(points.size()) +
+                       " is not two numbers of sensible size");
         return std::nullopt;
       }
       points.push_back(*p);
@@ -197,11 +209,13 @@ class FlatReader {
       loops.push_back(std::move(points));
     }
     std::erase_if(loops, [](const FlatLoop& loop) { return loop.size() < 3; });
-    if (arguments.empty_unless(!loops.empty(), "it has fewer than three corners")) return std::nullopt;
+    if (arguments.empty_unless(!loops.empty(), "it has fewer than three corners"))
+      return std::nullopt;
     return of_loops(loops, map, module.line);
   }
 
-  static bool read_paths(const ScadValue& value, const FlatLoop& points, ScadArguments& arguments, FlatLoops& loops) {
+  static bool read_paths(const ScadValue& value, const FlatLoop& points, ScadArguments& arguments,
+                         FlatLoops& loops) {
     const ScadList* paths = value.list();
     const ScadList alone{value};
     // A single path may stand without a list around it.
@@ -220,16 +234,19 @@ class FlatReader {
         if (good) loop.push_back(points[static_cast<std::size_t>(*index)]);
       }
       if (!good) {
-        arguments.fail("path " + std::to_string(loops.size() - 1) + " is not a list of numbers of points");
+        arguments.fail("path " + std::to_string(loops.size() - 1) +
+                       " is not a list of numbers of points");
         return false;
       }
     }
     return true;
   }
 
-  std::optional<FlatShape> offset_of(const ScadModule& module, ScadArguments& arguments, const FlatMap& map) {
+  std::optional<FlatShape> offset_of(const ScadModule& module, ScadArguments& arguments,
+                                     const FlatMap& map) {
     const bool is_round = arguments.has("r") || !arguments.has("delta");
-    const double distance = is_round ? arguments.number("r", 0, 1) : arguments.number("delta", -1, 1);
+    const double distance =
+        is_round ? arguments.number("r", 0, 1) : arguments.number("delta", -1, 1);
     const bool chamfer = arguments.boolean("chamfer", -1);
     const ScadFineness fineness = fineness_of(arguments);
     if (!arguments.ok()) return std::nullopt;
@@ -241,7 +258,9 @@ class FlatReader {
     if (!inner) return std::nullopt;
     const int sides = fragments(std::fabs(distance), fineness);
     const double tolerance = std::fabs(distance) * (1 - cos_degrees(180.0 / sides));
-    const FlatJoin join = is_round ? FlatJoin::kRound : chamfer ? FlatJoin::kSquare : FlatJoin::kMiter;
+    const FlatJoin join = is_round  ? FlatJoin::kRound
+                          : chamfer ? FlatJoin::kSquare
+                                    : FlatJoin::kMiter;
     const auto with_facets = [&]() -> FlatLoops {
       const auto loops = polygon_of(*inner, import_, module.line);
       if (!loops || distance == 0) return loops ? *loops : FlatLoops{};
@@ -319,7 +338,8 @@ class FlatReader {
 
   std::optional<FlatShape> by_program(const ScadModule& module, const FlatMap& map) {
     if (!import_.delegate.is_there()) {
-      import_.report.error(module.line, module.name + "() needs the program openscad, which is not there");
+      import_.report.error(module.line,
+                           module.name + "() needs the program openscad, which is not there");
       return std::nullopt;
     }
     import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a polygon");
@@ -337,16 +357,17 @@ class FlatReader {
 }  // namespace
 
 bool FlatShape::has_curves() const {
-  return kind == Kind::kDisk ||
-         std::any_of(children.begin(), children.end(), [](const FlatShape& s) { return s.has_curves(); });
+  return kind == Kind::kDisk || std::any_of(children.begin(), children.end(),
+                                            [](const FlatShape& s) { return s.has_curves(); });
 }
 
-std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map, ScadImport& import) {
+std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map,
+                                    ScadImport& import) {
   return FlatReader(import).shape(module, map);
 }
 
-std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map, ScadImport& import,
-                                    int line) {
+std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map,
+                                    ScadImport& import, int line) {
   return FlatReader(import).united(modules, map, line);
 }
 
@@ -359,7 +380,8 @@ std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, 
     auto loops = polygon_of(child, import, line);
     if (loops) {
       operands.push_back(std::move(*loops));
-    } else if (shape.kind == Kind::kIntersection || (shape.kind == Kind::kDifference && operands.empty())) {
+    } else if (shape.kind == Kind::kIntersection ||
+               (shape.kind == Kind::kDifference && operands.empty())) {
       return std::nullopt;
     }
   }

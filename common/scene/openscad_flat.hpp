@@ -1,5 +1,5 @@
-// The two-dimensional part of a .csg file: squares, circles, polygons, what is made of them, and what comes
-// of the rest as polygons.
+// The two-dimensional part of a .csg file: squares, circles, polygons, what is made of them, and
+// what comes of the rest as polygons.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,8 @@
 
 namespace graycube {
 
-/// A figure that isn't empty. Circles and their images stay what they are; operations remain only above them.
+/// A figure that isn't empty. Circles and their images stay what they are; operations remain only
+/// above them.
 struct FlatShape {
   enum class Kind : std::uint8_t { kPolygon, kDisk, kUnion, kIntersection, kDifference };
   Kind kind = Kind::kPolygon;
@@ -56,12 +57,14 @@ struct ScadImport {
 };
 
 /// The figure of a module under a map; nothing where it is empty or wrong, which is reported.
-std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map, ScadImport& import);
+std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map,
+                                    ScadImport& import);
 /// The union of the modules in the list that have two dimensions.
-std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map, ScadImport& import,
-                                    int line);
+std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map,
+                                    ScadImport& import, int line);
 
-/// The figure with OpenSCAD's sides for what is round, resolved; nothing where it is empty. `line` for an error.
+/// The figure with OpenSCAD's sides for what is round, resolved; nothing where it is empty. `line`
+/// for an error.
 std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line);
 
 /// The factor of a similarity, to within rounding.

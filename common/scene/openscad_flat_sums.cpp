@@ -34,8 +34,7 @@ ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDis
 ExactFlat sum_of_polygon(const FlatShape& polygon, const std::vector<FlatDisk>& convex) {
   std::size_t corners = 0;
   for (const FlatLoop& loop : polygon.loops) corners += loop.size();
-  if (corners > kMaxRoundCorners ||
-      corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundCorners)
+  if (corners > kMaxRoundCorners || corners * convex.size() > kMaxFlatDiskPairs / kMaxRoundCorners)
     return {};
   const FlatPoint to = convex.front().center;
   std::vector<FlatShape> parts;

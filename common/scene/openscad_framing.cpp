@@ -80,7 +80,8 @@ struct LocalReach {
   }
   double operator()(const EllipticTorusShape& s) const {
     const double longer = std::sqrt(s.outward * s.outward + s.upward * s.upward);
-    return disc_reach(n, s.center, normalized(s.axis), s.radius) + std::max(longer, s.across) * length(n);
+    return disc_reach(n, s.center, normalized(s.axis), s.radius) +
+           std::max(longer, s.across) * length(n);
   }
   template <typename Other>
   double operator()(const Other&) const {
@@ -88,13 +89,15 @@ struct LocalReach {
   }
 };
 
-Reach reach_of_operation(const OperationNode& operation, const Affine& to_world, const ReachDirections& directions) {
+Reach reach_of_operation(const OperationNode& operation, const Affine& to_world,
+                         const ReachDirections& directions) {
   const auto of = [&](const CsgNode& child) { return reach_of(child, {}, to_world, directions); };
   Reach reach = of(operation.children.front());
   if (operation.operation == Operation::kDifference) return reach;
   for (std::size_t i = 1; i < operation.children.size(); ++i) {
     const Reach other = of(operation.children[i]);
-    reach = operation.operation == Operation::kUnion ? union_of(reach, other) : intersection_of(reach, other);
+    reach = operation.operation == Operation::kUnion ? union_of(reach, other)
+                                                     : intersection_of(reach, other);
   }
   return reach;
 }

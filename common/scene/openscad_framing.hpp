@@ -36,7 +36,8 @@ struct Reach {
 };
 Reach union_of(const Reach& a, const Reach& b);
 Reach intersection_of(const Reach& a, const Reach& b);
-/// Of a solid under `to_world`; `corners` are those of a solid that is one polyhedron. Of a leaf exact up to rounding.
+/// Of a solid under `to_world`; `corners` are those of a solid that is one polyhedron. Of a leaf
+/// exact up to rounding.
 Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine& to_world,
                const ReachDirections& directions);
 

@@ -36,18 +36,20 @@ class Hull {
     if (!silence) return false;
     std::array<char, 10> command{"qhull Qt"};
     static_assert(sizeof(Vec3) == 3 * sizeof(coordT));
-    return qh_new_qhull(&state_, 3, static_cast<int>(points.size()), &points.front().x, False, command.data(),
-                        silence.get(), silence.get()) == 0;
+    return qh_new_qhull(&state_, 3, static_cast<int>(points.size()), &points.front().x, False,
+                        command.data(), silence.get(), silence.get()) == 0;
   }
 
   template <typename Use>
   void for_each_triangle(const Use& use) {
-    for (facetT* facet = state_.facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next) {
+    for (facetT* facet = state_.facet_list; facet != nullptr && facet->next != nullptr;
+         facet = facet->next) {
       if (qh_setsize(&state_, facet->vertices) != 3) continue;
       std::array<std::uint32_t, 3> corners{};
       for (int i = 0; i < 3; ++i) {
         auto* vertex = static_cast<vertexT*>(facet->vertices->e[i].p);
-        corners[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(qh_pointid(&state_, vertex->point));
+        corners[static_cast<std::size_t>(i)] =
+            static_cast<std::uint32_t>(qh_pointid(&state_, vertex->point));
       }
       use(corners);
     }
@@ -58,7 +60,8 @@ class Hull {
 };
 
 bool is_container(const std::string& name) {
-  return name == "group" || name == "union" || name == "color" || name == "render" || name == "hull";
+  return name == "group" || name == "union" || name == "color" || name == "render" ||
+         name == "hull";
 }
 
 bool corners_of_all(const std::vector<ScadModule>& modules, const Affine& map, ScadImport& import,
@@ -83,11 +86,14 @@ ScadMesh convex_hull(const std::vector<Vec3>& points) {
   Hull hull;
   std::vector<Vec3> given = points;
   if (!hull.build(given)) return mesh;
-  hull.for_each_triangle([&](const std::array<std::uint32_t, 3>& t) { mesh.faces.push_back({t[0], t[1], t[2]}); });
+  hull.for_each_triangle([&](const std::array<std::uint32_t, 3>& t) {
+    mesh.faces.push_back({t[0], t[1], t[2]});
+  });
   return mesh;
 }
 
-bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import, std::vector<Vec3>& corners) {
+bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
+                std::vector<Vec3>& corners) {
   if (is_container(module.name)) return corners_of_all(module.children, map, import, corners);
   if (module.name == "multmatrix") {
     const auto inner = openscad_matrix(module, import.digits, import.report);

@@ -13,8 +13,9 @@ namespace graycube {
 /// kMaxOpenscadCoordinate.
 ScadMesh convex_hull(const std::vector<Vec3>& points);
 
-/// The corners of OpenSCAD's facets of everything in a module; false when it holds something whose corners aren't known
-/// without evaluating it, a difference for one.
-bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import, std::vector<Vec3>& corners);
+/// The corners of OpenSCAD's facets of everything in a module; false when it holds something whose
+/// corners aren't known without evaluating it, a difference for one.
+bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
+                std::vector<Vec3>& corners);
 
 }  // namespace graycube

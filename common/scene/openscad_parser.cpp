@@ -232,14 +232,16 @@ namespace {
 bool ends_in(const ScadValue* name, std::string_view ending) {
   const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
   return text != nullptr && text->size() >= ending.size() &&
-         std::equal(ending.begin(), ending.end(), text->end() - static_cast<std::ptrdiff_t>(ending.size()),
+         std::equal(ending.begin(), ending.end(),
+                    text->end() - static_cast<std::ptrdiff_t>(ending.size()),
                     [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
 }
 
 int own_dimension(const ScadModule& module) {
-  constexpr std::array<std::string_view, 5> kFlat{"square", "circle", "polygon", "text", "projection"};
-  constexpr std::array<std::string_view, 7> kSolid{"cube",           "sphere",         "cylinder", "polyhedron",
-                                                   "linear_extrude", "rotate_extrude", "surface"};
+  constexpr std::array<std::string_view, 5> kFlat{"square", "circle", "polygon", "text",
+                                                  "projection"};
+  constexpr std::array<std::string_view, 7> kSolid{
+      "cube", "sphere", "cylinder", "polyhedron", "linear_extrude", "rotate_extrude", "surface"};
   if (std::find(kFlat.begin(), kFlat.end(), module.name) != kFlat.end()) return 2;
   if (std::find(kSolid.begin(), kSolid.end(), module.name) != kSolid.end()) return 3;
   if (module.name != "import") return 0;

@@ -50,7 +50,8 @@ std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
 
 /// Modules that only gather or place what is in them, whatever its dimension.
 bool is_gathering(const std::string& name) {
-  return name == "group" || name == "union" || name == "render" || name == "multmatrix" || name == "color";
+  return name == "group" || name == "union" || name == "render" || name == "multmatrix" ||
+         name == "color";
 }
 
 /// What the program `openscad` is asked for; all else is no module of .csg files.
@@ -112,7 +113,8 @@ class Importer {
     } else if (is_openscad_primitive(module)) {
       add_primitive(module, around, parts);
     } else if (name == "linear_extrude" || name == "rotate_extrude") {
-      if (auto solid = openscad_sweep(module, import_)) add_solid(std::move(*solid), {}, module, around, parts);
+      if (auto solid = openscad_sweep(module, import_))
+        add_solid(std::move(*solid), {}, module, around, parts);
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
@@ -121,9 +123,10 @@ class Importer {
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
     } else {
-      report_.error(module.line, name.substr(0, kMaxQuotedName) +
-                                     "() is not a module of .csg files; write them with `openscad -o "
-                                     "MODEL.csg MODEL.scad`");
+      report_.error(module.line,
+                    name.substr(0, kMaxQuotedName) +
+                        "() is not a module of .csg files; write them with `openscad -o "
+                        "MODEL.csg MODEL.scad`");
     }
   }
 
@@ -184,7 +187,9 @@ class Importer {
 
   void add_intersection(const ScadModule& module, const Surroundings& around,
                         std::vector<Part>& parts) {
-    const auto takes_part = [](const ScadModule& child) { return !child.left_out && child.dimension != 2; };
+    const auto takes_part = [](const ScadModule& child) {
+      return !child.left_out && child.dimension != 2;
+    };
     const auto count = std::count_if(module.children.begin(), module.children.end(), takes_part);
     if (count == 1) {
       add_all(module.children, around, parts);
@@ -274,9 +279,11 @@ class Importer {
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
   }
 
-  void add_by_program(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+  void add_by_program(const ScadModule& module, const Surroundings& around,
+                      std::vector<Part>& parts) {
     if (!import_.delegate.is_there()) {
-      return report_.error(module.line, module.name + "() needs the program openscad, which is not there");
+      return report_.error(module.line,
+                           module.name + "() needs the program openscad, which is not there");
     }
     import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
     auto result = import_.delegate.solid(module);
@@ -289,8 +296,8 @@ class Importer {
   }
 
   /// `corners` are those of all polyhedra in it, in the module's coordinates.
-  void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module, const Surroundings& around,
-                 std::vector<Part>& parts) {
+  void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module,
+                 const Surroundings& around, std::vector<Part>& parts) {
     Reach reach = reach_of(solid, corners, around.to_world, directions_);
     if (solid.transform || std::holds_alternative<OperationNode>(solid.value)) {
       const CsgNode all_corners{PolyhedronShape{}, std::nullopt, kInheritMaterial};
@@ -309,7 +316,8 @@ class Importer {
     }
     const std::uint32_t levels = levels_of(solid);
     if (levels > kMaxPartLevels) {
-      return report_.error(module.line, "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      return report_.error(module.line,
+                           "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
     }
     place(solid, around);
     solid.material = palette_.index_of(around.color);
@@ -341,9 +349,8 @@ class Importer {
 
 }  // namespace
 
-OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
-                             const OpenscadOptions& options, std::uint32_t digits,
-                             OpenscadReport& report) {
+OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
+                             std::uint32_t digits, OpenscadReport& report) {
   Importer importer(reach_directions(options), options, digits, report);
   OpenscadParts result;
   importer.add_all(modules, {}, result.parts);

@@ -21,15 +21,14 @@ struct Part {
   std::string module;
 };
 
-/// What `openscad_parts` finds: the file is the union of the parts. Every leaf has a material. Rotations are those of
-/// matrices of so many digits.
+/// What `openscad_parts` finds: the file is the union of the parts. Every leaf has a material.
+/// Rotations are those of matrices of so many digits.
 struct OpenscadParts {
   std::vector<Part> parts;
   std::vector<NamedMaterial> materials;
 };
-OpenscadParts openscad_parts(const std::vector<ScadModule>& modules,
-                             const OpenscadOptions& options, std::uint32_t digits,
-                             OpenscadReport& report);
+OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
+                             std::uint32_t digits, OpenscadReport& report);
 
 Reach reach_of(const std::vector<Part>& parts);
 /// The union of at least one part, as one.

@@ -147,7 +147,8 @@ std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& argument
     arguments.fail("its faces enclose no solid: " + fault->why);
     return std::nullopt;
   }
-  CsgNode leaf{MeshShape{std::get<TriangleMesh>(std::move(closed))}, std::nullopt, kInheritMaterial};
+  CsgNode leaf{MeshShape{std::get<TriangleMesh>(std::move(closed))}, std::nullopt,
+               kInheritMaterial};
   return ScadSolid{std::move(leaf), std::move(mesh.points)};
 }
 
@@ -156,7 +157,8 @@ bool is_openscad_primitive(const ScadModule& module) {
          module.name == "polyhedron";
 }
 
-std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report, bool facets) {
+std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
+                                            bool facets) {
   ScadArguments arguments(module, report);
   if (module.name == "cube") return cube(module, arguments);
   if (module.name == "sphere") return sphere(arguments, facets);
@@ -201,22 +203,27 @@ FlatMap flat_part(const Affine& map) {
 
 }  // namespace
 
-std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report) {
+std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits,
+                                      OpenscadReport& report) {
   ScadArguments arguments(module, report);
   const auto map = written_matrix(module, arguments);
-  if (!map || arguments.empty_unless(map->inverse().has_value(), "its matrix flattens everything in it")) {
+  if (!map ||
+      arguments.empty_unless(map->inverse().has_value(), "its matrix flattens everything in it")) {
     return std::nullopt;
   }
   return recovered_rotation(*map, digits);
 }
 
-std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report) {
+std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits,
+                                   OpenscadReport& report) {
   ScadArguments arguments(module, report);
   const auto map = written_matrix(module, arguments);
   if (!map) return std::nullopt;
   const FlatMap flat = flat_part(*map);
-  if (arguments.empty_unless(flat.determinant() != 0, "its matrix flattens everything in it")) return std::nullopt;
-  // Whatever it does to heights: turned about z, and scaled along z as in the plane, it may be a rotation.
+  if (arguments.empty_unless(flat.determinant() != 0, "its matrix flattens everything in it"))
+    return std::nullopt;
+  // Whatever it does to heights: turned about z, and scaled along z as in the plane, it may be a
+  // rotation.
   const double a = flat.m[0][0], b = flat.m[1][0];
   const Affine upright{{{{a, flat.m[0][1], 0, flat.m[0][2]},
                          {b, flat.m[1][1], 0, flat.m[1][2]},

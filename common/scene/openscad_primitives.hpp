@@ -20,7 +20,8 @@ struct ScadSolid {
   std::vector<Vec3> corners;
 };
 
-/// A convex solid of few faces as half-spaces, any other as a mesh; nothing, reported, when its faces enclose none.
+/// A convex solid of few faces as half-spaces, any other as a mesh; nothing, reported, when its
+/// faces enclose none.
 std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments);
 
 bool is_openscad_primitive(const ScadModule& module);
@@ -30,12 +31,16 @@ bool is_openscad_primitive(const ScadModule& module);
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
                                             bool facets = false);
 
-/// The map of a multmatrix(), a rotation where its so many digits can be one's; entries that are missing are those of the
-/// identity, and a fourth row [0, 0, 0, w] divides by w. Nothing with an error or, for a singular one, a warning.
-std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report);
+/// The map of a multmatrix(), a rotation where its so many digits can be one's; entries that are
+/// missing are those of the identity, and a fourth row [0, 0, 0, w] divides by w. Nothing with an
+/// error or, for a singular one, a warning.
+std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits,
+                                      OpenscadReport& report);
 
-/// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a singular one.
-std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits, OpenscadReport& report);
+/// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a
+/// singular one.
+std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits,
+                                   OpenscadReport& report);
 
 /// The colour of a color(); components are clamped to at most 1. Nothing with an error.
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);

@@ -49,7 +49,8 @@ void write(const ScadModule& module, const std::string& folder, std::string& tex
     if (!std::exchange(first, false)) text += ", ";
     if (!argument.name.empty()) text += argument.name + " = ";
     const auto* file = std::get_if<std::string>(&argument.value.value);
-    if (argument.name == "file" && file != nullptr && !file->empty() && file->front() != '/' && !folder.empty()) {
+    if (argument.name == "file" && file != nullptr && !file->empty() && file->front() != '/' &&
+        !folder.empty()) {
       text += written(std::string_view(folder + '/' + *file));
     } else {
       text += written(argument.value);
@@ -84,7 +85,8 @@ class PathData {
 
  private:
   void skip() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\n')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\n'))
+      ++at_;
   }
   std::string_view text_;
   std::size_t at_ = 0;
@@ -101,9 +103,11 @@ std::string scad_text(const ScadModule& module, const std::string& folder) {
 std::optional<FlatLoops> loops_of_svg(std::string_view text) {
   constexpr std::string_view kData = " d=\"";
   FlatLoops loops;
-  for (std::size_t at = text.find("<path"); at != std::string_view::npos; at = text.find("<path", at + 1)) {
+  for (std::size_t at = text.find("<path"); at != std::string_view::npos;
+       at = text.find("<path", at + 1)) {
     const std::size_t begin = text.find(kData, at);
-    const std::size_t end = begin == std::string_view::npos ? begin : text.find('"', begin + kData.size());
+    const std::size_t end =
+        begin == std::string_view::npos ? begin : text.find('"', begin + kData.size());
     if (end == std::string_view::npos) return std::nullopt;
     PathData data(text.substr(begin + kData.size(), end - begin - kData.size()));
     FlatLoop loop;

@@ -1,4 +1,5 @@
-// What the importer leaves to OpenSCAD itself: a part of a .csg file as text goes out, a mesh or a polygon comes back.
+// What the importer leaves to OpenSCAD itself: a part of a .csg file as text goes out, a mesh or a
+// polygon comes back.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,12 @@
 
 namespace graycube {
 
-/// Modules as OpenSCAD reads them; the names of files in `file = …` are made absolute by `folder`, when it isn't empty.
+/// Modules as OpenSCAD reads them; the names of files in `file = …` are made absolute by `folder`,
+/// when it isn't empty.
 std::string scad_text(const ScadModule& module, const std::string& folder);
 
-/// The polygon of an SVG file that OpenSCAD wrote: its path's closed loops, y upwards. Nothing when it is none.
+/// The polygon of an SVG file that OpenSCAD wrote: its path's closed loops, y upwards. Nothing when
+/// it is none.
 std::optional<FlatLoops> loops_of_svg(std::string_view text);
 
 /// Asks a program once for each different text.

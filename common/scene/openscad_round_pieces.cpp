@@ -14,7 +14,8 @@ namespace {
 
 using Kind = RoundItem::Kind;
 
-/// What rounding leaves of rotations that were recovered from six digits (scene/recovered_rotation.hpp).
+/// What rounding leaves of rotations that were recovered from six digits
+/// (scene/recovered_rotation.hpp).
 constexpr double kRotationPrecision = 1e-13;
 
 bool is_container(const std::string& name) {

@@ -20,7 +20,9 @@ using Kind = FlatShape::Kind;
 /// How far what is subtracted reaches beyond the ends, in heights.
 constexpr double kReachBeyond = 0.25;
 
-CsgNode leaf(decltype(CsgNode::value) value) { return {std::move(value), std::nullopt, kInheritMaterial}; }
+CsgNode leaf(decltype(CsgNode::value) value) {
+  return {std::move(value), std::nullopt, kInheritMaterial};
+}
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   if (children.size() == 1) return std::move(children.front());
@@ -63,8 +65,8 @@ CsgNode extruded_disk(const FlatMap& map, double low, double high) {
 }
 
 /// One prism for each connected part, so that none has more corners than a scene file may give it.
-std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, double high, ScadImport& import,
-                                        int line) {
+std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, double high,
+                                        ScadImport& import, int line) {
   std::vector<CsgNode> prisms;
   for (FlatRegion& region : regions_of(loops)) {
     FlatLoops part = std::move(region.holes);
@@ -76,7 +78,8 @@ std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, doub
       return std::nullopt;
     }
     if (corners > kMaxPrismPoints) {
-      import.report.error(line, "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
+      import.report.error(line,
+                          "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
       return std::nullopt;
     }
     // Slivers that rounding leaves are no loss.
@@ -128,7 +131,8 @@ std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, 
   if (shape.kind == Kind::kPolygon) return turned(shape.loops);
   // Disks that others are tangent to get facets together with these.
   if (shape.kind != Kind::kDisk && (shape.facets.empty() || has_turned_form(shape))) {
-    return operated(shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
+    return operated(
+        shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
   }
   if (shape.kind == Kind::kDisk) {
     if (auto solid = turned_disk(shape.disk)) return solid;
@@ -144,7 +148,8 @@ CsgNode wedge(double from, double to) {
   // Left of the half-plane at `from`, right of that at `to`.
   sides.push_back(leaf(HalfSpaceShape{{sin_degrees(from), -cos_degrees(from), 0}, 0}));
   sides.push_back(leaf(HalfSpaceShape{{-sin_degrees(to), cos_degrees(to), 0}, 0}));
-  return operation(to - from <= 180 ? Operation::kIntersection : Operation::kUnion, std::move(sides));
+  return operation(to - from <= 180 ? Operation::kIntersection : Operation::kUnion,
+                   std::move(sides));
 }
 
 std::optional<FlatShape> figure_of(const ScadModule& module, ScadImport& import) {
@@ -158,7 +163,8 @@ std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& im
   const bool center = arguments.boolean("center", -1);
   sweep.twist = arguments.number("twist", -1, 0);
   if (arguments.has("slices")) {
-    sweep.slices = static_cast<int>(std::clamp(arguments.number("slices", -1, 1), 1.0, double{kMaxOpenscadSides}));
+    sweep.slices = static_cast<int>(
+        std::clamp(arguments.number("slices", -1, 1), 1.0, double{kMaxOpenscadSides}));
   }
   sweep.fineness = fineness_of(arguments);
   if (const ScadValue* value = module.argument("scale")) {
@@ -170,8 +176,10 @@ std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& im
   }
   sweep.scale = {std::max(sweep.scale.x, 0.0), std::max(sweep.scale.y, 0.0)};
   const double biggest = std::max({std::fabs(sweep.twist), sweep.scale.x, sweep.scale.y});
-  if (arguments.ok() && !(biggest <= kMaxOpenscadCoordinate)) arguments.fail("twist and scale must be finite");
-  if (arguments.empty_unless(std::isfinite(height) && height > 0, "its height is not positive")) return std::nullopt;
+  if (arguments.ok() && !(biggest <= kMaxOpenscadCoordinate))
+    arguments.fail("twist and scale must be finite");
+  if (arguments.empty_unless(std::isfinite(height) && height > 0, "its height is not positive"))
+    return std::nullopt;
   sweep.low = center ? -0.5 * height : 0;
   sweep.high = center ? 0.5 * height : height;
   return sweep;
@@ -193,8 +201,8 @@ std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep)
   return std::move(solid->node);
 }
 
-std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions, const ScadModule& module,
-                                       ScadImport& import) {
+std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions,
+                                       const ScadModule& module, ScadImport& import) {
   std::vector<CsgNode> parts;
   for (const SweptRegion& region : regions) {
     auto whole = mesh_leaf(region.whole, module, import.report);
@@ -202,7 +210,8 @@ std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions, 
     std::vector<CsgNode> children;
     children.push_back(std::move(*whole));
     for (const PolygonMesh& hole : region.holes) {
-      if (auto inner = mesh_leaf(hole, module, import.report)) children.push_back(std::move(*inner));
+      if (auto inner = mesh_leaf(hole, module, import.report))
+        children.push_back(std::move(*inner));
     }
     parts.push_back(operation(Operation::kDifference, std::move(children)));
   }
@@ -211,16 +220,20 @@ std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions, 
 }
 
 /// Reports a mesh of too many facets.
-bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module, ScadImport& import) {
+bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
+                   ScadImport& import) {
   std::size_t corners = 0, most = 0;
   for (const FlatLoop& loop : loops) {
     corners += loop.size();
     most = std::max(most, loop.size());
   }
-  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets && most <= kMaxFaceCorners) return true;
-  import.report.error(module.line, module.name + "(): more than " + std::to_string(kMaxOpenscadFacets) +
-                                       " facets, or an outline of more than " + std::to_string(kMaxFaceCorners) +
-                                       " corners");
+  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets &&
+      most <= kMaxFaceCorners)
+    return true;
+  import.report.error(module.line, module.name + "(): more than " +
+                                       std::to_string(kMaxOpenscadFacets) +
+                                       " facets, or an outline of more than " +
+                                       std::to_string(kMaxFaceCorners) + " corners");
   return false;
 }
 
@@ -232,21 +245,27 @@ std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   if (sweep->twist == 0 && shape->has_curves()) {
     if (auto cone = tapered(*shape, *sweep)) return cone;
   }
-  if (shape->has_curves()) import.warn_once(module.line, "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
+  if (shape->has_curves())
+    import.warn_once(module.line,
+                     "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);
-  if (!loops || !is_mesh_small(*loops, slices_of(*loops, *sweep), module, import)) return std::nullopt;
+  if (!loops || !is_mesh_small(*loops, slices_of(*loops, *sweep), module, import))
+    return std::nullopt;
   return mesh_of_regions(swept(*loops, *sweep), module, import);
 }
 
-std::optional<TurnSweep> turn_sweep(const ScadModule& module, ScadImport& import, const FlatLoops& loops) {
+std::optional<TurnSweep> turn_sweep(const ScadModule& module, ScadImport& import,
+                                    const FlatLoops& loops) {
   ScadArguments arguments(module, import.report);
   TurnSweep sweep;
   sweep.angle = arguments.number("angle", -1, 360);
   sweep.fineness = fineness_of(arguments);
   if (!(sweep.angle > -360 && sweep.angle <= 360)) sweep.angle = 360;
   const auto [lo, hi] = flat_bounds(loops);
-  const bool one_side = !(hi.x > 0 && lo.x < 0) || std::min(hi.x, -lo.x) <= 1e-9 * std::max(hi.x, -lo.x);
-  if (arguments.empty_unless(one_side, "its figure lies on both sides of the axis")) return std::nullopt;
+  const bool one_side =
+      !(hi.x > 0 && lo.x < 0) || std::min(hi.x, -lo.x) <= 1e-9 * std::max(hi.x, -lo.x);
+  if (arguments.empty_unless(one_side, "its figure lies on both sides of the axis"))
+    return std::nullopt;
   if (arguments.empty_unless(sweep.angle != 0, "its angle is 0")) return std::nullopt;
   sweep.mirrored = hi.x < -lo.x;
   return sweep;
@@ -278,7 +297,8 @@ std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
 
 }  // namespace
 
-std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import, int line) {
+std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import,
+                                int line) {
   if (shape.kind == Kind::kPolygon) return extruded_polygon(shape.loops, low, high, import, line);
   if (shape.kind == Kind::kDisk) return extruded_disk(shape.disk, low, high);
   const double margin = shape.kind == Kind::kUnion ? 0 : kReachBeyond * (high - low);
@@ -288,7 +308,8 @@ std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high,
   });
 }
 
-std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module, OpenscadReport& report) {
+std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module,
+                                 OpenscadReport& report) {
   if (mesh.face_ends.empty()) return std::nullopt;
   auto closed = closed_mesh(mesh);
   if (auto* fault = std::get_if<MeshFault>(&closed)) {

@@ -1,5 +1,5 @@
-// linear_extrude() and rotate_extrude(): exact where OpenSCAD's solid is the sweep itself, meshes of OpenSCAD's own
-// facets where it isn't (twist, scale), or where facets are asked for.
+// linear_extrude() and rotate_extrude(): exact where OpenSCAD's solid is the sweep itself, meshes
+// of OpenSCAD's own facets where it isn't (twist, scale), or where facets are asked for.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,13 @@
 
 namespace graycube {
 
-/// The solid of one of the two modules in its own coordinates; nothing where it is empty or wrong, which is reported.
+/// The solid of one of the two modules in its own coordinates; nothing where it is empty or wrong,
+/// which is reported.
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import);
 
 /// The figure × [low, high] along z.
-std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import, int line);
+std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import,
+                                int line);
 
 /// The corners of OpenSCAD's mesh of the solid. False when it is empty or wrong, which is reported.
 bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec3>& corners);
@@ -39,6 +41,7 @@ std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, Sc
                                         int line);
 
 /// A closed mesh as a leaf; nothing when it is empty, or, with an error, when it isn't closed.
-std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module, OpenscadReport& report);
+std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module,
+                                 OpenscadReport& report);
 
 }  // namespace graycube

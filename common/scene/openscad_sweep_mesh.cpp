@@ -22,8 +22,8 @@ using Ring = std::vector<Vec3>;
 
 double squared(const Vec3& v) { return dot(v, v); }
 
-/// Rings of as many points each, joined by triangles with the shorter diagonal, as OpenSCAD does; closed by the
-/// first and the last, or with one another.
+/// Rings of as many points each, joined by triangles with the shorter diagonal, as OpenSCAD does;
+/// closed by the first and the last, or with one another.
 PolygonMesh joined(const std::vector<Ring>& rings, bool is_closed) {
   PolygonMesh mesh;
   const auto n = static_cast<std::uint32_t>(rings.front().size());
@@ -69,10 +69,12 @@ PolygonMesh swept_loop(const FlatLoop& loop, const LinearSweep& sweep, bool is_h
   if (is_hole) rings.push_back(ring_at(loop, sweep, 0, sweep.low - kHoleReach * height));
   for (int i = 0; i <= sweep.slices; ++i) {
     const double share = static_cast<double>(i) / sweep.slices;
-    rings.push_back(ring_at(loop, sweep, share, i == sweep.slices ? sweep.high : sweep.low + share * height));
+    rings.push_back(
+        ring_at(loop, sweep, share, i == sweep.slices ? sweep.high : sweep.low + share * height));
   }
   const bool ends_in_point = sweep.scale.x == 0 || sweep.scale.y == 0;
-  if (is_hole && !ends_in_point) rings.push_back(ring_at(loop, sweep, 1, sweep.high + kHoleReach * height));
+  if (is_hole && !ends_in_point)
+    rings.push_back(ring_at(loop, sweep, 1, sweep.high + kHoleReach * height));
   return joined(rings, false);
 }
 
@@ -116,18 +118,21 @@ int slices_of(const FlatLoops& loops, const LinearSweep& sweep) {
     if (sweep.scale.x == sweep.scale.y && sweep.scale.x != 1) {
       const double scale = sweep.scale.x, turn = twist * kDegree;
       const double end = scale > 1 ? turn * scale / (scale - 1) : turn / (1 - scale);
-      const double flat = spiral_length(radius / end, end) - spiral_length(radius / end, end - turn);
+      const double flat =
+          spiral_length(radius / end, end) - spiral_length(radius / end, end - turn);
       length = std::sqrt(flat * flat + height * height);
     }
     const double least = std::max(std::ceil(twist / 120), 1.0);
     slices = least;
     if (radius >= kLeastRadius) {
-      slices = f.fn > 0 ? std::max(std::ceil(twist / 360 * f.fn), least)
-                        : std::max(std::min(std::ceil(twist / f.fa), std::ceil(length / f.fs)), least);
+      slices = f.fn > 0
+                   ? std::max(std::ceil(twist / 360 * f.fn), least)
+                   : std::max(std::min(std::ceil(twist / f.fa), std::ceil(length / f.fs)), least);
     }
   }
   if (sweep.scale.x != sweep.scale.y && std::sqrt(change2) >= kLeastRadius) {
-    const double uneven = f.fn > 0 ? std::floor(f.fn) : std::ceil(std::sqrt(change2 + height * height) / f.fs);
+    const double uneven =
+        f.fn > 0 ? std::floor(f.fn) : std::ceil(std::sqrt(change2 + height * height) / f.fs);
     slices = std::max(slices, uneven);
   }
   return static_cast<int>(std::clamp(slices, 1.0, double{kMaxOpenscadSides}));
@@ -157,7 +162,8 @@ int steps_of(const FlatLoops& loops, const TurnSweep& sweep) {
 std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sweep) {
   const bool is_closed = sweep.angle == 360;
   const int steps = steps_of(loops, sweep);
-  const double reach = std::min(kHoleTurn, (360 - std::fabs(sweep.angle)) / 3) * (sweep.angle > 0 ? 1 : -1);
+  const double reach =
+      std::min(kHoleTurn, (360 - std::fabs(sweep.angle)) / 3) * (sweep.angle > 0 ? 1 : -1);
   std::vector<double> angles;
   // A whole turn starts on the negative side in OpenSCAD.
   for (int i = 0; i < steps + (is_closed ? 0 : 1); ++i) {

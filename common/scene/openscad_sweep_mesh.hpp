@@ -9,7 +9,8 @@
 
 namespace graycube {
 
-/// Along z from low to high; turned by −twist degrees and scaled at the upper end. No slices: as many as OpenSCAD takes.
+/// Along z from low to high; turned by −twist degrees and scaled at the upper end. No slices: as
+/// many as OpenSCAD takes.
 struct LinearSweep {
   double low = 0, high = 0, twist = 0;
   FlatPoint scale{1, 1};
@@ -19,7 +20,8 @@ struct LinearSweep {
   bool is_straight() const { return twist == 0 && scale == FlatPoint{1, 1}; }
 };
 
-/// About z by `angle` degrees, −360 < angle ≤ 360 and not 0; x is the distance from the axis, negative if `mirrored`.
+/// About z by `angle` degrees, −360 < angle ≤ 360 and not 0; x is the distance from the axis,
+/// negative if `mirrored`.
 struct TurnSweep {
   double angle = 360;
   bool mirrored = false;

@@ -145,8 +145,9 @@ void CsgReader::read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNod
   triangles_read_ += shape.mesh.triangles.size();
   context.summary.triangles += shape.mesh.triangles.size();
   if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) return;
-  json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) + " points or " +
-                           std::to_string(kMaxMeshTriangles) + " triangles together");
+  json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) +
+                           " points or " + std::to_string(kMaxMeshTriangles) +
+                           " triangles together");
   shape = {};
 }
 

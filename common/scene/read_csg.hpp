@@ -37,8 +37,8 @@ class CsgReader {
   void read_leaf(JsonIndex at, bool has_material, std::string_view owner, Context& context);
   void read_children(JsonIndex at, OperationNode& out, bool has_material, std::uint32_t depth,
                      Context& context);
-  void read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out,
-                      Context& context);
+  void read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                      CsgNode& out, Context& context);
   ReferenceNode read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
                                Context& context);
 

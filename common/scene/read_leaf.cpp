@@ -39,8 +39,8 @@ constexpr std::array kRules{
     rules_of(NodeType::kPolyhedron, "polyhedron", "a polyhedron", "planes"),
     rules_of(NodeType::kEllipticCone, "elliptic_cone", "an elliptic_cone", "base", "top", "a", "b",
              "top_a", "top_b"),
-    rules_of(NodeType::kEllipticTorus, "elliptic_torus", "an elliptic_torus", "center", "axis", "radius",
-             "outward", "upward", "across"),
+    rules_of(NodeType::kEllipticTorus, "elliptic_torus", "an elliptic_torus", "center", "axis",
+             "radius", "outward", "upward", "across"),
     rules_of(NodeType::kQuadric, "quadric", "a quadric", "coefficients", "min", "max"),
     NodeRules{"prism",
               "a prism",
@@ -57,7 +57,13 @@ constexpr std::array kRules{
               "a mesh",
               NodeType::kMesh,
               kOwn + 4,
-              {{{"type", true}, {"transform"}, {"material"}, {"points"}, {"faces"}, {"file"}, {"digits"}}}},
+              {{{"type", true},
+                {"transform"},
+                {"material"},
+                {"points"},
+                {"faces"},
+                {"file"},
+                {"digits"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another word.
@@ -180,7 +186,8 @@ EllipticConeShape read_elliptic_cone(JsonAccess& json, LeafMembers members) {
     map.m[static_cast<std::size_t>(row)] = {c.a[row], c.b[row], h[row], 0};
   }
   if (!map.is_finite() || !map.inverse()) {
-    json.errors.add(members.at(2), "expected a, b and top - base linearly independent, found them dependent");
+    json.errors.add(members.at(2),
+                    "expected a, b and top - base linearly independent, found them dependent");
   }
   return c;
 }
@@ -285,7 +292,8 @@ void read_prism_paths(JsonAccess& json, JsonIndex at, PrismShape& prism) {
   if (!json.is_array(at)) return;
   if (json.tree.size(at) == 0) json.wrong(at, "one path or more");
   std::size_t corners = 0;
-  for (JsonIndex path = json.tree.first_child(at); path != json.tree.end(at); path = json.tree.next(path)) {
+  for (JsonIndex path = json.tree.first_child(at); path != json.tree.end(at);
+       path = json.tree.next(path)) {
     if (!json.is_array(path)) continue;
     corners += json.tree.size(path);
     if (corners > kMaxPrismPoints) {

@@ -11,7 +11,8 @@ enum MeshKey : std::size_t { kPoints = kCommonKeys, kFaces, kFile, kDigits };
 bool read_points(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   if (!json.is_array(at)) return false;
   const std::uint32_t count = json.tree.size(at);
-  if (count > kMaxMeshPoints) return json.wrong(at, "at most " + std::to_string(kMaxMeshPoints) + " points");
+  if (count > kMaxMeshPoints)
+    return json.wrong(at, "at most " + std::to_string(kMaxMeshPoints) + " points");
   out.points.resize(count);
   bool good = true;
   JsonIndex child = json.tree.first_child(at);
@@ -22,7 +23,8 @@ bool read_points(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   return good;
 }
 
-bool read_face(JsonAccess& json, JsonIndex at, std::uint32_t points, std::vector<std::uint32_t>& face) {
+bool read_face(JsonAccess& json, JsonIndex at, std::uint32_t points,
+               std::vector<std::uint32_t>& face) {
   if (!json.is_array(at)) return false;
   const std::uint32_t corners = json.tree.size(at);
   if (corners < 3 || corners > kMaxFaceCorners) {
@@ -41,7 +43,8 @@ bool read_face(JsonAccess& json, JsonIndex at, std::uint32_t points, std::vector
 bool read_faces(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   if (!json.is_array(at)) return false;
   const std::uint32_t count = json.tree.size(at);
-  if (count > kMaxMeshTriangles) return json.wrong(at, "at most " + std::to_string(kMaxMeshTriangles) + " faces");
+  if (count > kMaxMeshTriangles)
+    return json.wrong(at, "at most " + std::to_string(kMaxMeshTriangles) + " faces");
   if (out.points.empty()) return json.wrong(at, "points for the faces");
   out.face_ends.reserve(count);
   out.corners.reserve(std::size_t{3} * count);
@@ -75,7 +78,8 @@ void read_named_file(JsonAccess& json, JsonIndex file, const MeshLoader& load, M
   std::string_view name;
   if (!json.read(file, name)) return;
   if (load) return take(json, file, load(name), out);
-  json.errors.add(file, "no file is opened here: the mesh must be in the scene itself, as graycube sends it");
+  json.errors.add(
+      file, "no file is opened here: the mesh must be in the scene itself, as graycube sends it");
 }
 
 }  // namespace
@@ -84,7 +88,8 @@ void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxN
                const MeshLoader& load, MeshShape& out) {
   const JsonIndex points = members[kPoints], faces = members[kFaces], file = members[kFile];
   if (file != 0 ? points != 0 || faces != 0 : points == 0 || faces == 0) {
-    json.errors.add(at, "a mesh needs either the keys \"points\" and \"faces\" or the key \"file\"");
+    json.errors.add(at,
+                    "a mesh needs either the keys \"points\" and \"faces\" or the key \"file\"");
     return;
   }
   if (file != 0) {

@@ -65,8 +65,8 @@ class SceneReader {
     pieces_.emplace(tree_);
   }
 
-  /// Without the whole tree, which is more than half of the work; nothing when anything is wrong or unusual, for which
-  /// the whole tree is needed.
+  /// Without the whole tree, which is more than half of the work; nothing when anything is wrong or
+  /// unusual, for which the whole tree is needed.
   std::optional<ReadResult> read_in_pieces() {
     if (!pieces_->read_up_to(kRootRules[kObjects].name)) return std::nullopt;
     json_.members(0, "a scene", kRootRules, root_);
@@ -95,7 +95,8 @@ class SceneReader {
   SceneError syntax_error() const {
     const auto& error = *tree_.syntax_error();
     if (tree_.is_cbor()) {
-      return {tree_.pointer(error.value), "byte " + std::to_string(error.offset) + ": " + error.message, 0, 0};
+      return {tree_.pointer(error.value),
+              "byte " + std::to_string(error.offset) + ": " + error.message, 0, 0};
     }
     const TextPosition p = text_positions(text_, {error.offset}).front();
     return {tree_.pointer(error.value),

@@ -47,16 +47,18 @@ struct ReadResult {
   std::vector<SceneError> errors;
   /// A mesh came from a file of its own: the text alone isn't the scene.
   bool used_files = false;
-  /// An object at a time, without the tree of the whole text: CBOR as our writer writes it, without errors.
+  /// An object at a time, without the tree of the whole text: CBOR as our writer writes it, without
+  /// errors.
   bool was_read_in_pieces = false;
 };
 
-/// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds. `load` opens the files that
-/// meshes name; without one such a mesh is an error.
+/// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds. `load`
+/// opens the files that meshes name; without one such a mesh is an error.
 ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load = nullptr);
 /// As above, copying the text. Large ones are best padded where they are read.
 ReadResult read_scene_text(std::string_view json);
-/// As the first, with mesh files relative to the scene file's folder; that the file can't be read is an error with an empty pointer.
+/// As the first, with mesh files relative to the scene file's folder; that the file can't be read
+/// is an error with an empty pointer.
 ReadResult read_scene_file(const std::filesystem::path& path);
 
 }  // namespace graycube

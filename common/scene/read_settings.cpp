@@ -68,7 +68,18 @@ void read_image(JsonAccess& json, JsonIndex at, ImageSize& out) {
 }
 
 void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
-  enum : std::size_t { kType, kEye, kLookAt, kUp, kFov, kWidth, kHandedness, kPixelOffset, kInside, kKeys };
+  enum : std::size_t {
+    kType,
+    kEye,
+    kLookAt,
+    kUp,
+    kFov,
+    kWidth,
+    kHandedness,
+    kPixelOffset,
+    kInside,
+    kKeys
+  };
   constexpr std::array<KeyRule, kKeys> kRules{{{"type", true},
                                                {"eye", true},
                                                {"look_at", true},
@@ -98,7 +109,8 @@ void read_camera(JsonAccess& json, JsonIndex at, Camera& out) {
       json.errors.add(member[unwanted], kind + " has no key " + quoted(kRules[unwanted].name) +
                                             "; did you mean " + quoted(kRules[wanted].name) + "?");
   }
-  if (type_known && out.inside == InsideView::kEntry && out.projection == Projection::kPerspective) {
+  if (type_known && out.inside == InsideView::kEntry &&
+      out.projection == Projection::kPerspective) {
     json.errors.add(member[kInside], "only an orthographic camera shows entries");
   }
   bool frame_good = json.read_optional(member[kEye], out.eye);

@@ -77,8 +77,8 @@ struct EllipticConeShape {
   double top_a = 0, top_b = 0;
   friend bool operator==(const EllipticConeShape&, const EllipticConeShape&) = default;
 };
-/// An ellipse turned about an axis that it doesn't reach: one semi-axis goes `outward` along the radius and `upward`
-/// along the axis, the other is `across` long.
+/// An ellipse turned about an axis that it doesn't reach: one semi-axis goes `outward` along the
+/// radius and `upward` along the axis, the other is `across` long.
 struct EllipticTorusShape {
   Vec3 center, axis;
   double radius = 0, outward = 0, upward = 0, across = 0;
@@ -91,15 +91,17 @@ struct QuadricShape {
   friend bool operator==(const QuadricShape&, const QuadricShape&) = default;
 };
 
-/// A polygon × [base, base + height] along z. Each path goes round by its corners, numbers of points; without
-/// paths all points are one. A point is inside when an odd number of paths goes round it.
+/// A polygon × [base, base + height] along z. Each path goes round by its corners, numbers of
+/// points; without paths all points are one. A point is inside when an odd number of paths goes
+/// round it.
 struct PrismShape {
   std::vector<FlatPoint> points;
   std::vector<std::vector<std::uint32_t>> paths;
   double height = 0, base = 0;
   friend bool operator==(const PrismShape&, const PrismShape&) = default;
 };
-/// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals outward.
+/// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals
+/// outward.
 struct MeshShape {
   TriangleMesh mesh;
   std::uint32_t digits = 0;  ///< As Scene::digits, of the mesh's own numbers.
@@ -158,8 +160,8 @@ struct Scene {
   std::vector<NamedMaterial> materials;
   std::vector<NamedShape> shapes;
   std::vector<SceneObject> objects;
-  /// Significant decimal digits of the numbers that the scene was made from; 0: all that a double has. What coincides
-  /// within them coincides (docs/coincidence.md).
+  /// Significant decimal digits of the numbers that the scene was made from; 0: all that a double
+  /// has. What coincides within them coincides (docs/coincidence.md).
   std::uint32_t digits = 0;
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -104,7 +104,8 @@ bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
   int winding = 0;
   for (const auto& [a, b, c] : m.mesh.triangles) {
     const int count = csg::triangle_count(line, points[a], points[b], points[c]);
-    if (count != 0 && csg::triangle_parameter(line, ray, points[a], points[b], points[c]) < 0) winding += count;
+    if (count != 0 && csg::triangle_parameter(line, ray, points[a], points[b], points[c]) < 0)
+      winding += count;
   }
   return winding != 0;
 }

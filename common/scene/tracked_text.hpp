@@ -1,4 +1,5 @@
-// Bytes for nlohmann's parsers: an input iterator that tells how far the library has read, which its events don't.
+// Bytes for nlohmann's parsers: an input iterator that tells how far the library has read, which
+// its events don't.
 #pragma once
 
 #include <cstddef>

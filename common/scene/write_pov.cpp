@@ -117,7 +117,8 @@ class PovWriter {
       warnings_.push_back("POV-Ray doesn't show entries behind the camera");
     // Rays off the pixels' middles: the whole picture is shifted against them.
     const double cell = width / image.width / image.samples;
-    const Vec3 shift = (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;
+    const Vec3 shift =
+        (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;
     text_ += perspective ? "camera { perspective" : "camera { orthographic";
     item(" location ", perspective ? c.eye : c.eye + shift);
     item(" direction ", perspective ? forward + shift : forward);
@@ -294,7 +295,8 @@ class PovWriter {
       std::visit([&](const auto& value) { write_value(value); }, solid->value);
     }
   }
-  /// POV-Ray counts crossings along inside_vector: an odd number is inside. Where shells overlap that differs.
+  /// POV-Ray counts crossings along inside_vector: an odd number is inside. Where shells overlap
+  /// that differs.
   void write_value(const MeshShape& m) {
     text_ += "mesh2 { vertex_vectors { " + std::to_string(m.mesh.points.size());
     for (const Vec3& p : m.mesh.points) {

@@ -13,8 +13,8 @@ namespace graycube {
 /// The mirror direction of d about the unit normal n.
 inline Vec3 reflected(const Vec3& d, const Vec3& n) { return d - (2 * dot(d, n)) * n; }
 
-/// The direction of unit d behind a surface whose unit normal n is turned against d; `eta` is the ratio of
-/// the refractive index before the surface to that behind it. Nothing on total reflection.
+/// The direction of unit d behind a surface whose unit normal n is turned against d; `eta` is the
+/// ratio of the refractive index before the surface to that behind it. Nothing on total reflection.
 inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& n, double eta) {
   const double cosine = -dot(d, n);
   const double k = 1 - eta * eta * (1 - cosine * cosine);
@@ -22,8 +22,8 @@ inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& n, double eta) {
   return normalized(eta * d + (eta * cosine - std::sqrt(k)) * n);
 }
 
-/// Light reflected towards the viewer of unit light from unit direction l, where n·l > 0: Phong (1975), with
-/// d the unit direction of the viewing ray and r its mirror direction.
+/// Light reflected towards the viewer of unit light from unit direction l, where n·l > 0: Phong
+/// (1975), with d the unit direction of the viewing ray and r its mirror direction.
 Rgb phong(const Material& m, double n_dot_l, const Vec3& r, const Vec3& l);
 
 }  // namespace graycube

@@ -1,4 +1,5 @@
-// Everything of a scene that is not a solid: picture, camera, lights, limits of the photometric tree.
+// Everything of a scene that is not a solid: picture, camera, lights, limits of the photometric
+// tree.
 #pragma once
 
 #include <array>
@@ -25,8 +26,8 @@ inline constexpr std::uint64_t kMaxPixels = 1ull << 26;
 inline constexpr std::uint32_t kMaxSamples = 64;
 
 enum class Projection : std::uint8_t { kPerspective, kOrthographic };
-/// What a ray shows that starts within a solid: where it leaves it, or where it would have entered it, behind its
-/// start. The latter is rt's way; orthographic cameras only.
+/// What a ray shows that starts within a solid: where it leaves it, or where it would have entered
+/// it, behind its start. The latter is rt's way; orthographic cameras only.
 enum class InsideView : std::uint8_t { kExit, kEntry };
 enum class Handedness : std::uint8_t { kRight, kLeft };
 
@@ -38,7 +39,8 @@ struct Camera {
   /// Orthographic: the picture's width in scene units.
   double width = 0;
   Handedness handedness = Handedness::kRight;
-  /// Where in its pixel (with samples: subcell) a ray goes, from the lower-left corner, in pixels; 0 … 1.
+  /// Where in its pixel (with samples: subcell) a ray goes, from the lower-left corner, in pixels;
+  /// 0 … 1.
   std::array<double, 2> pixel_offset{0.5, 0.5};
   InsideView inside = InsideView::kExit;
 

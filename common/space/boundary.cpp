@@ -28,9 +28,12 @@ void Passages(std::span<const RegionSide* const> sides, const Vec3& eye, const R
   const V zero = hn::Zero(lanes);
   for (std::size_t i = 0; i < packet.count; i += hn::Lanes(lanes)) {
     const auto origin = [&](std::size_t a) {
-      return hn::Sub(hn::Load(lanes, packet.origin[a].data() + i), hn::Set(lanes, eye[static_cast<int>(a)]));
+      return hn::Sub(hn::Load(lanes, packet.origin[a].data() + i),
+                     hn::Set(lanes, eye[static_cast<int>(a)]));
     };
-    const auto direction = [&](std::size_t a) { return hn::Load(lanes, packet.direction[a].data() + i); };
+    const auto direction = [&](std::size_t a) {
+      return hn::Load(lanes, packet.direction[a].data() + i);
+    };
     const V ox = origin(0), oy = origin(1), oz = origin(2);
     const V dx = direction(0), dy = direction(1), dz = direction(2);
     const V t0 = hn::Load(lanes, packet.t0.data() + i);
@@ -64,8 +67,8 @@ namespace graycube {
 
 GRAYCUBE_SIMD_TABLE(Passages);
 
-void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye, const RayPacket& packet,
-                         FirstPassages& first) {
+void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye,
+                         const RayPacket& packet, FirstPassages& first) {
   GRAYCUBE_SIMD_CALL(Passages)(sides, eye, packet, first);
 }
 

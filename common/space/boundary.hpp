@@ -11,8 +11,9 @@
 
 namespace graycube {
 
-/// Boundary f(q) = normal · q − offset, with q relative to the eye and |normal| = 1. Relative to the eye, so that f
-/// is exactly 0 at the origin of every primary ray in perspective, where offset is 0.
+/// Boundary f(q) = normal · q − offset, with q relative to the eye and |normal| = 1. Relative to
+/// the eye, so that f is exactly 0 at the origin of every primary ray in perspective, where offset
+/// is 0.
 struct BoundaryPlane {
   Vec3 normal;
   double offset = 0;
@@ -26,8 +27,8 @@ struct BoundaryPlane {
 struct RegionSide {
   BoundaryPlane plane;
   bool far = false;  // the half-space is f ≥ 0, else f < 0
-  /// Three columns only: from column 0 the root leads to column 1 in front of the eye and to column 2 behind it;
-  /// which, boundary 2 tells.
+  /// Three columns only: from column 0 the root leads to column 1 in front of the eye and to column
+  /// 2 behind it; which, boundary 2 tells.
   bool forks = false;
   std::uint16_t next = 0;
 };
@@ -43,9 +44,9 @@ struct FirstPassages {
   alignas(64) std::array<double, RayPacket::kSize> side;
 };
 
-/// Of rays that have reached t0: as MacroGrid::exit, bit for bit, for each ray of the packet. At most kMostSides; at
-/// equal t the first of them.
-void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye, const RayPacket& packet,
-                         FirstPassages& first);
+/// Of rays that have reached t0: as MacroGrid::exit, bit for bit, for each ray of the packet. At
+/// most kMostSides; at equal t the first of them.
+void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye,
+                         const RayPacket& packet, FirstPassages& first);
 
 }  // namespace graycube

@@ -41,8 +41,7 @@ class BspBuilder {
     CellContent content;
     for (std::uint32_t i = first_object; i < end_object; ++i) {
       const Object& object = model_.objects[i];
-      restrict_tree(model_.tree(object), i,
-                    Aabb::everything(), content);
+      restrict_tree(model_.tree(object), i, Aabb::everything(), content);
     }
     bsp_.nodes_.emplace_back();
     const Aabb extent = finite_extent(content);
@@ -90,8 +89,8 @@ class BspBuilder {
     return child;
   }
 
-  /// The unbounded space around the finite primitives is cut off by six planes; what lies outside holds
-  /// only unbounded primitives and is not cut further.
+  /// The unbounded space around the finite primitives is cut off by six planes; what lies outside
+  /// holds only unbounded primitives and is not cut further.
   void split_off_outside(const Aabb& extent, CellContent content) {
     std::uint32_t node = 0;
     Aabb cell = Aabb::everything();
@@ -179,8 +178,8 @@ class BspBuilder {
     bsp_.programs_.push_back(program);
   }
 
-  /// Hands every leaf region its neighbour links. `outer` are those of the cell of `node`; a link goes down
-  /// as long as one child touches the whole face.
+  /// Hands every leaf region its neighbour links. `outer` are those of the cell of `node`; a link
+  /// goes down as long as one child touches the whole face.
   void link(const std::array<std::uint32_t, 6>& outer, std::uint32_t node) {
     const BspNode n = bsp_.nodes_[node];
     if (n.axis == BspNode::kLeafAxis) {

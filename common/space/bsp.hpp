@@ -1,7 +1,7 @@
-// The subdivision of one macro-region: a BSP with axis-aligned planes (surface-area heuristic), whose leaf
-// regions hold, per object with a surface in them, a pruned CSG program, and are linked to their neighbours
-// through all six faces (Arnaldi, Priol & Bouatouch 1987), so that a ray walks from leaf to leaf without
-// going back to the root.
+// The subdivision of one macro-region: a BSP with axis-aligned planes (surface-area heuristic),
+// whose leaf regions hold, per object with a surface in them, a pruned CSG program, and are linked
+// to their neighbours through all six faces (Arnaldi, Priol & Bouatouch 1987), so that a ray walks
+// from leaf to leaf without going back to the root.
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ struct CellProgram {
 
 struct BspLeaf {
   Aabb cell;
-  /// Per face (axis · 2 + upper): the smallest subtree that touches the whole face; kNoNeighbour outside.
+  /// Per face (axis · 2 + upper): the smallest subtree that touches the whole face; kNoNeighbour
+  /// outside.
   std::array<std::uint32_t, 6> neighbour{};
   std::uint32_t first_program = 0;
   std::uint32_t program_count = 0;

@@ -28,9 +28,9 @@ struct CameraFrame {
   double column_position(double edge) const { return (edge - 0.5 * image.width) * pixel_size; }
   double row_position(double edge) const { return (edge - 0.5 * image.height) * pixel_size; }
 
-  /// The primary ray of sample (sx, sy), each 0 … samples − 1, of pixel (x, y): through the camera's
-  /// point of that subcell. Unit direction; perspective rays start at the eye, orthographic ones on the
-  /// plane through the eye.
+  /// The primary ray of sample (sx, sy), each 0 … samples − 1, of pixel (x, y): through the
+  /// camera's point of that subcell. Unit direction; perspective rays start at the eye,
+  /// orthographic ones on the plane through the eye.
   Ray primary_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sx, std::uint32_t sy) const;
 };
 

@@ -1,6 +1,6 @@
-// Where a ray crosses the surface of an object, found from the object's program in one leaf region. Crossings
-// of the object's primitives at equal t are taken together: the object's surface is crossed where its
-// membership before and after the group differs.
+// Where a ray crosses the surface of an object, found from the object's program in one leaf region.
+// Crossings of the object's primitives at equal t are taken together: the object's surface is
+// crossed where its membership before and after the group differs.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,8 @@ inline bool flag(std::span<const std::uint64_t> flags, std::uint32_t literal) {
   return ((flags[literal / 64] >> (literal % 64)) & 1) != 0;
 }
 
-/// Membership of the subtree whose first literal is number `literal`; moves `literal` past the subtree.
+/// Membership of the subtree whose first literal is number `literal`; moves `literal` past the
+/// subtree.
 inline bool member(std::span<const TreeNode> tree, std::span<const std::uint64_t> flags,
                    std::uint32_t& literal) {
   const TreeNode& root = tree.front();
@@ -41,11 +42,12 @@ inline bool member(std::span<const TreeNode> tree, std::span<const std::uint64_t
   return result;
 }
 
-/// Of a subtree whose membership changed: the primitive reached by descending into the first child whose
-/// own membership changed.
+/// Of a subtree whose membership changed: the primitive reached by descending into the first child
+/// whose own membership changed.
 inline std::uint32_t changed_primitive(std::span<const TreeNode> tree,
                                        std::span<const std::uint64_t> before,
-                                       std::span<const std::uint64_t> after, std::uint32_t literal) {
+                                       std::span<const std::uint64_t> after,
+                                       std::uint32_t literal) {
   const TreeNode& root = tree.front();
   if (root.size == 1) return root.primitive;
   for (std::size_t i = 1; i < root.size; i += tree[i].size) {
@@ -98,9 +100,10 @@ class ProgramView {
   CellProgram::Shape shape_;
 };
 
-/// Takes the events of a program in groups of equal t, and calls visit(t, entering) where the membership before
-/// and after a group differs, until it returns false; false then. `before` holds the flags before the first
-/// event; during a visit `before` and `after` are those around its group.
+/// Takes the events of a program in groups of equal t, and calls visit(t, entering) where the
+/// membership before and after a group differs, until it returns false; false then. `before` holds
+/// the flags before the first event; during a visit `before` and `after` are those around its
+/// group.
 template <typename IsMember, typename Visit>
 bool grouped(std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& before,
              std::vector<std::uint64_t>& after, IsMember&& is_member, Visit&& visit) {
@@ -122,8 +125,8 @@ bool grouped(std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& be
   return true;
 }
 
-/// Adds the events of one literal's spans that lie in [t0, t1), and its flag at t0, which comes from all events
-/// before it.
+/// Adds the events of one literal's spans that lie in [t0, t1), and its flag at t0, which comes
+/// from all events before it.
 inline void gather(const Spans& spans, std::uint32_t literal, double t0, double t1,
                    std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& flags) {
   for (int i = 0; i < spans.count; ++i) {
@@ -160,16 +163,16 @@ bool single(const TreeNode& node, std::uint32_t object, const Spans& spans, doub
 
 }  // namespace crossings
 
-/// Calls `visit(Crossing)` for every crossing of the program's object with t0 ≤ t < t1, in order of t, until
-/// it returns false; returns false then. Intersections come from the mailbox.
+/// Calls `visit(Crossing)` for every crossing of the program's object with t0 ≤ t < t1, in order of
+/// t, until it returns false; returns false then. Intersections come from the mailbox.
 template <typename Visit>
-bool for_each_crossing(const Bsp& bsp, const CellProgram& program, const Ray& ray, double t0, double t1,
-                       Mailbox& mailbox, Visit&& visit) {
+bool for_each_crossing(const Bsp& bsp, const CellProgram& program, const Ray& ray, double t0,
+                       double t1, Mailbox& mailbox, Visit&& visit) {
   const Model& model = bsp.model();
   if (program.shape == CellProgram::Shape::kSingle) {
     const TreeNode& node = bsp.program_nodes()[program.first_node];
-    return crossings::single(node, program.object, mailbox.spans(model, node.primitive, ray), t0, t1,
-                             visit);
+    return crossings::single(node, program.object, mailbox.spans(model, node.primitive, ray), t0,
+                             t1, visit);
   }
   const crossings::ProgramView view(bsp, program);
   auto& events = mailbox.events;

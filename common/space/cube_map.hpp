@@ -1,5 +1,6 @@
-// Directions on the faces of a cube. Face 2 · a is that of directions whose largest component is +axis a, 2 · a + 1
-// that of −axis a; u goes along axis a + 1 and v along axis a + 2 (mod 3), each from 0 to 1.
+// Directions on the faces of a cube. Face 2 · a is that of directions whose largest component is
+// +axis a, 2 · a + 1 that of −axis a; u goes along axis a + 1 and v along axis a + 2 (mod 3), each
+// from 0 to 1.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,8 @@ struct CubePlace {
 
 constexpr std::size_t cube_texels(std::uint32_t side) { return std::size_t{6} * side * side; }
 
-/// The first of the largest components names the face. Written without branches: shadow rays of one wave go to several
-/// faces, and no processor guesses which.
+/// The first of the largest components names the face. Written without branches: shadow rays of one
+/// wave go to several faces, and no processor guesses which.
 inline CubePlace cube_place(const Vec3& d) {
   const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
   const bool is_x = x >= y && x >= z, is_y = !is_x && y >= z;
@@ -30,7 +31,8 @@ inline CubePlace cube_place(const Vec3& d) {
   const double main = select(d.x, d.y, d.z);
   const double scale = 0.5 / std::fabs(main);
   const std::size_t axis = is_x ? 0 : 2 - std::size_t{is_y};
-  return {2 * axis + (main < 0 ? 1 : 0), select(d.y, d.z, d.x) * scale + 0.5, select(d.z, d.x, d.y) * scale + 0.5};
+  return {2 * axis + (main < 0 ? 1 : 0), select(d.y, d.z, d.x) * scale + 0.5,
+          select(d.z, d.x, d.y) * scale + 0.5};
 }
 
 /// The direction, not of unit length, of a place.
@@ -43,8 +45,8 @@ inline Vec3 cube_direction(const CubePlace& place) {
   return d;
 }
 
-/// Which of `count` cells of width 1 a coordinate from 0 to `count` is in. Written so that NaN, which no unit vector
-/// gives, and what rounding takes beyond either end stay within.
+/// Which of `count` cells of width 1 a coordinate from 0 to `count` is in. Written so that NaN,
+/// which no unit vector gives, and what rounding takes beyond either end stay within.
 inline std::uint32_t cell_at(double at, std::uint32_t count) {
   return at > 0 ? std::min(static_cast<std::uint32_t>(at), count - 1) : 0;
 }

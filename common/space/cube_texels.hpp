@@ -9,9 +9,10 @@ namespace graycube {
 /// What find_cube_texels reads and writes in one go: its spans must reach to a multiple of this.
 inline constexpr std::size_t kTexelLanes = 8;
 
-/// cube_texel (cube_map.hpp) of the directions opposite to (x, y, z)[i], on faces of side × side texels, for each
-/// i < count. A direction that is no number gets some texel.
-void find_opposite_texels(std::span<const double> x, std::span<const double> y, std::span<const double> z,
-                          std::size_t count, std::uint32_t side, std::span<std::uint32_t> texels);
+/// cube_texel (cube_map.hpp) of the directions opposite to (x, y, z)[i], on faces of side × side
+/// texels, for each i < count. A direction that is no number gets some texel.
+void find_opposite_texels(std::span<const double> x, std::span<const double> y,
+                          std::span<const double> z, std::size_t count, std::uint32_t side,
+                          std::span<std::uint32_t> texels);
 
 }  // namespace graycube

@@ -18,7 +18,9 @@ constexpr std::size_t kBoxesPerNode = 5;
 struct FloatBox {
   std::array<float, 3> lo, hi;
 
-  static constexpr FloatBox nothing() { return {{kFloatInf, kFloatInf, kFloatInf}, {-kFloatInf, -kFloatInf, -kFloatInf}}; }
+  static constexpr FloatBox nothing() {
+    return {{kFloatInf, kFloatInf, kFloatInf}, {-kFloatInf, -kFloatInf, -kFloatInf}};
+  }
   void include(const FloatBox& o) {
     for (std::size_t a = 0; a < 3; ++a) {
       lo[a] = std::min(lo[a], o.lo[a]);
@@ -60,8 +62,13 @@ struct Branches {
 class Pruning {
  public:
   /// `items`: by node, those below it. Up to `most_together` share a box.
-  Pruning(const SurfaceTree& tree, std::span<const std::uint32_t> items, const ModelContents& contents, std::size_t most_together)
-      : tree_(tree), items_(items), contents_(contents), most_together_(most_together), is_part_(tree.model().objects.size()) {
+  Pruning(const SurfaceTree& tree, std::span<const std::uint32_t> items,
+          const ModelContents& contents, std::size_t most_together)
+      : tree_(tree),
+        items_(items),
+        contents_(contents),
+        most_together_(most_together),
+        is_part_(tree.model().objects.size()) {
     for (const ModelContents::Part& part : contents.parts) is_part_[part.object] = true;
   }
 
@@ -74,7 +81,8 @@ class Pruning {
     std::reverse(nodes_.begin(), nodes_.end());
     for (WideNode& node : nodes_) {
       for (std::uint32_t& child : node.child) {
-        if ((child & WideNode::kItemFlag) == 0) child = static_cast<std::uint32_t>(nodes_.size()) - 1 - child;
+        if ((child & WideNode::kItemFlag) == 0)
+          child = static_cast<std::uint32_t>(nodes_.size()) - 1 - child;
       }
     }
     return std::move(nodes_);
@@ -97,7 +105,8 @@ class Pruning {
       }
       if (b.count > 0) ++count;
     }
-    // What has few branches needs no node of its own, as long as there is room here for it and for all others.
+    // What has few branches needs no node of its own, as long as there is room here for it and for
+    // all others.
     Branches all;
     std::size_t others = count;
     for (std::size_t size = 1; size <= WideNode::kWidth; ++size) {
@@ -114,16 +123,21 @@ class Pruning {
     return all;
   }
 
-  static bool is_item(const WideNode& node, std::size_t place) { return (node.child[place] & WideNode::kItemFlag) != 0; }
+  static bool is_item(const WideNode& node, std::size_t place) {
+    return (node.child[place] & WideNode::kItemFlag) != 0;
+  }
   std::uint32_t object_of(const WideNode& node, std::size_t place) const {
     return tree_.items()[node.child[place] & ~WideNode::kItemFlag].object;
   }
-  bool is_foreign(const WideNode& node, std::size_t place) const { return !contents_.is_whole[object_of(node, place)]; }
+  bool is_foreign(const WideNode& node, std::size_t place) const {
+    return !contents_.is_whole[object_of(node, place)];
+  }
 
   Branch item_branch(const WideNode& node, std::size_t place) const {
     const std::uint32_t object = object_of(node, place);
     if (!is_part_[object]) return place_branch(node, place);
-    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)), WideNode::kItemFlag};
+    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)),
+            WideNode::kItemFlag};
   }
 
   static Branch place_branch(const WideNode& node, std::size_t place) {
@@ -138,7 +152,8 @@ class Pruning {
   /// All that is foreign below a node, in one box, which may be larger; nothing where nothing is.
   std::optional<Branch> all_together(const WideNode& parent, std::size_t place) const {
     Branch all = place_branch(parent, place);
-    return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all) : std::nullopt;
+    return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all)
+                                                                          : std::nullopt;
   }
   /// Whether there is something; of what is held in part, the box comes to include all.
   bool add_foreign_below(const WideNode& node, FloatBox& box) const {
@@ -181,7 +196,8 @@ class Pruning {
 
 }  // namespace
 
-ForeignBoundsMaker::ForeignBoundsMaker(const SurfaceTree& whole) : tree_(whole), items_(whole.nodes().size()) {
+ForeignBoundsMaker::ForeignBoundsMaker(const SurfaceTree& whole)
+    : tree_(whole), items_(whole.nodes().size()) {
   // Children come behind their parents.
   for (std::size_t n = items_.size(); n-- > 0;) {
     const WideNode& node = whole.nodes()[n];
@@ -192,14 +208,17 @@ ForeignBoundsMaker::ForeignBoundsMaker(const SurfaceTree& whole) : tree_(whole),
   }
 }
 
-std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& contents, std::size_t most_bytes) const {
+std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& contents,
+                                                        std::size_t most_bytes) const {
   for (const std::uint32_t item : tree_.unbounded_items()) {
     if (!contents.is_whole[tree_.items()[item].object]) return std::nullopt;
   }
   const std::size_t most_nodes = std::max<std::size_t>(1, most_bytes / sizeof(WideNode));
   const auto foreign = static_cast<std::size_t>(
-      std::count_if(tree_.items().begin(), tree_.items().end(), [&](const SurfaceItem& i) { return !contents.is_whole[i.object]; }));
-  for (std::size_t together = std::bit_ceil(foreign / (kBoxesPerNode * most_nodes) + 1);; together *= 2) {
+      std::count_if(tree_.items().begin(), tree_.items().end(),
+                    [&](const SurfaceItem& i) { return !contents.is_whole[i.object]; }));
+  for (std::size_t together = std::bit_ceil(foreign / (kBoxesPerNode * most_nodes) + 1);;
+       together *= 2) {
     std::vector<WideNode> nodes = Pruning(tree_, items_, contents, together).run();
     if (nodes.size() <= most_nodes) return ForeignBounds(std::move(nodes));
   }

@@ -1,6 +1,6 @@
-// Where what a node does not hold may be: a hierarchy of boxes around all surfaces of the objects that are foreign to it. A
-// ray that meets none of them, on its way from the node's macro-regions to what it meets of what the node holds, is
-// finished there.
+// Where what a node does not hold may be: a hierarchy of boxes around all surfaces of the objects
+// that are foreign to it. A ray that meets none of them, on its way from the node's macro-regions
+// to what it meets of what the node holds, is finished there.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ namespace graycube {
 
 class ForeignBounds {
  public:
-  /// The first node is the root, children come behind their parents, and no way down is longer than SurfaceTree::kMaxDepth.
+  /// The first node is the root, children come behind their parents, and no way down is longer than
+  /// SurfaceTree::kMaxDepth.
   explicit ForeignBounds(std::vector<WideNode> nodes) : nodes_(std::move(nodes)) {}
 
   /// Bit i: ray i may meet something foreign at t0 ≤ t ≤ t1; 0 ≤ t0.
@@ -36,9 +37,9 @@ class ForeignBoundsMaker {
  public:
   explicit ForeignBoundsMaker(const SurfaceTree& whole);
 
-  /// Around all that `contents` do not hold whole; where they hold a part of an object, around all of it, since the part has
-  /// other surfaces than the whole. Boxes that are near each other become one where all take more than `most_bytes`. Nothing
-  /// where something foreign has no bounds.
+  /// Around all that `contents` do not hold whole; where they hold a part of an object, around all
+  /// of it, since the part has other surfaces than the whole. Boxes that are near each other become
+  /// one where all take more than `most_bytes`. Nothing where something foreign has no bounds.
   std::optional<ForeignBounds> bounds(const ModelContents& contents, std::size_t most_bytes) const;
 
  private:

@@ -23,7 +23,8 @@ Mask MayMeet(const std::vector<WideNode>& nodes, const RayPacket& packet, TreeSc
       meets_none &= ~(Mask{1} << i);
       return false;
     };
-    each_item_below<Order::kAny>(nodes, node, p.ray(i), p.first[i], [&] { return packet.t1[i]; }, scratch, met);
+    each_item_below<Order::kAny>(
+        nodes, node, p.ray(i), p.first[i], [&] { return packet.t1[i]; }, scratch, met);
   };
   each_leaf_of_packet<Order::kAny>(nodes, p, meets_none, scratch, leaf, walk);
   return all & ~meets_none;

@@ -9,12 +9,14 @@
 namespace graycube {
 namespace {
 
-/// Appends the edges between equally heavy parts of a line of cells; by pixels where nothing weighs anything.
+/// Appends the edges between equally heavy parts of a line of cells; by pixels where nothing weighs
+/// anything.
 void cut_line(std::vector<double> loads, std::span<const std::int64_t> ends, std::uint32_t parts,
               std::vector<std::int64_t>& edges) {
   double total = std::accumulate(loads.begin(), loads.end(), 0.0);
   if (!(total > 0)) {
-    for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = static_cast<double>(ends[i + 1] - ends[i]);
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      loads[i] = static_cast<double>(ends[i + 1] - ends[i]);
     total = static_cast<double>(ends.back() - ends.front());
   }
   std::size_t cell = 0;
@@ -23,8 +25,10 @@ void cut_line(std::vector<double> loads, std::span<const std::int64_t> ends, std
   for (std::uint32_t part = 1; part < parts; ++part) {
     const double wanted = total * part / parts;
     while (cell + 1 < loads.size() && before + loads[cell] < wanted) before += loads[cell++];
-    const double in_cell = loads[cell] > 0 ? std::clamp((wanted - before) / loads[cell], 0.0, 1.0) : 0.0;
-    const double place = static_cast<double>(ends[cell]) + in_cell * static_cast<double>(ends[cell + 1] - ends[cell]);
+    const double in_cell =
+        loads[cell] > 0 ? std::clamp((wanted - before) / loads[cell], 0.0, 1.0) : 0.0;
+    const double place = static_cast<double>(ends[cell]) +
+                         in_cell * static_cast<double>(ends[cell + 1] - ends[cell]);
     const auto step = static_cast<std::int64_t>(std::lround(place / kCutStep)) * kCutStep;
     // A pixel at least for this part, and for each to come.
     last = std::clamp(step, last + 1, ends.back() - (parts - part));
@@ -34,11 +38,14 @@ void cut_line(std::vector<double> loads, std::span<const std::int64_t> ends, std
 
 }  // namespace
 
-JaggedCuts jagged_cuts(const LoadMap& map, std::span<const std::int64_t> x, std::span<const std::int64_t> y,
-                       std::uint32_t column_parts, std::uint32_t row_parts) {
-  GRAYCUBE_CHECK(x.size() == map.columns + 1 && y.size() == map.rows + 1, "%zu by %zu edges of cells", x.size(), y.size());
-  GRAYCUBE_CHECK(column_parts >= 1 && column_parts <= x.back() && row_parts >= 1 && row_parts <= y.back(), "%u by %u parts",
-                 column_parts, row_parts);
+JaggedCuts jagged_cuts(const LoadMap& map, std::span<const std::int64_t> x,
+                       std::span<const std::int64_t> y, std::uint32_t column_parts,
+                       std::uint32_t row_parts) {
+  GRAYCUBE_CHECK(x.size() == map.columns + 1 && y.size() == map.rows + 1,
+                 "%zu by %zu edges of cells", x.size(), y.size());
+  GRAYCUBE_CHECK(
+      column_parts >= 1 && column_parts <= x.back() && row_parts >= 1 && row_parts <= y.back(),
+      "%u by %u parts", column_parts, row_parts);
   JaggedCuts cuts;
   std::vector<double> line(map.rows, 0);
   for (std::uint32_t r = 0; r < map.rows; ++r) {

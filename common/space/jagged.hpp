@@ -1,4 +1,5 @@
-// Jagged partition: a picture is cut into rows, and each row into columns of its own, so that all parts are about as heavy.
+// Jagged partition: a picture is cut into rows, and each row into columns of its own, so that all
+// parts are about as heavy.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +20,11 @@ struct JaggedCuts {
   std::vector<std::int64_t> columns;
 };
 
-/// `x` and `y`: the pixel edges of the map's cells, from 0 to the picture's sides, one more than cells. The load of a cell counts as
-/// spread evenly over its pixels. 1 ≤ parts ≤ pixels, each way.
-JaggedCuts jagged_cuts(const LoadMap& map, std::span<const std::int64_t> x, std::span<const std::int64_t> y,
-                       std::uint32_t column_parts, std::uint32_t row_parts);
+/// `x` and `y`: the pixel edges of the map's cells, from 0 to the picture's sides, one more than
+/// cells. The load of a cell counts as spread evenly over its pixels. 1 ≤ parts ≤ pixels, each way.
+JaggedCuts jagged_cuts(const LoadMap& map, std::span<const std::int64_t> x,
+                       std::span<const std::int64_t> y, std::uint32_t column_parts,
+                       std::uint32_t row_parts);
 
 /// By column: the edge that is the mean of all rows' edges.
 std::vector<std::int64_t> mean_columns(const JaggedCuts& cuts, std::uint32_t column_parts);

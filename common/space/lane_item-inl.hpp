@@ -1,4 +1,5 @@
-// An item of the surface tree along the rays of a packet, as many at a time as there are lanes of doubles.
+// An item of the surface tree along the rays of a packet, as many at a time as there are lanes of
+// doubles.
 #if defined(GRAYCUBE_SPACE_LANE_ITEM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_LANE_ITEM_INL
 #undef GRAYCUBE_SPACE_LANE_ITEM_INL
@@ -18,8 +19,10 @@ namespace HWY_NAMESPACE {
 /// The intervals of a small item's literals along the rays of one group of lanes.
 class LaneItem {
  public:
-  /// To be called before the item's groups: which of a packet's rays may meet the bounds of each literal.
-  void look_at(const SurfaceTree& tree, const SurfaceItem& item, const CullingPacket& p, Mask rays) {
+  /// To be called before the item's groups: which of a packet's rays may meet the bounds of each
+  /// literal.
+  void look_at(const SurfaceTree& tree, const SurfaceItem& item, const CullingPacket& p,
+               Mask rays) {
     const auto literals = tree.literals_of(item);
     has_near_ = false;
     if (literals.size() == 1) return;  // the tree has seen to its bounds
@@ -30,13 +33,14 @@ class LaneItem {
         continue;
       }
       has_near_ = true;
-      near_[i] = meet_box([&](std::size_t side, std::size_t a) { return static_cast<float>(l.v[3 * side + a]); }, p,
-                          rays);
+      near_[i] = meet_box(
+          [&](std::size_t side, std::size_t a) { return static_cast<float>(l.v[3 * side + a]); }, p,
+          rays);
     }
   }
 
-  /// Lanes of the group, from ray `first` on, that may cross the item's surface in [t0, t1]: conjunctions only
-  /// where the common interval of the upright literals meets it.
+  /// Lanes of the group, from ray `first` on, that may cross the item's surface in [t0, t1]:
+  /// conjunctions only where the common interval of the upright literals meets it.
   std::uint32_t meet(const SurfaceTree& tree, const SurfaceItem& item, const RayPacket& packet,
                      const CullingPacket& p, std::size_t first, const double* t1,
                      std::uint32_t lanes_wanted, TreeScratch& scratch) {
@@ -84,9 +88,8 @@ class LaneItem {
       common.enter_after(own.enter);
       common.leave_before(own.leave);
       // At equal t the item may still win a tie.
-      const auto alive =
-          hn::And(hn::Lt(common.enter, common.leave),
-                  hn::And(hn::Ge(common.leave, begin), hn::Le(common.enter, end)));
+      const auto alive = hn::And(hn::Lt(common.enter, common.leave),
+                                 hn::And(hn::Ge(common.leave, begin), hn::Le(common.enter, end)));
       lanes_wanted &= bits_of(alive);
       if (lanes_wanted == 0) return 0;
     }
@@ -124,17 +127,19 @@ class LaneItem {
         }
       }
     }
-    const auto interval = [&](std::size_t i) { return crossings::Ends{enter[i][lane], leave[i][lane]}; };
+    const auto interval = [&](std::size_t i) {
+      return crossings::Ends{enter[i][lane], leave[i][lane]};
+    };
     const auto at_end = [&](double t, bool entering) {
       return visit(Crossing{t, crossings::changed_literal(literals, interval, t), item.object,
                             entering != item.is_complement});
     };
-    return crossings::conjunction_ends({removed.data(), removed_count}, from[lane], to[lane], t0, t1,
-                                       at_end);
+    return crossings::conjunction_ends({removed.data(), removed_count}, from[lane], to[lane], t0,
+                                       t1, at_end);
   }
 
-  /// Lanes that cross an end of the common interval. Where the item `is_convex`, these are just those that cross its
-  /// surface.
+  /// Lanes that cross an end of the common interval. Where the item `is_convex`, these are just
+  /// those that cross its surface.
   std::uint32_t crossed = 0;
   bool is_convex = false;
 
@@ -151,9 +156,10 @@ class LaneItem {
     double enter, leave;
   };
 
-  /// Solves a literal for each lane wanted; returns what reaches from the first interval to the last.
-  LaneInterval one_by_one(const Model& model, const Literal& literal, std::size_t index, const RayPacket& packet,
-                          std::size_t first, std::uint32_t wanted) {
+  /// Solves a literal for each lane wanted; returns what reaches from the first interval to the
+  /// last.
+  LaneInterval one_by_one(const Model& model, const Literal& literal, std::size_t index,
+                          const RayPacket& packet, std::size_t first, std::uint32_t wanted) {
     const Lanes d;
     hn::Store(every(csg::kInf), d, enter[index]);
     hn::Store(every(-csg::kInf), d, leave[index]);
@@ -169,17 +175,19 @@ class LaneItem {
       if (spans.count == 1) continue;
       const auto& second = spans.interval[1];
       last[lane] = second.leave;
-      seconds_[second_count_++] = {static_cast<std::uint32_t>(index), lane, second.enter, second.leave};
+      seconds_[second_count_++] = {static_cast<std::uint32_t>(index), lane, second.enter,
+                                   second.leave};
     }
     return {hn::Load(d, enter[index]), hn::Load(d, last)};
   }
 
   /// Of items that aren't simple conjunctions. Apart, so that the way of most items is short.
   template <typename Visit>
-  HWY_NOINLINE bool event_crossings(const SurfaceTree& tree, const SurfaceItem& item, std::size_t lane, double t0,
-                                    double t1, Visit&& visit) const {
+  HWY_NOINLINE bool event_crossings(const SurfaceTree& tree, const SurfaceItem& item,
+                                    std::size_t lane, double t0, double t1, Visit&& visit) const {
     crossings::FewEvents events(t0, t1);
-    for (std::uint32_t i = 0; i < item.literal_count; ++i) events.add(i, enter[i][lane], leave[i][lane]);
+    for (std::uint32_t i = 0; i < item.literal_count; ++i)
+      events.add(i, enter[i][lane], leave[i][lane]);
     for (std::size_t i = 0; i < second_count_; ++i) {
       const Second& s = seconds_[i];
       if (s.lane == lane) events.add(s.literal, s.enter, s.leave);
@@ -232,8 +240,8 @@ class SingleRays {
   const CullingPacket& culling_;
 };
 
-/// Calls take(group's first ray, lanes) for the groups of lanes with rays that can go through the item
-/// together, and single(ray) for the others.
+/// Calls take(group's first ray, lanes) for the groups of lanes with rays that can go through the
+/// item together, and single(ray) for the others.
 template <typename Take, typename Single>
 HWY_INLINE void in_groups(const SurfaceItem& item, const CullingPacket& p, Mask rays, Take&& take,
                           Single&& single) {

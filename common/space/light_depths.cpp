@@ -16,9 +16,11 @@ namespace {
 
 /// Pixels that are looked at, along each side of the picture.
 constexpr std::uint32_t kSamples = 64;
-/// Blocks are made until so many of the samples that ask for one have it: the last ones would serve few rays each.
+/// Blocks are made until so many of the samples that ask for one have it: the last ones would serve
+/// few rays each.
 constexpr double kServedShare = 0.8;
-/// Solids are taken this many δ larger or smaller than a texel asks for; and texels relatively wider.
+/// Solids are taken this many δ larger or smaller than a texel asks for; and texels relatively
+/// wider.
 constexpr double kGrowDeltas = 16;
 constexpr double kWiden = 1 + 1e-5;
 /// Distances are given this much shorter or longer, relatively.
@@ -56,14 +58,15 @@ std::vector<Demand> demands(const LightHorizons& horizons, const SurfaceTree& wh
       result[l].far = std::max(result[l].far, distance);
     }
   };
-  const std::uint32_t across = std::min(kSamples, frame.image.width), down = std::min(kSamples, frame.image.height);
+  const std::uint32_t across = std::min(kSamples, frame.image.width),
+                      down = std::min(kSamples, frame.image.height);
   const auto pixel = [](std::uint32_t i, std::uint32_t count, std::uint32_t pixels) {
     return static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * pixels / (2 * count));
   };
   for (std::uint32_t j = 0; j < down; ++j) {
     for (std::uint32_t i = 0; i < across; ++i) {
-      const Ray ray =
-          frame.primary_ray(pixel(i, across, frame.image.width), pixel(j, down, frame.image.height), 0, 0);
+      const Ray ray = frame.primary_ray(pixel(i, across, frame.image.width),
+                                        pixel(j, down, frame.image.height), 0, 0);
       if (const auto hit = whole.first_crossing(ray, 0, Aabb::kInf, scratch)) look(ray, *hit);
     }
   }
@@ -84,7 +87,8 @@ void choose_blocks(const std::vector<Demand>& demand, std::vector<LightDepths>& 
       samples += all.back().samples;
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Block& a, const Block& b) { return a.samples > b.samples; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Block& a, const Block& b) { return a.samples > b.samples; });
   std::uint64_t served = 0;
   for (const Block& b : all) {
     if (static_cast<double>(served) >= kServedShare * static_cast<double>(samples)) break;
@@ -95,26 +99,32 @@ void choose_blocks(const std::vector<Demand>& demand, std::vector<LightDepths>& 
 }
 
 /// How far a direction in a texel may be from the middle one, both of length 1.
-double half_width(std::uint32_t split) { return kWiden * std::sqrt(2.0) / (LightHorizons::kSide * split); }
+double half_width(std::uint32_t split) {
+  return kWiden * std::sqrt(2.0) / (LightHorizons::kSide * split);
+}
 
-/// Splits blocks so that a texel is about equally wide where each light's farthest samples are, as fine as
-/// `most_texels` allow; false when they allow nothing.
-bool split_blocks(const std::vector<Demand>& demand, std::uint64_t most_texels, std::vector<LightDepths>& depths) {
+/// Splits blocks so that a texel is about equally wide where each light's farthest samples are, as
+/// fine as `most_texels` allow; false when they allow nothing.
+bool split_blocks(const std::vector<Demand>& demand, std::uint64_t most_texels,
+                  std::vector<LightDepths>& depths) {
   double farthest = 0;
   for (const Demand& d : demand) farthest = std::max(farthest, d.far);
   for (std::uint32_t finest = LightDepths::kMostSplit; finest >= 1; --finest) {
     std::uint64_t texels = 0;
     for (std::size_t l = 0; l < depths.size(); ++l) {
-      depths[l].split = std::max(1u, static_cast<std::uint32_t>(std::ceil(demand[l].far / farthest * finest)));
-      texels += std::uint64_t{depths[l].dark_split()} * depths[l].dark_split() * depths[l].blocks.size();
+      depths[l].split =
+          std::max(1u, static_cast<std::uint32_t>(std::ceil(demand[l].far / farthest * finest)));
+      texels +=
+          std::uint64_t{depths[l].dark_split()} * depths[l].dark_split() * depths[l].blocks.size();
     }
     if (texels > 0 && texels <= most_texels) return true;
   }
   return false;
 }
 
-/// How far directions in a texel may part from its middle one by where they reach an object, or as far as depths go,
-/// for the light for which that is most. `split_of` tells into how many texels a light's blocks are split along a side.
+/// How far directions in a texel may part from its middle one by where they reach an object, or as
+/// far as depths go, for the light for which that is most. `split_of` tells into how many texels a
+/// light's blocks are split along a side.
 template <typename SplitOf>
 double half_width_at(const Object& object, const Model& model, const std::vector<Demand>& demand,
                      const std::vector<LightDepths>& depths, SplitOf&& split_of) {
@@ -141,7 +151,8 @@ class View {
     for (const Vec3& d : directions) packet.add({light_, d}, 0, end);
     std::array<Crossing, RayPacket::kSize> found;
     const RayPacket::Mask hits = tree_.first_crossings(packet, scratch_, found);
-    for (std::size_t i = 0; i < directions.size(); ++i) first_[i] = (hits >> i & 1) != 0 ? found[i].t : end;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      first_[i] = (hits >> i & 1) != 0 ? found[i].t : end;
     return {first_.data(), directions.size()};
   }
 
@@ -155,7 +166,9 @@ class View {
 bool is_inside(const Model& model, const Vec3& point) {
   return std::any_of(model.objects.begin(), model.objects.end(), [&](const Object& object) {
     if (!object.bounds.contains(point)) return false;
-    return evaluate(model.tree(object), [&](std::uint32_t p) { return contains(model.primitives[p], model.data(), point); });
+    return evaluate(model.tree(object), [&](std::uint32_t p) {
+      return contains(model.primitives[p], model.data(), point);
+    });
   });
 }
 
@@ -163,8 +176,8 @@ bool is_inside(const Model& model, const Vec3& point) {
 class DepthMaker {
  public:
   /// `map` is the light's horizon.
-  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light, const HorizonMap& map,
-             double far, LightDepths& depths)
+  DepthMaker(const SurfaceTree& larger, const SurfaceTree& smaller, const Vec3& light,
+             const HorizonMap& map, double far, LightDepths& depths)
       : larger_(larger, light), smaller_(smaller, light), map_(map), far_(far), depths_(depths) {}
 
   void run() {
@@ -175,7 +188,8 @@ class DepthMaker {
     depths_.dark.assign(depths_.blocks.size() * dark_split * dark_split, LightDepths::kNever);
     for (std::size_t block = 0; block < depths_.blocks.size(); ++block) {
       for_each_square(split, [&](std::uint32_t x, std::uint32_t y) { look_about(block, x, y); });
-      for_each_square(dark_split, [&](std::uint32_t x, std::uint32_t y) { look_behind(block, x, y); });
+      for_each_square(dark_split,
+                      [&](std::uint32_t x, std::uint32_t y) { look_behind(block, x, y); });
     }
   }
 
@@ -210,8 +224,9 @@ class DepthMaker {
     const double at_least = map_.at(depths_.blocks[block]);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const double lit = std::max(begins[i] * (1 - kRelativeError), at_least);
-      depths_.lit[places_[i]] =
-          begins[i] < far_ && lit < far_ ? static_cast<std::uint16_t>(lit / depths_.unit) : LightDepths::kNever;
+      depths_.lit[places_[i]] = begins[i] < far_ && lit < far_
+                                    ? static_cast<std::uint16_t>(lit / depths_.unit)
+                                    : LightDepths::kNever;
     }
   }
 
@@ -248,7 +263,8 @@ class DepthMaker {
 
 }  // namespace
 
-LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole, std::uint64_t most_texels) {
+LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole,
+                          std::uint64_t most_texels) {
   const Model& model = whole.model();
   const auto& lights = model.settings.lights;
   if (horizons.maps().size() != lights.size()) return horizons;
@@ -259,22 +275,27 @@ LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole, std:
   // What is outside of a dilated object is at least so far from the object itself.
   double clearance = Aabb::kInf;
   const auto larger = dilated(model, [&](const Object& object) {
-    const double by = half_width_at(object, model, demand, depths, [](const LightDepths& d) { return d.split; });
+    const double by =
+        half_width_at(object, model, demand, depths, [](const LightDepths& d) { return d.split; });
     clearance = std::min(clearance, by);
     return by;
   });
   if (!larger) return horizons;
   const Model smaller = eroded(model, [&](const Object& object) {
-    return half_width_at(object, model, demand, depths, [](const LightDepths& d) { return d.dark_split(); });
+    return half_width_at(object, model, demand, depths,
+                         [](const LightDepths& d) { return d.dark_split(); });
   });
-  const SurfaceTree larger_tree = SurfaceTree::build(*larger), smaller_tree = SurfaceTree::build(smaller);
+  const SurfaceTree larger_tree = SurfaceTree::build(*larger),
+                    smaller_tree = SurfaceTree::build(smaller);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     if (depths[l].blocks.empty() || is_inside(*larger, lights[l].position)) {
       depths[l] = {};
       continue;
     }
     depths[l].clearance = clearance;
-    DepthMaker(larger_tree, smaller_tree, lights[l].position, horizons.maps()[l], demand[l].far, depths[l]).run();
+    DepthMaker(larger_tree, smaller_tree, lights[l].position, horizons.maps()[l], demand[l].far,
+               depths[l])
+        .run();
   }
   return {horizons.maps(), std::move(depths)};
 }

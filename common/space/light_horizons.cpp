@@ -9,8 +9,8 @@
 namespace graycube {
 namespace {
 
-/// Distances in units are given this much shorter, relatively, before they are rounded down: more than rounding them to
-/// floats (LightHorizons::distances_at) can make of them.
+/// Distances in units are given this much shorter, relatively, before they are rounded down: more
+/// than rounding them to floats (LightHorizons::distances_at) can make of them.
 constexpr double kRelativeError = 1e-6;
 
 /// Where nothing tells how far distances are worth something.
@@ -51,7 +51,8 @@ HorizonMap HorizonMap::of(std::span<const float> distances, double reach) {
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double d = distances[i];
     const bool is_never = d > std::numeric_limits<float>::max();
-    map.units[i] = is_never ? kNever : static_cast<std::uint16_t>(std::min(d, reach) * units_per_length);
+    map.units[i] =
+        is_never ? kNever : static_cast<std::uint16_t>(std::min(d, reach) * units_per_length);
   }
   return map;
 }
@@ -60,7 +61,8 @@ double LightHorizons::reach_of(const Model& model, const PointLight& light) {
   double reach = 0;
   for (const Object& object : model.objects) {
     const Vec3 lo = object.bounds.lo - light.position, hi = object.bounds.hi - light.position;
-    const Vec3 far{larger(std::fabs(lo.x), std::fabs(hi.x)), larger(std::fabs(lo.y), std::fabs(hi.y)),
+    const Vec3 far{larger(std::fabs(lo.x), std::fabs(hi.x)),
+                   larger(std::fabs(lo.y), std::fabs(hi.y)),
                    larger(std::fabs(lo.z), std::fabs(hi.z))};
     const double distance = length(far);
     if (std::isfinite(distance)) reach = std::max(reach, distance);

@@ -1,7 +1,8 @@
-// Light horizons: for each light, a cube map of the least distance at which any surface of the scene may begin
-// in that direction (design section 10). A shadow ray that is nearer to its light than that meets nothing more,
-// whatever process holds the space between: it needs no walk and no message. Where shadow rays go, finer texels
-// also hold the distance beyond which no light arrives at all (light_depths.hpp).
+// Light horizons: for each light, a cube map of the least distance at which any surface of the
+// scene may begin in that direction (design section 10). A shadow ray that is nearer to its light
+// than that meets nothing more, whatever process holds the space between: it needs no walk and no
+// message. Where shadow rays go, finer texels also hold the distance beyond which no light arrives
+// at all (light_depths.hpp).
 #pragma once
 
 #include <algorithm>
@@ -26,8 +27,8 @@ struct LightDepths {
   /// A distance that never comes.
   static constexpr std::uint16_t kNever = 0xFFFF;
 
-  /// 0 where the light has none; else a block is split × split texels of the horizon, and kGroup times as many of
-  /// the darkness along each side.
+  /// 0 where the light has none; else a block is split × split texels of the horizon, and kGroup
+  /// times as many of the darkness along each side.
   std::uint32_t split = 0;
   /// > 0, in scene units.
   double unit = 0;
@@ -35,8 +36,8 @@ struct LightDepths {
   double clearance = 0;
   /// Texels of the horizon map that have a block, increasing.
   std::vector<std::uint32_t> blocks;
-  /// In units, block after block, row after row: surely nothing is nearer than `lit`, whatever the horizon map says of
-  /// the block, and what is farther than `dark` lies in shadow.
+  /// In units, block after block, row after row: surely nothing is nearer than `lit`, whatever the
+  /// horizon map says of the block, and what is farther than `dark` lies in shadow.
   std::vector<std::uint16_t> lit, dark;
 
   std::uint32_t dark_split() const { return split * kGroup; }
@@ -53,8 +54,9 @@ struct HorizonMap {
   /// By texel, in units; none where the light has no horizon.
   std::vector<std::uint16_t> units;
 
-  /// Distances ≥ 0 (scene units) by texel, each made shorter by a 65 000th of `reach` at most; what is finite and farther than
-  /// that is cut off there. 0 stands for a hundred times the nearest that isn't 0. None where all are 0.
+  /// Distances ≥ 0 (scene units) by texel, each made shorter by a 65 000th of `reach` at most; what
+  /// is finite and farther than that is cut off there. 0 stands for a hundred times the nearest
+  /// that isn't 0. None where all are 0.
   static HorizonMap of(std::span<const float> distances, double reach);
   bool empty() const { return units.empty(); }
   double at(std::size_t texel) const {
@@ -84,7 +86,8 @@ class LightHorizons {
   explicit LightHorizons(std::vector<HorizonMap> maps) : LightHorizons(std::move(maps), {}) {}
   /// By light, too, or for none; only lights that have a map have depths.
   LightHorizons(std::vector<HorizonMap> maps, std::vector<LightDepths> depths);
-  /// Of a whole model. A light that something surrounds so closely that its map would be useless gets none.
+  /// Of a whole model. A light that something surrounds so closely that its map would be useless
+  /// gets none.
   static LightHorizons of(const Model& model);
 
   const std::vector<HorizonMap>& maps() const { return maps_; }
@@ -95,13 +98,19 @@ class LightHorizons {
   /// In that direction from a light (unit).
   Reach toward(std::size_t light, const Vec3& direction) const;
   /// The horizon alone.
-  double distance(std::size_t light, const Vec3& direction) const { return toward(light, direction).lit; }
-  /// How far away from the light (scene units) distances are worth something: the farthest corner of the bounds of any object
-  /// that has any; 0 where none has.
+  double distance(std::size_t light, const Vec3& direction) const {
+    return toward(light, direction).lit;
+  }
+  /// How far away from the light (scene units) distances are worth something: the farthest corner
+  /// of the bounds of any object that has any; 0 where none has.
   static double reach_of(const Model& model, const PointLight& light);
-  bool has_depths(std::size_t light) const { return light < block_of_.size() && !block_of_[light].empty(); }
-  /// distance(light, …) of each texel of the map alone, without depths; at most as many as `distances` holds.
-  void distances_at(std::size_t light, std::span<const std::uint32_t> texels, std::span<float> distances) const {
+  bool has_depths(std::size_t light) const {
+    return light < block_of_.size() && !block_of_[light].empty();
+  }
+  /// distance(light, …) of each texel of the map alone, without depths; at most as many as
+  /// `distances` holds.
+  void distances_at(std::size_t light, std::span<const std::uint32_t> texels,
+                    std::span<float> distances) const {
     if (light >= maps_.size() || maps_[light].empty()) {
       std::fill_n(distances.begin(), texels.size(), 0.0f);
       return;
@@ -110,7 +119,8 @@ class LightHorizons {
     const auto unit = static_cast<float>(map.unit);
     for (std::size_t i = 0; i < texels.size(); ++i) {
       const std::uint16_t units = map.units[texels[i]];
-      distances[i] = units == HorizonMap::kNever ? std::numeric_limits<float>::infinity() : unit * static_cast<float>(units);
+      distances[i] = units == HorizonMap::kNever ? std::numeric_limits<float>::infinity()
+                                                 : unit * static_cast<float>(units);
     }
   }
 
@@ -130,7 +140,8 @@ inline LightHorizons::LightHorizons(std::vector<HorizonMap> maps, std::vector<Li
     const auto& blocks = depths_[light].blocks;
     if (blocks.empty()) continue;
     block_of_[light].assign(kTexels, kNoBlock);
-    for (std::size_t i = 0; i < blocks.size(); ++i) block_of_[light][blocks[i]] = static_cast<std::uint16_t>(i);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      block_of_[light][blocks[i]] = static_cast<std::uint16_t>(i);
   }
 }
 
@@ -144,7 +155,8 @@ inline LightHorizons::Reach LightHorizons::toward(std::size_t light, const Vec3&
   if (block == kNoBlock) return {maps_[light].at(texel)};
   const LightDepths& depths = depths_[light];
   const auto at = [&](std::uint32_t split) {
-    return (std::size_t{block} * split + cell_at((j - row) * split, split)) * split + cell_at((i - column) * split, split);
+    return (std::size_t{block} * split + cell_at((j - row) * split, split)) * split +
+           cell_at((i - column) * split, split);
   };
   const std::uint16_t dark = depths.dark[at(depths.dark_split())];
   Reach reach{depths.lit[at(depths.split)] * depths.unit};

@@ -16,7 +16,8 @@ constexpr double kWiden = 1e-6;
 /// Solids are taken this many δ larger; distances are given this much shorter, relatively.
 constexpr double kGrowDeltas = 16;
 constexpr double kShorten = 1e-9;
-/// Boxes that show in at most so many texels are entered texel by texel, others by quarters of a face.
+/// Boxes that show in at most so many texels are entered texel by texel, others by quarters of a
+/// face.
 constexpr std::uint32_t kFewTexels = 16;
 /// Larger trees are looked at by the object's bounds alone.
 constexpr std::uint32_t kMaxTreeNodes = 64;
@@ -25,7 +26,8 @@ struct Range {
   double lo, hi;
 };
 
-/// Directions through a part of a face of the cube: sign on `axis`, u and v on the two axes after it.
+/// Directions through a part of a face of the cube: sign on `axis`, u and v on the two axes after
+/// it.
 struct Cone {
   int axis;
   double sign;
@@ -39,9 +41,7 @@ struct Cone {
     return a == axis_u() ? u : v;
   }
   double shortest() const {
-    const auto least = [](const Range& r) {
-      return r.lo > 0 ? r.lo : r.hi < 0 ? -r.hi : 0.0;
-    };
+    const auto least = [](const Range& r) { return r.lo > 0 ? r.lo : r.hi < 0 ? -r.hi : 0.0; };
     return std::sqrt(1 + least(u) * least(u) + least(v) * least(v));
   }
 };
@@ -107,7 +107,11 @@ double half_space_begin(const Vec3& normal, double offset, const Cone& cone) {
 class ObjectView {
  public:
   ObjectView(const Model& model, const Object& object, const Vec3& light, std::vector<Sight>& seen)
-      : model_(model), object_(object), light_(light), grow_(kGrowDeltas * model.delta), seen_(seen) {}
+      : model_(model),
+        object_(object),
+        light_(light),
+        grow_(kGrowDeltas * model.delta),
+        seen_(seen) {}
 
   void run() {
     const Aabb box = relative(object_.bounds.grown(grow_));
@@ -117,10 +121,11 @@ class ObjectView {
   }
 
  private:
-  /// Enters the object, which is in a box about the light, into a face: where it shows in few texels, into these; else
-  /// part by part.
+  /// Enters the object, which is in a box about the light, into a face: where it shows in few
+  /// texels, into these; else part by part.
   void cover_face(const Aabb& box, int axis, double sign) {
-    const double nearest = sign > 0 ? box.lo[axis] : -box.hi[axis], farthest = sign > 0 ? box.hi[axis] : -box.lo[axis];
+    const double nearest = sign > 0 ? box.lo[axis] : -box.hi[axis],
+                 farthest = sign > 0 ? box.hi[axis] : -box.lo[axis];
     if (!(farthest > 0)) return;
     if (!(nearest > 0)) return cover(axis, sign, 0, 0, LightHorizons::kSide);
     const TexelRange u = texels_of(box, (axis + 1) % 3, nearest, farthest);
@@ -140,7 +145,8 @@ class ObjectView {
     const double lo = box.lo[axis] / (box.lo[axis] > 0 ? farthest : nearest);
     const double hi = box.hi[axis] / (box.hi[axis] > 0 ? nearest : farthest);
     const auto texel = [](double at) {
-      return static_cast<std::uint32_t>(std::clamp(0.5 * LightHorizons::kSide * (at + 1), 0.0, double{LightHorizons::kSide}));
+      return static_cast<std::uint32_t>(
+          std::clamp(0.5 * LightHorizons::kSide * (at + 1), 0.0, double{LightHorizons::kSide}));
     };
     const std::uint32_t first = texel(lo - 2 * kWiden);
     return {first, std::max(first, std::min(texel(hi + 2 * kWiden) + 1, LightHorizons::kSide))};
@@ -163,8 +169,9 @@ class ObjectView {
       return;
     }
     const std::uint32_t face = 2 * static_cast<std::uint32_t>(axis) + (sign < 0 ? 1 : 0);
-    seen_.push_back({(face * LightHorizons::kSide + v) * LightHorizons::kSide + u,
-                     std::nextafter(static_cast<float>(begin * cone.shortest() * (1 - kShorten)), 0.0f)});
+    seen_.push_back(
+        {(face * LightHorizons::kSide + v) * LightHorizons::kSide + u,
+         std::nextafter(static_cast<float>(begin * cone.shortest() * (1 - kShorten)), 0.0f)});
   }
 
   double object_begin(const Cone& cone) const {

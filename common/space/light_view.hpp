@@ -8,8 +8,8 @@
 
 namespace graycube {
 
-/// A texel in which an object shows, and a distance from the light (scene units, ≥ 0) below which none of its
-/// surfaces begins there.
+/// A texel in which an object shows, and a distance from the light (scene units, ≥ 0) below which
+/// none of its surfaces begins there.
 struct Sight {
   std::uint32_t texel;
   float begin;
@@ -20,8 +20,8 @@ class LightView {
   /// The model must outlive the view.
   LightView(const Model& model, const Vec3& light) : model_(model), light_(light) {}
 
-  /// Appends each texel of a map of LightHorizons::kSide in which a surface of an object of the model may show, once.
-  /// Conservative: texels may be too many, distances too small.
+  /// Appends each texel of a map of LightHorizons::kSide in which a surface of an object of the
+  /// model may show, once. Conservative: texels may be too many, distances too small.
   void look_at(const Object& object, std::vector<Sight>& seen) const;
 
  private:

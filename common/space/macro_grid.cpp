@@ -256,7 +256,8 @@ bool MacroGrid::cell_may_touch(const Cell& cell, const Aabb& box, double grow) c
   return true;
 }
 
-bool MacroGrid::cell_may_touch(const Cell& cell, const Vec3& center, double radius, double grow) const {
+bool MacroGrid::cell_may_touch(const Cell& cell, const Vec3& center, double radius,
+                               double grow) const {
   const double magnitude = max_abs(center) + max_abs(eye_) + radius;
   for (const RegionSide& side : cell.list()) {
     const double f = side.plane.at(center - eye_);

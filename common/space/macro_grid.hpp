@@ -30,8 +30,9 @@ struct RegionIndex {
   friend bool operator==(const RegionIndex&, const RegionIndex&) = default;
 };
 
-/// The macro-regions that one node holds: those of every columns-th column and every rows-th row of the grid,
-/// counted from the node's own place on the torus of nodes (design section 7, `--scatter`).
+/// The macro-regions that one node holds: those of every columns-th column and every rows-th row of
+/// the grid, counted from the node's own place on the torus of nodes (design section 7,
+/// `--scatter`).
 struct RegionShare {
   std::uint32_t columns = 1, rows = 1;
   std::uint32_t column = 0, row = 0;
@@ -83,14 +84,14 @@ class MacroGrid {
   /// region; nothing when it stays for good. One plane at a time, columns before rows at equal
   /// parameters; visits of length zero are normal; each plane is passed at most once.
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const;
-  /// The same for rays in one region that have reached t0: bit i of the result tells that ray i leaves it before
-  /// t1[i], which is shortened to where, and exits[i] is set.
+  /// The same for rays in one region that have reached t0: bit i of the result tells that ray i
+  /// leaves it before t1[i], which is shortened to where, and exits[i] is set.
   RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const;
   /// The regions other than `region` itself that a ray may enter next, each once.
   std::vector<RegionIndex> neighbours_of(RegionIndex region) const;
-  /// False only when the grown column certainly misses the box (each half-space tested by itself). A region
-  /// is a column ∩ a row, and misses what either misses.
+  /// False only when the grown column certainly misses the box (each half-space tested by itself).
+  /// A region is a column ∩ a row, and misses what either misses.
   bool column_may_touch(std::uint32_t column, const Aabb& box, double grow) const {
     return cell_may_touch(columns_.cells[column], box, grow);
   }
@@ -98,7 +99,8 @@ class MacroGrid {
     return cell_may_touch(rows_.cells[row], box, grow);
   }
   /// As above for a sphere.
-  bool column_may_touch(std::uint32_t column, const Vec3& center, double radius, double grow) const {
+  bool column_may_touch(std::uint32_t column, const Vec3& center, double radius,
+                        double grow) const {
     return cell_may_touch(columns_.cells[column], center, radius, grow);
   }
   bool row_may_touch(std::uint32_t row, const Vec3& center, double radius, double grow) const {

@@ -1,6 +1,6 @@
-// What one evaluator remembers of the ray under way: a small direct-mapped cache of intersections, so that
-// a primitive that reaches into several leaf regions is intersected once (Arnaldi's mailbox), and scratch
-// space. One per thread; nothing in it is shared or survives a ray's meaning.
+// What one evaluator remembers of the ray under way: a small direct-mapped cache of intersections,
+// so that a primitive that reaches into several leaf regions is intersected once (Arnaldi's
+// mailbox), and scratch space. One per thread; nothing in it is shared or survives a ray's meaning.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ struct WalkCounts {
 
   void count_test(PrimitiveKind kind, std::uint64_t rays = 1) {
     primitives_tested += rays;
-    if (kind == PrimitiveKind::kTorus || kind == PrimitiveKind::kEllipticTorus) quartics_solved += rays;
+    if (kind == PrimitiveKind::kTorus || kind == PrimitiveKind::kEllipticTorus)
+      quartics_solved += rays;
   }
   void add(const WalkCounts& o) {
     cells_visited += o.cells_visited;

@@ -1,5 +1,5 @@
-// Programs of few literals as operations on bits of one word, and the few events of such a program along a ray, kept
-// sorted: what general objects, which nearly all are small, are solved with.
+// Programs of few literals as operations on bits of one word, and the few events of such a program
+// along a ray, kept sorted: what general objects, which nearly all are small, are solved with.
 #pragma once
 
 #include <array>
@@ -25,16 +25,19 @@ struct MaskOperation {
   std::uint8_t first_literal = 0;
 };
 
-/// The operations of a program in an order in which each comes after its children; the last is the whole.
+/// The operations of a program in an order in which each comes after its children; the last is the
+/// whole.
 class MaskedProgram {
  public:
   /// Bits of a word.
   static constexpr std::size_t kMaxNodes = 64;
 
-  MaskedProgram(std::span<const MaskOperation> operations, std::uint64_t inverted, std::size_t literal_count)
+  MaskedProgram(std::span<const MaskOperation> operations, std::uint64_t inverted,
+                std::size_t literal_count)
       : operations_(operations), inverted_(inverted), literal_count_(literal_count) {}
 
-  /// Appends the operations of a tree whose root is one; false, and nothing appended, when it has too many nodes.
+  /// Appends the operations of a tree whose root is one; false, and nothing appended, when it has
+  /// too many nodes.
   static bool append(std::span<const TreeNode> tree, std::vector<MaskOperation>& operations);
 
   /// Membership, when bit i of the flags tells whether the line is inside of literal i's primitive.
@@ -42,8 +45,8 @@ class MaskedProgram {
     return (word_of(flags) >> (literal_count_ + operations_.size() - 1) & 1) != 0;
   }
 
-  /// Of a program whose membership changed: the literal reached by descending into the first child whose own
-  /// membership changed.
+  /// Of a program whose membership changed: the literal reached by descending into the first child
+  /// whose own membership changed.
   std::size_t changed_literal(std::uint64_t before, std::uint64_t after) const {
     const std::uint64_t changed = word_of(before) ^ word_of(after);
     const std::uint64_t all_literals = (std::uint64_t{1} << literal_count_) - 1;
@@ -90,8 +93,8 @@ class FewEvents {
   }
   bool is_empty() const { return count_ == 0; }
 
-  /// Calls visit(t, entering, flags before, flags after) where membership changes, events at equal t taken
-  /// together, until it returns false; false then.
+  /// Calls visit(t, entering, flags before, flags after) where membership changes, events at equal
+  /// t taken together, until it returns false; false then.
   template <typename IsMember, typename Visit>
   bool visit_changes(IsMember&& is_member, Visit&& visit) const {
     std::uint64_t before = flags_;

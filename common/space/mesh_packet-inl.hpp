@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 class MeshPacket {
  public:
   /// `first_only`: only the first crossing of each ray is wanted.
-  MeshPacket(const Mesh& mesh, const RayPacket& packet, const CullingPacket& p, Mask rays, const double* t1,
-             bool first_only, TreeScratch& scratch)
+  MeshPacket(const Mesh& mesh, const RayPacket& packet, const CullingPacket& p, Mask rays,
+             const double* t1, bool first_only, TreeScratch& scratch)
       : mesh_(mesh), packet_(packet), rays_(rays), t1_(t1), scratch_(scratch), whole_(p) {
     const Aabb& box = mesh.bounds();
     const double size = max_abs(box.lo) + max_abs(box.hi);
@@ -38,7 +38,8 @@ class MeshPacket {
         outside_ |= Mask{1} << i;
         below_[i] = t1[i];
       } else {
-        // What lies behind t1 matters to rays that may start within the mesh: all their cuts ahead tell whether they do.
+        // What lies behind t1 matters to rays that may start within the mesh: all their cuts ahead
+        // tell whether they do.
         whole_.last[i] = std::numeric_limits<float>::infinity();
       }
     }
@@ -46,22 +47,23 @@ class MeshPacket {
     whole_.update_last_of_all();
   }
 
-  /// Calls visit(ray, t, entering) for the crossings of each ray in [t0, t1[ray]), in order, until it returns false, as it
-  /// does at once where only the first is wanted; then for the next ray.
+  /// Calls visit(ray, t, entering) for the crossings of each ray in [t0, t1[ray]), in order, until
+  /// it returns false, as it does at once where only the first is wanted; then for the next ray.
   template <Order order, typename Visit>
   void crossings(Visit&& visit) {
     const auto block = [&](std::uint32_t index, Mask met) {
       for (; met != 0; met &= met - 1) {
         const std::size_t i = first_ray(met);
         const std::size_t known = scratch_.packet_cuts[i].size();
-        add_block_cuts(mesh_.tree(), index, *lines_[i], singles_[i], packet_.t0[i], below_[i], scratch_.packet_cuts[i]);
+        add_block_cuts(mesh_.tree(), index, *lines_[i], singles_[i], packet_.t0[i], below_[i],
+                       scratch_.packet_cuts[i]);
         shorten(i, known);
       }
     };
     const auto walk = [&](std::uint32_t node, std::size_t i) {
       const std::size_t known = scratch_.packet_cuts[i].size();
-      add_cuts_below(mesh_.tree(), node, whole_.ray(i), whole_.first[i], whole_.last[i], *lines_[i], singles_[i],
-                     packet_.t0[i], below_[i], scratch_.packet_cuts[i]);
+      add_cuts_below(mesh_.tree(), node, whole_.ray(i), whole_.first[i], whole_.last[i], *lines_[i],
+                     singles_[i], packet_.t0[i], below_[i], scratch_.packet_cuts[i]);
       shorten(i, known);
     };
     each_leaf_of_packet<order>(mesh_.tree().nodes(), whole_, rays_, scratch_, block, walk);
@@ -72,7 +74,8 @@ class MeshPacket {
   }
 
  private:
-  /// As Mesh::is_before_bounds, with the reciprocals given. A NaN, of a ray in a plane of the bounds, says nothing.
+  /// As Mesh::is_before_bounds, with the reciprocals given. A NaN, of a ray in a plane of the
+  /// bounds, says nothing.
   bool is_before(const Aabb& box, double size, std::size_t i, const CullingPacket& p) const {
     const Ray& ray = singles_[i];
     const double margin = 1e-6 * (size + max_abs(ray.origin));

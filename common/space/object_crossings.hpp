@@ -1,5 +1,6 @@
-// Crossings of one object along a whole ray, without a subdivision underneath: what the leaves of the
-// surface tree are tested with. Gives the same crossings, bit for bit, as crossings.hpp gives cell by cell.
+// Crossings of one object along a whole ray, without a subdivision underneath: what the leaves of
+// the surface tree are tested with. Gives the same crossings, bit for bit, as crossings.hpp gives
+// cell by cell.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,8 @@
 
 namespace graycube {
 
-/// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more look their
-/// primitive up, and have its bounds here, grown, as floats: lower corner, upper corner.
+/// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more
+/// look their primitive up, and have its bounds here, grown, as floats: lower corner, upper corner.
 struct alignas(64) Literal {
   std::array<double, 6> v{};
   std::uint32_t primitive = 0;
@@ -58,14 +59,14 @@ inline void clip_to_prepared_slab(csg::Interval& i, double lo, double hi, double
   }
 }
 
-/// An interval of a line, in arrays of which mostly the first few are used: unlike csg::Interval it isn't
-/// filled in before.
+/// An interval of a line, in arrays of which mostly the first few are used: unlike csg::Interval it
+/// isn't filled in before.
 struct Ends {
   double enter, leave;
 };
 
-/// The part of the line inside the literal's primitive. False when it has more than one interval; then the
-/// caller takes the general way.
+/// The part of the line inside the literal's primitive. False when it has more than one interval;
+/// then the caller takes the general way.
 inline bool interval_of(const Literal& literal, const Model& model, const PreparedRay& ray,
                         Ends& out) {
   const auto& v = literal.v;
@@ -87,7 +88,8 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
     }
     case PrimitiveKind::kCylinder: {
       const Primitive& p = model.primitives[literal.primitive];
-      i = csg::tube_interval(p.to_local.point(ray.ray.origin), p.to_local.vector(ray.ray.direction));
+      i = csg::tube_interval(p.to_local.point(ray.ray.origin),
+                             p.to_local.vector(ray.ray.direction));
       csg::clip_to_caps(i, p, ray.ray);
       break;
     }
@@ -131,8 +133,8 @@ inline bool has_bounds(PrimitiveKind kind) {
   }
 }
 
-/// False only when the line passes the literal's bounds, surely, or is in them before t0 or after t1 only. For kinds
-/// with has_bounds.
+/// False only when the line passes the literal's bounds, surely, or is in them before t0 or after
+/// t1 only. For kinds with has_bounds.
 inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, double t1) {
   const double error = 1e-12 * max_abs(ray.ray.origin);
   for (int a = 0; a < 3; ++a) {
@@ -164,7 +166,8 @@ void each_interval(const Literal& literal, const Model& model, const PreparedRay
   }
 }
 
-/// The primitive of the first literal whose own membership changes at t; interval(i) gives literal i's.
+/// The primitive of the first literal whose own membership changes at t; interval(i) gives literal
+/// i's.
 template <typename IntervalOf>
 std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& interval, double t) {
   for (std::size_t i = 0; i < literals.size(); ++i) {
@@ -175,14 +178,15 @@ std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& in
   return literals.front().primitive;
 }
 
-/// Membership of a conjunction along the line, as half-open intervals [E, L): right after the crossings at t,
-/// a literal holds where enter ≤ t < leave. So the conjunction is the upright literals' common interval
-/// without the inverted ones', and its ends are its crossings.
+/// Membership of a conjunction along the line, as half-open intervals [E, L): right after the
+/// crossings at t, a literal holds where enter ≤ t < leave. So the conjunction is the upright
+/// literals' common interval without the inverted ones', and its ends are its crossings.
 ///
-/// Calls visit(t, entering) for those with t0 ≤ t < t1, in order, until it returns false; false then.
+/// Calls visit(t, entering) for those with t0 ≤ t < t1, in order, until it returns false; false
+/// then.
 template <typename Visit>
-bool conjunction_ends(std::span<const Ends> removed, double from, double to, double t0,
-                      double t1, Visit&& visit) {
+bool conjunction_ends(std::span<const Ends> removed, double from, double to, double t0, double t1,
+                      Visit&& visit) {
   double at = from;
   while (at < to) {
     for (bool moved = true; moved;) {
@@ -223,7 +227,8 @@ struct SurfaceItem {
   /// General programs: first of the tree's nodes; kFlat for a conjunction or its complement.
   std::uint32_t first_node = kFlat;
   std::uint32_t node_count = 0;
-  /// Of programs with MaskedProgram: the first of the tree's operations, node_count − literal_count of them.
+  /// Of programs with MaskedProgram: the first of the tree's operations, node_count − literal_count
+  /// of them.
   std::uint32_t first_operation = 0;
   /// The literals are those of the complement, which is a conjunction: entering and leaving swap.
   bool is_complement = false;

@@ -35,7 +35,8 @@ Occluders Occluders::of(const Model& model) {
         ++l.first[s.texel + 1];
       }
     }
-    for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) l.first[texel + 1] += l.first[texel];
+    for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel)
+      l.first[texel + 1] += l.first[texel];
     std::vector<std::uint32_t> next(l.first.begin(), l.first.end() - 1);
     l.entries.resize(places.size());
     for (const Place& p : places) l.entries[next[p.texel]++] = p.entry;
@@ -47,10 +48,12 @@ Occluders Occluders::of(const Model& model) {
   return all;
 }
 
-std::vector<std::vector<float>> Occluders::foreign_distances(const std::vector<bool>& is_held) const {
+std::vector<std::vector<float>> Occluders::foreign_distances(
+    const std::vector<bool>& is_held) const {
   std::vector<std::vector<float>> distances;
   for (const OfLight& l : lights_) {
-    auto& of_light = distances.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
+    auto& of_light =
+        distances.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
     for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
       std::uint32_t i = l.first[texel];
       const std::uint32_t end = l.first[texel + 1];
@@ -79,9 +82,11 @@ LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const M
     const LightView view(parts, model.settings.lights[light].position);
     for (const Object& part : parts.objects) {
       seen.clear();
-      // A pruned tree lies within the object's bounds: what goes from a conjunction is the complement of something.
+      // A pruned tree lies within the object's bounds: what goes from a conjunction is the
+      // complement of something.
       view.look_at(part, seen);
-      for (const Sight& s : seen) distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
+      for (const Sight& s : seen)
+        distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
     }
     maps.push_back(HorizonMap::of(distances[light], lights_[light].reach));
   }
@@ -89,7 +94,8 @@ LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const M
 }
 
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
-                      std::span<const std::size_t> bytes, std::size_t room, std::vector<bool>& is_held) {
+                      std::span<const std::size_t> bytes, std::size_t room,
+                      std::vector<bool>& is_held) {
   // A ray is finished only when all that it asks for is held: each object gets its part of it.
   std::vector<double> worth(is_held.size());
   std::vector<std::uint32_t> wanted, missing;

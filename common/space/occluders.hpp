@@ -1,6 +1,7 @@
-// What may stand between the surfaces of macro-regions and the lights: by light and texel of the cube map about it, the
-// objects that show there. A node that holds those that its own surfaces ask for finishes its shadow rays itself, and its
-// foreign horizons, those of the objects that it does not hold, tell it when it may.
+// What may stand between the surfaces of macro-regions and the lights: by light and texel of the
+// cube map about it, the objects that show there. A node that holds those that its own surfaces ask
+// for finishes its shadow rays itself, and its foreign horizons, those of the objects that it does
+// not hold, tell it when it may.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@
 
 namespace graycube {
 
-/// Shadow rays ask for all objects of a texel that begin nearer to the light than where they leave the macro-regions
-/// of their node.
+/// Shadow rays ask for all objects of a texel that begin nearer to the light than where they leave
+/// the macro-regions of their node.
 struct OccluderQuery {
   std::uint32_t light = 0;
   std::uint32_t texel = 0;
@@ -45,8 +46,8 @@ class Occluders {
   }
   /// Those of all objects, as LightHorizons::of has them.
   LightHorizons horizons() const;
-  /// Of what a node does not hold whole, and of the parts that it does hold: these have other surfaces beyond its macro-regions than
-  /// the objects that they are of. `model` is the whole one.
+  /// Of what a node does not hold whole, and of the parts that it does hold: these have other
+  /// surfaces beyond its macro-regions than the objects that they are of. `model` is the whole one.
   LightHorizons foreign_horizons(const ModelContents& contents, const Model& model) const;
 
  private:
@@ -64,9 +65,11 @@ class Occluders {
   std::size_t objects_ = 0;
 };
 
-/// What a node is to hold beside `is_held` (by object), chosen for the most rays that it can finish by the byte: those objects
-/// that `queries` ask for, until their `bytes` (by object) add up to `room`. Sets is_held.
+/// What a node is to hold beside `is_held` (by object), chosen for the most rays that it can finish
+/// by the byte: those objects that `queries` ask for, until their `bytes` (by object) add up to
+/// `room`. Sets is_held.
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
-                      std::span<const std::size_t> bytes, std::size_t room, std::vector<bool>& is_held);
+                      std::span<const std::size_t> bytes, std::size_t room,
+                      std::vector<bool>& is_held);
 
 }  // namespace graycube

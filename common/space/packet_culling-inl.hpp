@@ -1,4 +1,5 @@
-// A packet of rays as the boxes of the surface tree see it, and the tests of all rays at once and of each.
+// A packet of rays as the boxes of the surface tree see it, and the tests of all rays at once and
+// of each.
 #if defined(GRAYCUBE_SPACE_PACKET_CULLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_CULLING_INL
 #undef GRAYCUBE_SPACE_PACKET_CULLING_INL
@@ -114,8 +115,8 @@ struct CullingPacket {
       const auto error = hn::Add(hn::Mul(hn::Abs(f), hn::Set(d, 1.2e-7f)), hn::Set(d, 1e-37f));
       const auto given = hn::Load(d, u.data() + i);
       const auto flattest = hn::Set(d, kFlattest);
-      const auto steep = hn::IfThenElse(hn::Lt(hn::Abs(given), flattest),
-                                        hn::CopySign(flattest, given), given);
+      const auto steep =
+          hn::IfThenElse(hn::Lt(hn::Abs(given), flattest), hn::CopySign(flattest, given), given);
       const auto downward = hn::Lt(steep, hn::Zero(d));
       const auto inverses = hn::Div(hn::Set(d, 1.0f), steep);
       const auto before = hn::Sub(f, error);
@@ -184,8 +185,8 @@ HWY_INLINE std::uint32_t meet_all(const WideNode& node, const CullingPacket& p,
   return mask;
 }
 
-/// Which of the rays may meet a box? By the arithmetic of `meet`. plane(side, axis) gives the box's planes, lower ones
-/// at side 0.
+/// Which of the rays may meet a box? By the arithmetic of `meet`. plane(side, axis) gives the box's
+/// planes, lower ones at side 0.
 template <typename PlaneOf>
 HWY_INLINE Mask meet_box(PlaneOf&& plane, const CullingPacket& p, Mask rays) {
   const FloatLanes d;
@@ -221,8 +222,10 @@ HWY_INLINE Mask meet_box(PlaneOf&& plane, const CullingPacket& p, Mask rays) {
 }
 
 /// Which of the rays may meet one box of a node?
-HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingPacket& p, Mask rays) {
-  return meet_box([&](std::size_t side, std::size_t a) { return node.planes[side][a][slot]; }, p, rays);
+HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingPacket& p,
+                          Mask rays) {
+  return meet_box([&](std::size_t side, std::size_t a) { return node.planes[side][a][slot]; }, p,
+                  rays);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,6 @@
-// The intervals of a literal along several rays at once: one ray a lane. Every lane goes through the very
-// expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp, csg/cylinder.hpp and csg/cone.cpp in doubles, so
-// that it gets the bits that interval_of gives for its ray.
+// The intervals of a literal along several rays at once: one ray a lane. Every lane goes through
+// the very expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp, csg/cylinder.hpp and
+// csg/cone.cpp in doubles, so that it gets the bits that interval_of gives for its ray.
 #if defined(GRAYCUBE_SPACE_PACKET_INTERVALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
 #undef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
@@ -32,8 +32,8 @@ HWY_INLINE Doubles lanes_dot(const LaneVec& a, const LaneVec& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-/// Rays side by side, and what every box test needs of them. All reciprocals are finite: other rays are
-/// looked up singly.
+/// Rays side by side, and what every box test needs of them. All reciprocals are finite: other rays
+/// are looked up singly.
 struct LaneRays {
   LaneVec origin, direction, inverse;
 };
@@ -134,8 +134,7 @@ HWY_INLINE LaneVec lanes_point(const Affine& map, const LaneVec& p) {
 /// Where x² + y² ≤ 1.
 HWY_INLINE LaneInterval lanes_tube(const LaneVec& o, const LaneVec& d) {
   const Doubles dd = hn::Add(hn::Mul(d.x, d.x), hn::Mul(d.y, d.y));
-  const Doubles nearest =
-      hn::Div(hn::Neg(hn::Add(hn::Mul(o.x, d.x), hn::Mul(o.y, d.y))), dd);
+  const Doubles nearest = hn::Div(hn::Neg(hn::Add(hn::Mul(o.x, d.x), hn::Mul(o.y, d.y))), dd);
   const LaneMask slants = hn::IsFinite(nearest);
   const Doubles x = hn::Add(o.x, hn::Mul(nearest, d.x));
   const Doubles y = hn::Add(o.y, hn::Mul(nearest, d.y));
@@ -183,7 +182,8 @@ HWY_INLINE LaneInterval lanes_positive_nappe(Doubles w, Doubles wd) {
   const Doubles apex = hn::Div(hn::Neg(w), wd);
   const LaneMask level = hn::Eq(wd, zero);
   const LaneMask upward = hn::Gt(wd, zero);
-  LaneInterval i{hn::IfThenElse(upward, apex, every(-csg::kInf)), hn::IfThenElse(upward, every(csg::kInf), apex)};
+  LaneInterval i{hn::IfThenElse(upward, apex, every(-csg::kInf)),
+                 hn::IfThenElse(upward, every(csg::kInf), apex)};
   i.enter = hn::IfThenElse(level, every(-csg::kInf), i.enter);
   i.leave = hn::IfThenElse(level, every(csg::kInf), i.leave);
   i.make_empty(hn::AndNot(hn::Ge(w, zero), level));
@@ -212,14 +212,16 @@ HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const Lane
   const Doubles c = form(q.x, q.x, q.y, q.y, w, w);
   const Doubles discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
   const Doubles root = hn::Sqrt(discriminant);
-  const Doubles s = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Add(hn::Neg(b), root));
+  const Doubles s =
+      hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Add(hn::Neg(b), root));
   const Doubles r0 = hn::Div(s, a);
   const Doubles r1 = hn::Div(c, s);
   const LaneMask opens = hn::Gt(a, zero);
   const LaneInterval between{lanes_fmin(r0, r1), lanes_fmax(r0, r1)};
   LaneInterval i = between;
   if (!hn::AllTrue(lanes, opens)) {
-    const LaneInterval above{between.leave, every(csg::kInf)}, below{every(-csg::kInf), between.enter};
+    const LaneInterval above{between.leave, every(csg::kInf)},
+        below{every(-csg::kInf), between.enter};
     const LaneInterval before{every(-csg::kInf), r1}, behind{r1, every(csg::kInf)};
     const LaneInterval parallel = choose(hn::Gt(b, zero), before, behind);
     i = choose(opens, i, choose(hn::Lt(a, zero), choose(hn::Gt(wd, zero), above, below), parallel));
@@ -242,11 +244,13 @@ HWY_INLINE LaneInterval lanes_cone(const Primitive& p, const LaneRays& rays) {
                                      lanes_vector(p.to_local, rays.direction));
   i.make_empty(hn::Not(hn::Le(i.enter, i.leave)));
   const LaneVec n = every(p.v[0], p.v[1], p.v[2]);
-  clip_lanes_to_any_slab(i, p.v[3], p.v[4], lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
+  clip_lanes_to_any_slab(i, p.v[3], p.v[4], lanes_dot(n, rays.origin),
+                         lanes_dot(n, rays.direction));
   return i;
 }
 
-/// The part of each lane's line inside the literal's primitive; the kind is one of has_lane_interval.
+/// The part of each lane's line inside the literal's primitive; the kind is one of
+/// has_lane_interval.
 HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& model,
                                          const LaneRays& rays) {
   const auto& v = literal.v;

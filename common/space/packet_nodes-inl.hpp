@@ -20,12 +20,13 @@ namespace HWY_NAMESPACE {
 /// So many rays or fewer are walked singly: a node costs a packet about three single visits.
 constexpr int kFewRays = 3;
 
-/// Takes a packet through the nodes, of which the first is the root: calls leaf(index, rays) for each leaf that any of the
-/// packet's rays may meet, with those rays; and walk(node, ray) for each of few rays that are left to visit a subtree.
-/// Rays that `active` drops in the meantime are left out.
+/// Takes a packet through the nodes, of which the first is the root: calls leaf(index, rays) for
+/// each leaf that any of the packet's rays may meet, with those rays; and walk(node, ray) for each
+/// of few rays that are left to visit a subtree. Rays that `active` drops in the meantime are left
+/// out.
 template <Order order, typename Leaf, typename Walk>
-void each_leaf_of_packet(const std::vector<WideNode>& nodes, const CullingPacket& p, const Mask& active,
-                         TreeScratch& scratch, Leaf&& leaf, Walk&& walk) {
+void each_leaf_of_packet(const std::vector<WideNode>& nodes, const CullingPacket& p,
+                         const Mask& active, TreeScratch& scratch, Leaf&& leaf, Walk&& walk) {
   if (nodes.empty() || active == 0) return;
   struct StackEntry {
     const WideNode* node;

@@ -1,12 +1,13 @@
-// Packets of rays through the surface tree. A whole packet is tested against a node's eight boxes at once, by
-// the bounds of its rays (float operations are monotonic, so only what each ray's own test would cull is
-// culled); then each child by each ray, when its turn comes. Where few rays are left, they go on singly.
+// Packets of rays through the surface tree. A whole packet is tested against a node's eight boxes
+// at once, by the bounds of its rays (float operations are monotonic, so only what each ray's own
+// test would cull is culled); then each child by each ray, when its turn comes. Where few rays are
+// left, they go on singly.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "space/ray_packet.hpp"
 #include "geometry/simd.hpp"
+#include "space/ray_packet.hpp"
 #include "space/surface_tree.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -26,7 +27,8 @@ namespace HWY_NAMESPACE {
 /// Whether it pays to take the rays through a mesh together.
 bool has_many(Mask rays) { return __builtin_popcount(rays) > kFewRays; }
 
-/// Takes a packet through the tree, as each_leaf_of_packet, and through the items without bounds first.
+/// Takes a packet through the tree, as each_leaf_of_packet, and through the items without bounds
+/// first.
 template <Order order, typename Item, typename Walk>
 void each_item_of_packet(const SurfaceTree& tree, const CullingPacket& p, const Mask& active,
                          TreeScratch& scratch, Item&& item, Walk&& walk) {
@@ -101,11 +103,12 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
     p.update_last_of_all();
   };
   const auto walk = [&](std::uint32_t node, std::size_t i) {
-    each_item_below<Order::kNearestFirst>(tree.nodes(), node, p.ray(i), p.first[i], [&] { return found[i].t; }, scratch,
-                    [&](std::uint32_t index) {
-                      take_single(index, i);
-                      return true;
-                    });
+    each_item_below<Order::kNearestFirst>(
+        tree.nodes(), node, p.ray(i), p.first[i], [&] { return found[i].t; }, scratch,
+        [&](std::uint32_t index) {
+          take_single(index, i);
+          return true;
+        });
     p.update_last_of_all();
   };
   const Mask active = packet.all();
@@ -113,7 +116,8 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
   return any;
 }
 
-/// The rays that no opaque surface ends; what they lose to transparent ones is taken from their light.
+/// The rays that no opaque surface ends; what they lose to transparent ones is taken from their
+/// light.
 Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
                 Rgb* light) {
   const CullingPacket p(packet);
@@ -133,9 +137,9 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
     last = index;
   };
   const auto take_single = [&](std::uint32_t index, std::size_t i) {
-    const bool lasts = tree.for_each_item_crossing(
-        tree.items()[index], single[i], packet.t0[i], packet.t1[i], scratch,
-        [&](const Crossing& c) { return passes(i, c); });
+    const bool lasts =
+        tree.for_each_item_crossing(tree.items()[index], single[i], packet.t0[i], packet.t1[i],
+                                    scratch, [&](const Crossing& c) { return passes(i, c); });
     if (!lasts) end_rays(index, Mask{1} << i);
   };
   const auto take_mesh = [&](std::uint32_t index, Mask rays) {
@@ -176,11 +180,12 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
     in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
   };
   const auto walk = [&](std::uint32_t node, std::size_t i) {
-    each_item_below<Order::kAny>(tree.nodes(), node, p.ray(i), p.first[i], [&] { return packet.t1[i]; },
-                                 scratch, [&](std::uint32_t index) {
-                                   take_single(index, i);
-                                   return (active >> i & 1) != 0;
-                                 });
+    each_item_below<Order::kAny>(
+        tree.nodes(), node, p.ray(i), p.first[i], [&] { return packet.t1[i]; }, scratch,
+        [&](std::uint32_t index) {
+          take_single(index, i);
+          return (active >> i & 1) != 0;
+        });
   };
   // Neighbouring rays towards one light mostly end on the same object.
   if (last < tree.items().size()) item(last, active);

@@ -1,6 +1,6 @@
-// Rays that are looked up together, because they mostly go the same way: a block of neighbouring primary
-// rays, or the shadow rays of such a block towards one light. What is found for a ray never depends on the
-// others.
+// Rays that are looked up together, because they mostly go the same way: a block of neighbouring
+// primary rays, or the shadow rays of such a block towards one light. What is found for a ray never
+// depends on the others.
 #pragma once
 
 #include <array>

@@ -30,8 +30,9 @@ std::vector<Line> lines_of(const LoadMap& map, bool by_column, const Cuts& other
   return lines;
 }
 
-/// Cuts into at most so many parts none of which is heavier than `limit` anywhere; nothing when that can't be.
-/// Each part but the last is as long as it may be, and leaves a line for each part to come.
+/// Cuts into at most so many parts none of which is heavier than `limit` anywhere; nothing when
+/// that can't be. Each part but the last is as long as it may be, and leaves a line for each part
+/// to come.
 std::optional<Cuts> cuts_within(const std::vector<Line>& lines, std::size_t parts, double limit) {
   Cuts cuts;
   Line sum(lines.front().size(), 0);
@@ -78,7 +79,8 @@ Cuts best_cuts(const std::vector<Line>& lines, std::size_t parts) {
 Cuts even(std::uint32_t cells, std::uint32_t parts) {
   GRAYCUBE_CHECK(parts >= 1 && parts <= cells, "%u parts of %u cells", parts, cells);
   Cuts cuts;
-  for (std::uint64_t i = 1; i < parts; ++i) cuts.push_back(static_cast<std::uint32_t>(i * cells / parts));
+  for (std::uint64_t i = 1; i < parts; ++i)
+    cuts.push_back(static_cast<std::uint32_t>(i * cells / parts));
   return cuts;
 }
 
@@ -103,7 +105,8 @@ double heaviest(const LoadMap& map, const RectilinearCuts& cuts) {
   return most;
 }
 
-RectilinearCuts balanced_cuts(const LoadMap& map, std::uint32_t column_parts, std::uint32_t row_parts) {
+RectilinearCuts balanced_cuts(const LoadMap& map, std::uint32_t column_parts,
+                              std::uint32_t row_parts) {
   RectilinearCuts cuts = even_cuts(map, column_parts, row_parts);
   RectilinearCuts best = cuts;
   double least = heaviest(map, cuts);

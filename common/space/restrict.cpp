@@ -26,7 +26,8 @@ class ModelExtract {
       if (n.size == 1) n.primitive = copy(n.primitive);
       to_.nodes.push_back(n);
     }
-    to_.objects.push_back({object.id, first, static_cast<std::uint32_t>(tree.size()), object.bounds});
+    to_.objects.push_back(
+        {object.id, first, static_cast<std::uint32_t>(tree.size()), object.bounds});
   }
 
   /// For so many objects, with so many nodes in all.
@@ -58,11 +59,14 @@ class ModelExtract {
   Model to_;
 };
 
-/// Whether a bounded thing may reach into any region of a share: a column of the share and a row of it.
+/// Whether a bounded thing may reach into any region of a share: a column of the share and a row of
+/// it.
 class ShareTest {
  public:
-  ShareTest(const MacroGrid& grid, const RegionShare& share, double grow) : grid_(grid), grow_(grow) {
-    for (std::uint32_t c = share.column; c < grid.columns(); c += share.columns) columns_.push_back(c);
+  ShareTest(const MacroGrid& grid, const RegionShare& share, double grow)
+      : grid_(grid), grow_(grow) {
+    for (std::uint32_t c = share.column; c < grid.columns(); c += share.columns)
+      columns_.push_back(c);
     for (std::uint32_t r = share.row; r < grid.rows(); r += share.rows) rows_.push_back(r);
   }
 
@@ -93,12 +97,15 @@ class ShareTest {
 
 }  // namespace
 
-ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share, const PicturePart* beside) {
+ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share,
+                                const PicturePart* beside) {
   ModelContents contents{std::vector<bool>(model.objects.size()), {}};
   std::vector<ShareTest> tests{ShareTest(grid, share, model.delta)};
-  if (beside != nullptr) tests.emplace_back(beside->grid, only(beside->region, beside->grid), model.delta);
+  if (beside != nullptr)
+    tests.emplace_back(beside->grid, only(beside->region, beside->grid), model.delta);
   const auto may_touch = [&tests](const auto&... bounds) {
-    return std::ranges::any_of(tests, [&](const ShareTest& test) { return test.may_touch(bounds...); });
+    return std::ranges::any_of(tests,
+                               [&](const ShareTest& test) { return test.may_touch(bounds...); });
   };
   const auto side = [&](std::uint32_t index) {
     const Primitive& p = model.primitives[index];
@@ -135,7 +142,9 @@ Model extract(const Model& model, const ModelContents& contents) {
     nodes += tree.size();
   });
   extract.reserve(objects, nodes);
-  for_each_kept(model, contents, [&](const Object& object, std::span<const TreeNode> tree) { extract.add(object, tree); });
+  for_each_kept(model, contents, [&](const Object& object, std::span<const TreeNode> tree) {
+    extract.add(object, tree);
+  });
   return extract.take();
 }
 

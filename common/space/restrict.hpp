@@ -29,8 +29,9 @@ struct PicturePart {
   RegionIndex region;
 };
 
-/// What the macro-regions of a share need, and a part of the picture beside them: primitives that certainly miss all of that, grown by the
-/// model's delta, become empty space, and the trees are simplified.
+/// What the macro-regions of a share need, and a part of the picture beside them: primitives that
+/// certainly miss all of that, grown by the model's delta, become empty space, and the trees are
+/// simplified.
 ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share,
                                 const PicturePart* beside = nullptr);
 
@@ -38,7 +39,8 @@ ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const
 Model extract(const Model& model, const ModelContents& contents);
 
 /// Inside each region of the share the result looks like the whole.
-inline Model restrict_to_share(const Model& model, const MacroGrid& grid, const RegionShare& share) {
+inline Model restrict_to_share(const Model& model, const MacroGrid& grid,
+                               const RegionShare& share) {
   return extract(model, contents_of_share(model, grid, share));
 }
 

@@ -1,4 +1,5 @@
-// Where to cut a cell: the surface-area heuristic (MacDonald & Booth 1990) over the bounds of what is in it.
+// Where to cut a cell: the surface-area heuristic (MacDonald & Booth 1990) over the bounds of what
+// is in it.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +59,8 @@ class SplitFinder {
     upper.lo[axis] = at;
     const double area = cell_.half_area();
     double cost = (lower.half_area() * static_cast<double>(below) +
-                   upper.half_area() * static_cast<double>(above)) / area;
+                   upper.half_area() * static_cast<double>(above)) /
+                  area;
     // A cell without surfaces costs nothing but the step into it.
     if (below == 0 || above == 0) cost *= kEmptyDiscount;
     cost += step_cost_;
@@ -72,7 +74,8 @@ class SplitFinder {
     std::sort(lo.begin(), lo.end());
     std::sort(hi.begin(), hi.end());
     const std::size_t n = lo.size();
-    // Planes just below a lower end and just above an upper end, so that neither touches the other side.
+    // Planes just below a lower end and just above an upper end, so that neither touches the other
+    // side.
     std::size_t ended = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double at = lo[i] - 2 * gap_;

@@ -49,16 +49,20 @@ class SurfaceTreeBuilder {
  private:
   static constexpr std::size_t kBins = 16;
   /// A few items need no more slices than there are items, by far the most groups are such.
-  static std::size_t bins_for(std::size_t items) { return std::clamp<std::size_t>(items, 2, kBins); }
-  /// From here on groups are simply halved, so that no heap of items, however skewed, makes the tree deeper
-  /// than the walk's stack: 32 more levels, each of which halves the largest group at least, end 2³² items.
+  static std::size_t bins_for(std::size_t items) {
+    return std::clamp<std::size_t>(items, 2, kBins);
+  }
+  /// From here on groups are simply halved, so that no heap of items, however skewed, makes the
+  /// tree deeper than the walk's stack: 32 more levels, each of which halves the largest group at
+  /// least, end 2³² items.
   static constexpr std::size_t kMaxChosenDepth = 40;
   static_assert(kMaxChosenDepth + 32 <= SurfaceTree::kMaxDepth);
 
   void add_object(std::uint32_t index) {
     const Object& object = model_.objects[index];
     const auto tree = model_.tree(object);
-    const auto literals = static_cast<std::uint32_t>(std::count_if(tree.begin(), tree.end(), is_leaf));
+    const auto literals =
+        static_cast<std::uint32_t>(std::count_if(tree.begin(), tree.end(), is_leaf));
     if (literals <= options_.whole_object_literals) {
       if (!object.bounds.is_empty()) add_item(index, tree, object.bounds, SurfaceItem::kAllSpace);
       return;
@@ -147,7 +151,8 @@ class SurfaceTreeBuilder {
 
   /// One of `bins` slices of the centres' extent along each axis.
   struct Slices {
-    Slices(const Aabb& centers, std::size_t bins) : lo(centers.lo), last(static_cast<double>(bins - 1)) {
+    Slices(const Aabb& centers, std::size_t bins)
+        : lo(centers.lo), last(static_cast<double>(bins - 1)) {
       for (int a = 0; a < 3; ++a) {
         const double extent = centers.hi[a] - centers.lo[a];
         scale[a] = extent > 0 ? static_cast<double>(bins) / extent : 0;
@@ -162,7 +167,8 @@ class SurfaceTreeBuilder {
     double last;
   };
 
-  /// Sorts the items into two halves by the best of up to kBins planes a side through their centres.
+  /// Sorts the items into two halves by the best of up to kBins planes a side through their
+  /// centres.
   std::size_t partition(std::span<std::uint32_t> items) const {
     if (items.size() == 2) return 1;
     Aabb centers = Aabb::nothing();
@@ -238,8 +244,10 @@ class SurfaceTreeBuilder {
     for (std::size_t g = 0; g < WideNode::kWidth; ++g) {
       const bool used = g < groups.size();
       for (std::size_t a = 0; a < 3; ++a) {
-        node.planes[0][a][g] = used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
-        node.planes[1][a][g] = used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
+        node.planes[0][a][g] =
+            used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
+        node.planes[1][a][g] =
+            used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
       }
       if (!used) continue;
       if (groups[g].items.size() == 1) {
@@ -293,7 +301,8 @@ SurfaceTree SurfaceTree::build(const Model& model, const SurfaceTreeOptions& opt
 std::size_t SurfaceTree::memory_bytes() const {
   return nodes_.capacity() * sizeof(WideNode) + items_.capacity() * sizeof(SurfaceItem) +
          literals_.capacity() * sizeof(Literal) + program_nodes_.capacity() * sizeof(TreeNode) +
-         operations_.capacity() * sizeof(crossings::MaskOperation) + cells_.capacity() * sizeof(Aabb);
+         operations_.capacity() * sizeof(crossings::MaskOperation) +
+         cells_.capacity() * sizeof(Aabb);
 }
 
 }  // namespace graycube

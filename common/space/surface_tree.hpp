@@ -1,7 +1,8 @@
-// A bounding volume hierarchy over the surfaces of all objects: eight children a node, boxes in floats that
-// only cull; doubles decide. Big objects are cut into cells first, each with its pruned program, so that a
-// difference of 2000 spheres costs what its few local ones cost. It finds the same crossings, bit for bit,
-// as walking a Bsp: which cells and boxes a ray passes never shows in a result.
+// A bounding volume hierarchy over the surfaces of all objects: eight children a node, boxes in
+// floats that only cull; doubles decide. Big objects are cut into cells first, each with its pruned
+// program, so that a difference of 2000 spheres costs what its few local ones cost. It finds the
+// same crossings, bit for bit, as walking a Bsp: which cells and boxes a ray passes never shows in
+// a result.
 #pragma once
 
 #include <array>
@@ -29,15 +30,17 @@ class SurfaceTree {
  public:
   static SurfaceTree build(const Model& model, const SurfaceTreeOptions& options = {});
 
-  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. 0 ≤ t0, here and
-  /// below: the slack with which boxes are tested is relative.
+  /// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. 0 ≤ t0,
+  /// here and below: the slack with which boxes are tested is relative.
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
                                          TreeScratch& scratch) const;
   /// Lets a shadow ray's light through the surfaces crossed in [t0, t1): multiplies `light` by each
-  /// transparent one's transmit, in order of t, then of the objects. False when an opaque one ends it.
+  /// transparent one's transmit, in order of t, then of the objects. False when an opaque one ends
+  /// it.
   bool pass_light(const Ray& ray, double t0, double t1, TreeScratch& scratch, Rgb& light) const;
 
-  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a
+  /// crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, TreeScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
   /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
@@ -48,7 +51,8 @@ class SurfaceTree {
   std::size_t item_count() const { return items_.size(); }
   std::size_t memory_bytes() const;
 
-  /// Calls visit(Crossing) for the crossings of an item with t0 ≤ t < t1, in order, until it returns false.
+  /// Calls visit(Crossing) for the crossings of an item with t0 ≤ t < t1, in order, until it
+  /// returns false.
   template <typename Visit>
   bool for_each_item_crossing(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                               TreeScratch& scratch, Visit&& visit) const;
@@ -69,7 +73,8 @@ class SurfaceTree {
   }
   /// Visits the crossings of a small item whose literals' intervals are given.
   template <typename Visit>
-  bool event_crossings(const SurfaceItem& item, const crossings::FewEvents& events, Visit&& visit) const;
+  bool event_crossings(const SurfaceItem& item, const crossings::FewEvents& events,
+                       Visit&& visit) const;
   /// Only for items with a cell.
   const Aabb& cell_of(const SurfaceItem& item) const { return cells_[item.cell]; }
   /// Cuts [t0, t1) to the piece of the ray in the item's cell; false when there is none.
@@ -103,8 +108,8 @@ class SurfaceTree {
   std::vector<std::uint32_t> unbounded_;
 };
 
-/// The half-open piece of a ray in a cell, by the same expressions as the walk's: each t of a line lies in
-/// exactly one cell of a subdivision. False when there is none in [t0, t1).
+/// The half-open piece of a ray in a cell, by the same expressions as the walk's: each t of a line
+/// lies in exactly one cell of a subdivision. False when there is none in [t0, t1).
 inline bool SurfaceTree::clip_to_cell(const SurfaceItem& item, const PreparedRay& ray, double& t0,
                                       double& t1) const {
   if (item.cell == SurfaceItem::kAllSpace) return true;
@@ -169,8 +174,8 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
 }
 
 template <typename Visit>
-bool SurfaceTree::mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
-                                 TreeScratch& scratch, Visit&& visit) const {
+bool SurfaceTree::mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0,
+                                 double t1, TreeScratch& scratch, Visit&& visit) const {
   ++scratch.counts.primitives_tested;
   const Literal& literal = literals_of(item).front();
   const bool swaps = literal.is_inverted != item.is_complement;
@@ -180,17 +185,19 @@ bool SurfaceTree::mesh_crossings(const SurfaceItem& item, const PreparedRay& ray
 }
 
 template <typename Visit>
-bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
-                                  TreeScratch& scratch, Visit&& visit) const {
+bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0,
+                                  double t1, TreeScratch& scratch, Visit&& visit) const {
   const auto literals = literals_of(item);
   crossings::FewEvents events(t0, t1);
-  // Of conjunctions: as in for_each_item_crossing, all crossings lie where all that is not taken away reaches.
+  // Of conjunctions: as in for_each_item_crossing, all crossings lie where all that is not taken
+  // away reaches.
   double from = t0;
   double to = t1;
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
     const Literal& literal = literals[i];
     const bool confines = item.is_flat() && !literal.is_inverted;
-    if (literals.size() > 1 && crossings::has_bounds(literal.kind) && !crossings::may_meet(literal, ray, from, to)) {
+    if (literals.size() > 1 && crossings::has_bounds(literal.kind) &&
+        !crossings::may_meet(literal, ray, from, to)) {
       if (confines) return true;
       continue;
     }
@@ -216,16 +223,19 @@ bool SurfaceTree::event_crossings(const SurfaceItem& item, const crossings::FewE
   if (events.is_empty()) return true;
   const auto literals = literals_of(item);
   std::uint64_t inverted = 0;
-  for (std::size_t i = 0; i < literals.size(); ++i) inverted |= std::uint64_t{literals[i].is_inverted} << i;
+  for (std::size_t i = 0; i < literals.size(); ++i)
+    inverted |= std::uint64_t{literals[i].is_inverted} << i;
   const crossings::MaskOperation all{(std::uint64_t{1} << literals.size()) - 1, true, 0};
   const std::span<const crossings::MaskOperation> operations =
       item.is_flat() ? std::span(&all, 1)
-                     : std::span(operations_.data() + item.first_operation, item.node_count - item.literal_count);
+                     : std::span(operations_.data() + item.first_operation,
+                                 item.node_count - item.literal_count);
   const crossings::MaskedProgram program(operations, inverted, literals.size());
   return events.visit_changes(
       [&](std::uint64_t flags) { return program.is_member(flags) != item.is_complement; },
       [&](double t, bool entering, std::uint64_t before, std::uint64_t after) {
-        return visit(Crossing{t, literals[program.changed_literal(before, after)].primitive, item.object, entering});
+        return visit(Crossing{t, literals[program.changed_literal(before, after)].primitive,
+                              item.object, entering});
       });
 }
 
@@ -245,21 +255,23 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
     scratch.counts.count_test(literals[i].kind);
     const std::uint32_t primitive = literals[i].primitive;
     if (literals[i].kind == PrimitiveKind::kMesh) {
-      crossings::gather(scratch.meshes.spans(*model_, primitive, ray.ray), i, t0, t1, events, before);
+      crossings::gather(scratch.meshes.spans(*model_, primitive, ray.ray), i, t0, t1, events,
+                        before);
       continue;
     }
     const Spans spans = spans_along(model_->primitives[primitive], model_->data(), ray.ray);
     crossings::gather(spans, i, t0, t1, events, before);
     if (!is_flat || literals[i].is_inverted) continue;
-    // As in for_each_item_crossing: all crossings of a conjunction lie where all that is not taken away reaches.
+    // As in for_each_item_crossing: all crossings of a conjunction lie where all that is not taken
+    // away reaches.
     if (spans.count == 0) return true;
     from = std::fmax(from, spans.interval[0].enter);
     to = std::fmin(to, spans.interval[static_cast<std::size_t>(spans.count - 1)].leave);
     if (!(from < to) || to < t0 || from >= t1) return true;
   }
   if (events.empty()) return true;
-  const std::span<const TreeNode> tree{
-      is_flat ? nullptr : program_nodes_.data() + item.first_node, item.node_count};
+  const std::span<const TreeNode> tree{is_flat ? nullptr : program_nodes_.data() + item.first_node,
+                                       item.node_count};
   const auto is_member = [&](std::span<const std::uint64_t> flags) {
     if (!is_flat) {
       std::uint32_t literal = 0;

@@ -21,7 +21,8 @@ bool each_item(const SurfaceTree& tree, const Ray& ray, double t0, End&& t1, Tre
     if (!visit(item)) return false;
   }
   if (tree.nodes().empty()) return true;
-  return each_item_below<order>(tree.nodes(), 0, CullingRay(ray), float_down(t0), t1, scratch, visit);
+  return each_item_below<order>(tree.nodes(), 0, CullingRay(ray), float_down(t0), t1, scratch,
+                                visit);
 }
 
 bool FirstCrossing(const SurfaceTree& tree, const Ray& ray, double t0, double t1,
@@ -29,10 +30,12 @@ bool FirstCrossing(const SurfaceTree& tree, const Ray& ray, double t0, double t1
   const PreparedRay prepared(ray);
   bool any = false;
   found.t = t1;
-  each_item<Order::kNearestFirst>(tree, ray, t0, [&] { return found.t; }, scratch, [&](std::uint32_t index) {
-    take_first_crossing(tree, index, prepared, t0, scratch, found, any);
-    return true;
-  });
+  each_item<Order::kNearestFirst>(
+      tree, ray, t0, [&] { return found.t; }, scratch,
+      [&](std::uint32_t index) {
+        take_first_crossing(tree, index, prepared, t0, scratch, found, any);
+        return true;
+      });
   return any;
 }
 
@@ -42,24 +45,25 @@ bool PassLight(const SurfaceTree& tree, const Ray& ray, double t0, double t1, Tr
   panes.clear();
   const PreparedRay prepared(ray);
   const auto crosses_opaque = [&](std::uint32_t index) {
-    return !tree.for_each_item_crossing(
-        tree.items()[index], prepared, t0, t1, scratch, [&](const Crossing& c) {
-          const double transmit = tree.transmit_of(c.primitive);
-          if (transmit > 0) panes.push_back({0, c.t, c.object, transmit});
-          return transmit > 0;
-        });
+    return !tree.for_each_item_crossing(tree.items()[index], prepared, t0, t1, scratch,
+                                        [&](const Crossing& c) {
+                                          const double transmit = tree.transmit_of(c.primitive);
+                                          if (transmit > 0)
+                                            panes.push_back({0, c.t, c.object, transmit});
+                                          return transmit > 0;
+                                        });
   };
   // Neighbouring rays towards one light mostly end on the same object.
   std::uint32_t& last = scratch.last_occluder[octant(ray.direction)];
   if (last < tree.items().size() && crosses_opaque(last)) return false;
   panes.clear();
-  const bool arrives =
-      each_item<Order::kAny>(tree, ray, t0, [&] { return t1; }, scratch,
-                [&](std::uint32_t index) {
-                  if (!crosses_opaque(index)) return true;
-                  last = index;
-                  return false;
-                });
+  const bool arrives = each_item<Order::kAny>(
+      tree, ray, t0, [&] { return t1; }, scratch,
+      [&](std::uint32_t index) {
+        if (!crosses_opaque(index)) return true;
+        last = index;
+        return false;
+      });
   if (!arrives) return false;
   dim(panes, &light);
   return true;

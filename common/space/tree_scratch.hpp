@@ -13,8 +13,8 @@
 
 namespace graycube {
 
-/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks for them in each cell, and
-/// a packet's rays ask in turn.
+/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks
+/// for them in each cell, and a packet's rays ask in turn.
 class MeshMemo {
  public:
   /// From t = 0 on, which is all that walks look at.

@@ -1,6 +1,6 @@
-// How one ray passes through the nodes of the surface tree. Included once for each instruction set, in the
-// way of Highway's own headers; which one runs can't show in a result, since boxes only cull,
-// conservatively, and crossings are computed in doubles.
+// How one ray passes through the nodes of the surface tree. Included once for each instruction set,
+// in the way of Highway's own headers; which one runs can't show in a result, since boxes only
+// cull, conservatively, and crossings are computed in doubles.
 #if defined(GRAYCUBE_SPACE_TREE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_TREE_WALK_INL
 #undef GRAYCUBE_SPACE_TREE_WALK_INL
@@ -34,11 +34,12 @@ HWY_INLINE std::size_t octant(const Vec3& d) {
   return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
 }
 
-/// What finds the first crossing wants near boxes first; for what asks whether there is any, sorting costs
-/// more than it saves.
+/// What finds the first crossing wants near boxes first; for what asks whether there is any,
+/// sorting costs more than it saves.
 enum class Order { kNearestFirst, kAny };
 
-/// Moves what is nearer than t, from `base` on, up by one place of a stack; returns the place left free.
+/// Moves what is nearer than t, from `base` on, up by one place of a stack; returns the place left
+/// free.
 template <typename Entry>
 HWY_INLINE std::size_t make_place(Entry* stack, std::size_t base, std::size_t top, float t) {
   while (top > base && stack[top - 1].t < t) {
@@ -48,11 +49,11 @@ HWY_INLINE std::size_t make_place(Entry* stack, std::size_t base, std::size_t to
   return top;
 }
 
-/// Calls visit(item index) for the items below `root` whose boxes the ray may meet in [t0, t1()], until it
-/// returns false.
+/// Calls visit(item index) for the items below `root` whose boxes the ray may meet in [t0, t1()],
+/// until it returns false.
 template <Order order, typename End, typename Visit>
-bool each_item_below(const std::vector<WideNode>& nodes, std::uint32_t root, const CullingRay& ray, float t0,
-                     End&& t1, TreeScratch& scratch, Visit&& visit) {
+bool each_item_below(const std::vector<WideNode>& nodes, std::uint32_t root, const CullingRay& ray,
+                     float t0, End&& t1, TreeScratch& scratch, Visit&& visit) {
   struct StackEntry {
     std::uint32_t child;
     float t;
@@ -84,8 +85,8 @@ bool each_item_below(const std::vector<WideNode>& nodes, std::uint32_t root, con
   return true;
 }
 
-/// Replaces `found` by the item's first crossing with t0 ≤ t < found.t; at equal t the first object wins.
-/// Before anything is found, found.t is the ray's end.
+/// Replaces `found` by the item's first crossing with t0 ≤ t < found.t; at equal t the first object
+/// wins. Before anything is found, found.t is the ray's end.
 HWY_INLINE void take_first_crossing(const SurfaceTree& tree, std::uint32_t index,
                                     const PreparedRay& ray, double t0, TreeScratch& scratch,
                                     Crossing& found, bool& any) {

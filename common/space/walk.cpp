@@ -22,7 +22,8 @@ std::optional<Crossing> first_crossing(const Bsp& bsp, const Ray& ray, double t0
   return found;
 }
 
-bool pass_light(const Bsp& bsp, const Ray& ray, double t0, double t1, Mailbox& mailbox, Rgb& light) {
+bool pass_light(const Bsp& bsp, const Ray& ray, double t0, double t1, Mailbox& mailbox,
+                Rgb& light) {
   struct Pane {
     double t;
     double transmit;

@@ -40,7 +40,8 @@ class PlaneOrder {
 };
 
 /// The leaf region below `node` that the ray is in at parameter t.
-inline const BspLeaf& leaf_at(const Bsp& bsp, std::uint32_t node, const PlaneOrder& order, double t) {
+inline const BspLeaf& leaf_at(const Bsp& bsp, std::uint32_t node, const PlaneOrder& order,
+                              double t) {
   for (;;) {
     const BspNode& n = bsp.nodes()[node];
     if (n.axis == BspNode::kLeafAxis) return bsp.leaves()[n.child];
@@ -48,7 +49,8 @@ inline const BspLeaf& leaf_at(const Bsp& bsp, std::uint32_t node, const PlaneOrd
   }
 }
 
-/// Where the ray leaves the cell, and through which face (axis · 2 + upper); −1 when it stays for good.
+/// Where the ray leaves the cell, and through which face (axis · 2 + upper); −1 when it stays for
+/// good.
 struct CellExit {
   double t;
   int face;
@@ -66,8 +68,8 @@ inline CellExit exit_of(const Aabb& cell, const PlaneOrder& order) {
   return exit;
 }
 
-/// Calls `visit(leaf, t0, t1)` for the leaf regions along the ray, which together cover [t0, t1) in half-open
-/// pieces, until it returns false or the ray has left; returns false in the first case.
+/// Calls `visit(leaf, t0, t1)` for the leaf regions along the ray, which together cover [t0, t1) in
+/// half-open pieces, until it returns false or the ray has left; returns false in the first case.
 template <typename Visit>
 bool walk(const Bsp& bsp, const Ray& ray, double t0, double t1, Mailbox& mailbox, Visit&& visit) {
   const PlaneOrder order(ray);
@@ -87,13 +89,14 @@ bool walk(const Bsp& bsp, const Ray& ray, double t0, double t1, Mailbox& mailbox
   return true;
 }
 
-/// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. The caller has
-/// called mailbox.begin_ray() for this ray.
+/// The first crossing of any object with t0 ≤ t < t1; at equal t the first object wins. The caller
+/// has called mailbox.begin_ray() for this ray.
 std::optional<Crossing> first_crossing(const Bsp& bsp, const Ray& ray, double t0, double t1,
                                        Mailbox& mailbox);
 
 /// Lets a shadow ray's light through the surfaces crossed in [t0, t1): multiplies `light` by each
-/// transparent one's transmit, in order of t, then of the objects. False when an opaque one ends it.
+/// transparent one's transmit, in order of t, then of the objects. False when an opaque one ends
+/// it.
 bool pass_light(const Bsp& bsp, const Ray& ray, double t0, double t1, Mailbox& mailbox, Rgb& light);
 
 }  // namespace graycube

@@ -39,9 +39,10 @@ class Hypercube {
   /// The bit across which two nodes are linked; nothing when they are not.
   std::optional<std::uint32_t> link_between(Rank a, Rank b) const;
 
-  /// The first bit on the way from one node to another, which is as many links away as their labels differ in bits; `but` is taken only
-  /// when it is the last. They must not be the same node.
-  std::uint32_t first_bit(Rank from, Rank to, std::optional<std::uint32_t> but = std::nullopt) const;
+  /// The first bit on the way from one node to another, which is as many links away as their labels
+  /// differ in bits; `but` is taken only when it is the last. They must not be the same node.
+  std::uint32_t first_bit(Rank from, Rank to,
+                          std::optional<std::uint32_t> but = std::nullopt) const;
 
   /// The Gray-code Hamiltonian cycle 0 → … → 0 over links; on one node itself.
   Rank ring_next(Rank rank) const;

@@ -14,21 +14,25 @@
 namespace graycube {
 namespace {
 
-/// Rays wait until there are so many: they are traced by the region, and few at a time cost more. What descends from a
-/// pixel comes on top.
+/// Rays wait until there are so many: they are traced by the region, and few at a time cost more.
+/// What descends from a pixel comes on top.
 constexpr std::size_t kManyRays = 32768;
-/// Once so many pixels have shown that all take only this part of what they may, the rest is traced in one go.
+/// Once so many pixels have shown that all take only this part of what they may, the rest is traced
+/// in one go.
 constexpr std::uint32_t kTellingPixels = 128;
 constexpr double kSmallPart = 0.25;
-/// Where all rays stay, so many cells along each side are traced together, or more where there would be too many regions: the
-/// more, the fuller are packets.
+/// Where all rays stay, so many cells along each side are traced together, or more where there
+/// would be too many regions: the more, the fuller are packets.
 constexpr std::uint32_t kCellsTogether = 2;
 constexpr std::uint32_t kMostRegions = 32;
 
-/// What is traced together: cells, or where all rays stay, some of them, since pixels tell what work is whose.
+/// What is traced together: cells, or where all rays stay, some of them, since pixels tell what
+/// work is whose.
 MacroGrid regions_of(const CameraFrame& frame, const MacroGrid& cells, Staying staying) {
   if (!staying.all()) return cells;
-  const auto together = [](std::uint32_t side) { return std::clamp(side / kCellsTogether, 1u, kMostRegions); };
+  const auto together = [](std::uint32_t side) {
+    return std::clamp(side / kCellsTogether, 1u, kMostRegions);
+  };
   return MacroGrid::regular(frame, together(cells.columns()), together(cells.rows()));
 }
 
@@ -69,8 +73,8 @@ class CoarseTrace {
     created_[static_cast<std::size_t>(RayKind::kPrimary)] += rays;
   }
 
-  /// Traces what has left its region, region by region to and fro, until nothing is left: what goes the same way
-  /// gathers on it.
+  /// Traces what has left its region, region by region to and fro, until nothing is left: what goes
+  /// the same way gathers on it.
   void finish() {
     const std::size_t last = waiting_.size() - 1;
     for (bool forth = true; waiting_count_ > 0; forth = !forth) {
@@ -99,23 +103,30 @@ class CoarseTrace {
     taken_.swap(rays);
     const RegionIndex at = taken_.front().region;
     waiting_count_ -= taken_.size();
-    const auto began = static_cast<std::size_t>(
-        std::count_if(taken_.begin(), taken_.end(), [](const RayTask& r) { return r.kind == RayKind::kPrimary; }));
+    const auto began =
+        static_cast<std::size_t>(std::count_if(taken_.begin(), taken_.end(), [](const RayTask& r) {
+          return r.kind == RayKind::kPrimary;
+        }));
     const std::size_t came = taken_.size() - began;
     crossings_ += came;
-    const double beside = crossing_cost_ * static_cast<double>(came) + kCreatedCost[static_cast<std::size_t>(RayKind::kPrimary)] * static_cast<double>(began);
+    const double beside =
+        crossing_cost_ * static_cast<double>(came) +
+        kCreatedCost[static_cast<std::size_t>(RayKind::kPrimary)] * static_cast<double>(began);
     trace(at, evaluator_, beside, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
-  /// Rays that are traced where they left, on their further way. What descends from them counts as what crosses: so much work
-  /// has an end.
+  /// Rays that are traced where they left, on their further way. What descends from them counts as
+  /// what crosses: so much work has an end.
   void trace_staying(std::vector<RayTask>& rays) {
     if (rays.empty()) return;
     crossings_ += rays.size();
     waiting_count_ -= rays.size();
-    const auto created = [&] { return std::accumulate(created_.begin(), created_.end(), std::uint64_t{0}); };
+    const auto created = [&] {
+      return std::accumulate(created_.begin(), created_.end(), std::uint64_t{0});
+    };
     const std::uint64_t before = created();
-    trace(rays.front().region, open_evaluator_, 0, [&] { open_evaluator_.trace_rays(rays, step_); });
+    trace(rays.front().region, open_evaluator_, 0,
+          [&] { open_evaluator_.trace_rays(rays, step_); });
     crossings_ += created() - before;
     rays.clear();
   }
@@ -198,8 +209,8 @@ class CoarseTrace {
   Step step_;
 };
 
-/// A step that visits each of `count` places once, those visited so far spread over all at any time: near the golden
-/// section of the count, without a divisor in common.
+/// A step that visits each of `count` places once, those visited so far spread over all at any
+/// time: near the golden section of the count, without a divisor in common.
 std::uint32_t spreading_step(std::uint32_t count) {
   auto step = static_cast<std::uint32_t>(0.618034 * count) + 1;
   while (std::gcd(step, count) != 1) ++step;
@@ -208,14 +219,15 @@ std::uint32_t spreading_step(std::uint32_t count) {
 
 }  // namespace
 
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_ptr<const LightHorizons> horizons,
-                       Staying staying, double crossing_cost, std::uint64_t most_pixels) {
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells,
+                       std::shared_ptr<const LightHorizons> horizons, Staying staying,
+                       double crossing_cost, std::uint64_t most_pixels) {
   CoarseTrace trace(whole, cells, std::move(horizons), staying, crossing_cost);
   const ImageSize& image = whole.settings().image;
   const double pixels = static_cast<double>(image.width) * image.height;
-  const double wanted =
-      std::clamp(kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
-                 static_cast<double>(std::clamp(most_pixels, kLeastCoarsePixels, kMostCoarsePixels)));
+  const double wanted = std::clamp(
+      kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
+      static_cast<double>(std::clamp(most_pixels, kLeastCoarsePixels, kMostCoarsePixels)));
   const double step = std::sqrt(pixels / wanted);
   // As many in each cell as in any other.
   const auto of_side = [step](std::uint32_t side, std::uint32_t parts) {
@@ -232,12 +244,14 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_
   const std::uint32_t stride = spreading_step(count);
   bool is_cheap = false;
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
-    trace.add_pixel(middle(at % across, across, image.width), middle(at / across, count / across, image.height));
+    trace.add_pixel(middle(at % across, across, image.width),
+                    middle(at / across, count / across, image.height));
     // Also when they have doubled: what they take to the end is known before it is too much.
     const std::uint32_t done = i + 1;
     if (trace.has_many_waiting() || (std::has_single_bit(done) && !is_cheap)) {
       trace.finish();
-      is_cheap = done >= kTellingPixels && static_cast<double>(trace.crossings()) * count / done < kSmallPart * static_cast<double>(most_crossings);
+      is_cheap = done >= kTellingPixels && static_cast<double>(trace.crossings()) * count / done <
+                                               kSmallPart * static_cast<double>(most_crossings);
     }
     at = (at + stride) % count;
   }

@@ -7,12 +7,14 @@
 
 namespace graycube {
 
-/// Pixels that are traced: about this share of the picture, within these bounds, and no more than the caller asks for.
+/// Pixels that are traced: about this share of the picture, within these bounds, and no more than
+/// the caller asks for.
 inline constexpr double kCoarseShare = 0.0078;
 inline constexpr std::uint64_t kLeastCoarsePixels = 1024;
 inline constexpr std::uint64_t kMostCoarsePixels = 16384;
-/// Fewer where their rays have crossed from region to region so many times for each pixel of the picture, or so many
-/// in all where that is more: between mirrors and with many lights a pixel can take thousands.
+/// Fewer where their rays have crossed from region to region so many times for each pixel of the
+/// picture, or so many in all where that is more: between mirrors and with many lights a pixel can
+/// take thousands.
 inline constexpr std::uint64_t kCoarseCrossingsPerPixel = 1;
 inline constexpr std::uint64_t kLeastCoarseCrossings = 100'000;
 
@@ -38,8 +40,10 @@ struct Staying {
   bool all() const { return shadow_rays && secondary_rays; }
 };
 
-/// By cell, with `crossing_cost` for each ray that came in from the cell beside. `whole` has no boundaries.
-CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells, std::shared_ptr<const LightHorizons> horizons,
-                       Staying staying, double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
+/// By cell, with `crossing_cost` for each ray that came in from the cell beside. `whole` has no
+/// boundaries.
+CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells,
+                       std::shared_ptr<const LightHorizons> horizons, Staying staying,
+                       double crossing_cost, std::uint64_t most_pixels = kMostCoarsePixels);
 
 }  // namespace graycube

@@ -37,7 +37,8 @@ std::size_t Territory::memory_bytes() const {
 }
 
 Domain::Domain(std::shared_ptr<const Territory> territory)
-    : frame_(CameraFrame::from(territory->model->settings.camera, territory->model->settings.image)),
+    : frame_(
+          CameraFrame::from(territory->model->settings.camera, territory->model->settings.image)),
       territory_(std::move(territory)) {}
 
 Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
@@ -95,7 +96,8 @@ std::shared_ptr<const Domain> Domain::with_borrowed(
 RegionIndex Domain::region_at(const RayTask& task, double t) const {
   RegionIndex region = task.region;
   if (!grid_) return region;
-  for (auto exit = grid_->exit(region, task.ray, task.t); exit && exit->t <= t; exit = grid_->exit(region, task.ray, exit->t)) {
+  for (auto exit = grid_->exit(region, task.ray, task.t); exit && exit->t <= t;
+       exit = grid_->exit(region, task.ray, exit->t)) {
     region = exit->next;
   }
   return region;

@@ -1,4 +1,5 @@
-// The part of space that one process renders: all of it (serial, roth), or macro-regions of the grid.
+// The part of space that one process renders: all of it (serial, roth), or macro-regions of the
+// grid.
 #pragma once
 
 #include <cmath>
@@ -71,8 +72,8 @@ class Domain {
                   Subdivision subdivision = Subdivision::kSurfaceTree)
       : Domain(Territory::of(std::move(model), subdivision)) {}
   explicit Domain(std::shared_ptr<const Territory> territory);
-  /// A node's macro-regions; the model is restricted to them. One model for all of them: a primitive that
-  /// reaches into several is held once.
+  /// A node's macro-regions; the model is restricted to them. One model for all of them: a
+  /// primitive that reaches into several is held once.
   Domain(MacroGrid grid, RegionShare share, Model model,
          Subdivision subdivision = Subdivision::kSurfaceTree);
 
@@ -88,14 +89,17 @@ class Domain {
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
-  /// Of what this domain does not hold; shadow rays need not leave it where nothing of that can stand in their way.
+  /// Of what this domain does not hold; shadow rays need not leave it where nothing of that can
+  /// stand in their way.
   void set_foreign_horizons(std::shared_ptr<const LightHorizons> horizons) {
     foreign_horizons_ = std::move(horizons);
   }
   /// Around what this domain does not hold; rays need not leave it where they meet none of that.
-  void set_foreign_bounds(std::shared_ptr<const ForeignBounds> bounds) { foreign_bounds_ = std::move(bounds); }
-  /// The model is a replica of the whole scene, not only what the domain's regions need: no ray stops at their
-  /// boundaries.
+  void set_foreign_bounds(std::shared_ptr<const ForeignBounds> bounds) {
+    foreign_bounds_ = std::move(bounds);
+  }
+  /// The model is a replica of the whole scene, not only what the domain's regions need: no ray
+  /// stops at their boundaries.
   void set_replica() { is_replica_ = true; }
   bool is_replica() const { return is_replica_; }
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
@@ -113,20 +117,23 @@ class Domain {
   /// From here on only those of the grid's regions; not while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
-  /// Whether a shadow ray from `origin` is surely nearer to its light than `distance` when `left` (both in scene units) of its
-  /// way is left.
+  /// Whether a shadow ray from `origin` is surely nearer to its light than `distance` when `left`
+  /// (both in scene units) of its way is left.
   static bool is_beyond(const Vec3& origin, double left, double distance) {
     // Far more than rounding makes of a ray's distance from its light.
     constexpr double kMargin = 1e-8;
     return left * (1 + kMargin) + kMargin * larger(1.0, max_abs(origin)) < distance;
   }
-  /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on; has_foreign_horizons() only.
+  /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on;
+  /// has_foreign_horizons() only.
   bool holds_way_to_light(const RayTask& task, double t) const {
     const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
-    return is_beyond(task.ray.origin, length(to_light) - t, foreign_horizons_->distance(task.light, -task.ray.direction));
+    return is_beyond(task.ray.origin, length(to_light) - t,
+                     foreign_horizons_->distance(task.light, -task.ray.direction));
   }
   bool has_foreign_bounds() const { return foreign_bounds_ != nullptr; }
-  /// Bit i: the domain may lack something that ray i of the packet meets at t0 ≤ t ≤ t1; has_foreign_bounds() only.
+  /// Bit i: the domain may lack something that ray i of the packet meets at t0 ≤ t ≤ t1;
+  /// has_foreign_bounds() only.
   RayPacket::Mask may_meet_foreign(const RayPacket& packet, CrossingScratch& scratch) const {
     return foreign_bounds_->may_meet(packet, scratch.foreign);
   }
@@ -143,17 +150,20 @@ class Domain {
     scratch.mailbox.begin_ray();
     return graycube::first_crossing(*territory_->bsp, ray, t0, t1, scratch.mailbox);
   }
-  /// Lets light through the surfaces crossed in [t0, t1): multiplies it by each transparent one's transmit,
-  /// in order of t, then of the objects. False when an opaque one ends it.
-  bool pass_light(const Ray& ray, double t0, double t1, CrossingScratch& scratch, Rgb& light) const {
+  /// Lets light through the surfaces crossed in [t0, t1): multiplies it by each transparent one's
+  /// transmit, in order of t, then of the objects. False when an opaque one ends it.
+  bool pass_light(const Ray& ray, double t0, double t1, CrossingScratch& scratch,
+                  Rgb& light) const {
     if (territory_->tree) return territory_->tree->pass_light(ray, t0, t1, scratch.tree, light);
     scratch.mailbox.begin_ray();
     return graycube::pass_light(*territory_->bsp, ray, t0, t1, scratch.mailbox, light);
   }
-  /// As pass_light, in a region of this or another node; nothing when it is neither held nor borrowed.
+  /// As pass_light, in a region of this or another node; nothing when it is neither held nor
+  /// borrowed.
   std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
                                           CrossingScratch& scratch, Rgb& light) const;
-  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a crossing.
+  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a
+  /// crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
   /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
@@ -167,8 +177,8 @@ class Domain {
     if (!grid_ || is_replica_) return std::nullopt;
     return grid_->exit(task.region, task.ray, task.t);
   }
-  /// The same for rays in one region: bit i of the result tells that ray i leaves it before t1[i], which is
-  /// shortened to where, and exits[i] is set.
+  /// The same for rays in one region: bit i of the result tells that ray i leaves it before t1[i],
+  /// which is shortened to where, and exits[i] is set.
   RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const {
     if (!grid_ || is_replica_) return 0;

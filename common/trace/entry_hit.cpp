@@ -9,11 +9,12 @@
 namespace graycube {
 namespace {
 
-/// Objects that may lie behind the eye, one behind the other, before an object around it is given up on.
+/// Objects that may lie behind the eye, one behind the other, before an object around it is given
+/// up on.
 constexpr std::size_t kMostBehind = 256;
 
-/// The parameter at which the primitive itself is crossed nearest to t: what found t was the ray turned round, whose
-/// roots may differ in the last bit.
+/// The parameter at which the primitive itself is crossed nearest to t: what found t was the ray
+/// turned round, whose roots may differ in the last bit.
 double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, double t) {
   const Spans spans = spans_along(model.primitives[primitive], model.data(), ray);
   double best = t, least = Aabb::kInf;
@@ -28,9 +29,10 @@ double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, dou
   return best;
 }
 
-/// Where the ray entered the object that it starts in; `first` is what it meets first when turned round.
-std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const Ray& back, const Crossing& first,
-                                     CrossingScratch& scratch) {
+/// Where the ray entered the object that it starts in; `first` is what it meets first when turned
+/// round.
+std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const Ray& back,
+                                     const Crossing& first, CrossingScratch& scratch) {
   std::array<std::uint32_t, kMostBehind> seen;
   std::size_t count = 0;
   for (std::optional<Crossing> hit = first; hit && count < kMostBehind;) {
@@ -38,8 +40,8 @@ std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const
     if (std::find(seen.begin(), end, hit->object) == end) {
       // Backwards out of an object that was never entered: the start lies in it.
       if (!hit->entering) {
-        return Crossing{own_root(domain.model(), hit->primitive, ray, -hit->t), hit->primitive, hit->object,
-                        true};
+        return Crossing{own_root(domain.model(), hit->primitive, ray, -hit->t), hit->primitive,
+                        hit->object, true};
       }
       seen[count++] = hit->object;
     }
@@ -51,7 +53,8 @@ std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const
 }  // namespace
 
 RayPacket::Mask entries_behind(const Domain& domain, RayKind kind, const RayPacket& packet,
-                               CrossingScratch& scratch, std::span<Crossing, RayPacket::kSize> found) {
+                               CrossingScratch& scratch,
+                               std::span<Crossing, RayPacket::kSize> found) {
   if (domain.settings().camera.inside != InsideView::kEntry || kind != RayKind::kPrimary) return 0;
   RaySelection back;
   for (std::size_t i = 0; i < packet.count; ++i) {
@@ -62,10 +65,12 @@ RayPacket::Mask entries_behind(const Domain& domain, RayKind kind, const RayPack
   if (back.packet.count == 0) return 0;
   std::array<Crossing, RayPacket::kSize> first;
   RayPacket::Mask any = 0;
-  for (RayPacket::Mask met = domain.first_crossings(back.packet, scratch, first); met != 0; met &= met - 1) {
+  for (RayPacket::Mask met = domain.first_crossings(back.packet, scratch, first); met != 0;
+       met &= met - 1) {
     const auto place = static_cast<std::size_t>(__builtin_ctz(met));
     const std::size_t i = back.numbers[place];
-    const auto entry = entry_behind(domain, packet.ray(i), back.packet.ray(place), first[place], scratch);
+    const auto entry =
+        entry_behind(domain, packet.ray(i), back.packet.ray(place), first[place], scratch);
     if (!entry) continue;
     found[i] = *entry;
     any |= RayPacket::Mask{1} << i;

@@ -7,7 +7,9 @@
 namespace graycube {
 namespace {
 
-std::uint32_t bits_of(double v) { return std::bit_cast<std::uint32_t>(static_cast<float>(v + 0.0)); }
+std::uint32_t bits_of(double v) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(v + 0.0));
+}
 
 bool is_pixels_own_ray(const Domain& domain, const RayTask& task) {
   const ImageSize& image = domain.settings().image;
@@ -46,8 +48,8 @@ void note_first_hit(const Domain& domain, const RayTask& task, const Crossing& h
     put(settings, kAlbedoPlane, task.pixel, {bits_of(c.r), bits_of(c.g), bits_of(c.b)}, step);
   }
   if (has_plane(settings.aovs, kDepthPlane)) {
-    put(settings, kDepthPlane, task.pixel,
-        {bits_of(hit.t), model.objects[hit.object].id + 1, 0}, step);
+    put(settings, kDepthPlane, task.pixel, {bits_of(hit.t), model.objects[hit.object].id + 1, 0},
+        step);
   }
 }
 

@@ -1,4 +1,5 @@
-// A ray under way: what an evaluator consumes, what crosses a macro-region's boundary, what goes on the wire.
+// A ray under way: what an evaluator consumes, what crosses a macro-region's boundary, what goes on
+// the wire.
 #pragma once
 
 #include <bit>
@@ -23,8 +24,8 @@ struct RayTask {
   double t = 0;
   /// Shadow rays: there are no crossings at or beyond it, or they don't count. Infinity otherwise.
   double t_max = 0;
-  /// The product of Kr and Kt from the root of the photometric tree; for a shadow ray the light that
-  /// arrives if nothing opaque stands in the way.
+  /// The product of Kr and Kt from the root of the photometric tree; for a shadow ray the light
+  /// that arrives if nothing opaque stands in the way.
   Rgb weight;
   /// y · width + x.
   std::uint32_t pixel = 0;
@@ -33,13 +34,14 @@ struct RayTask {
   std::uint8_t credit_exponent = 0;
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
-  /// Shadow rays: the light that they go to, as numbered in the settings, and whether t_max is where they reach its
-  /// horizon.
+  /// Shadow rays: the light that they go to, as numbered in the settings, and whether t_max is
+  /// where they reach its horizon.
   std::uint16_t light : 15 = 0;
   bool ends_at_horizon : 1 = false;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
-  /// Links crossed since the primary ray, by this ray and those that it descends from: its class in the flow of rays.
+  /// Links crossed since the primary ray, by this ray and those that it descends from: its class in
+  /// the flow of rays.
   std::uint16_t hops = 0;
 
   friend bool operator==(const RayTask&, const RayTask&) = default;
@@ -51,10 +53,12 @@ static_assert(kMaxLights <= kLightMask + 1);
 
 inline constexpr std::uint32_t kMaxHops = 0xFFFF;
 
-/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region; each further
-/// generation is sent to where it begins, over as many links as the hypercube has dimensions at most, and passes each boundary
-/// once; and what a neighbour traces for its owner crosses two links for one.
-constexpr std::uint64_t most_hops(std::uint32_t max_depth, std::uint32_t columns, std::uint32_t rows) {
+/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region;
+/// each further generation is sent to where it begins, over as many links as the hypercube has
+/// dimensions at most, and passes each boundary once; and what a neighbour traces for its owner
+/// crosses two links for one.
+constexpr std::uint64_t most_hops(std::uint32_t max_depth, std::uint32_t columns,
+                                  std::uint32_t rows) {
   const auto dimension = static_cast<std::uint32_t>(std::bit_width(columns) + std::bit_width(rows));
   return std::uint64_t{2} * (max_depth + 1) * (columns + rows + dimension);
 }
@@ -78,7 +82,8 @@ void for_each_run(std::span<const RayTask> rays, Key&& key, F&& f) {
 /// Calls f(region, rays) for each run of rays that are in one region.
 template <typename F>
 void for_each_region(std::span<const RayTask> rays, F&& f) {
-  for_each_run(rays, [](const RayTask& ray) { return ray.region; }, f);
+  for_each_run(
+      rays, [](const RayTask& ray) { return ray.region; }, f);
 }
 
 }  // namespace graycube

@@ -10,7 +10,8 @@ namespace graycube {
 
 struct SerialOptions {
   unsigned threads = 1;
-  /// Called now and then, from one thread at a time, with the share of the tiles done; false cancels.
+  /// Called now and then, from one thread at a time, with the share of the tiles done; false
+  /// cancels.
   std::function<bool(double)> progress;
 };
 

@@ -1,4 +1,5 @@
-// What the surfaces that a wave meets send out: their own light, secondary rays, shadow rays, and the credit of each.
+// What the surfaces that a wave meets send out: their own light, secondary rays, shadow rays, and
+// the credit of each.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +17,9 @@ namespace {
 /// Crossings nearer than this to a ray's origin are ignored: the surface that it leaves.
 double origin_epsilon(const Vec3& origin) { return 1e-9 * larger(1.0, max_abs(origin)); }
 
-/// How a ray's credit 2^-e is split at a surface: a quarter to each secondary ray, the other half in equal
-/// powers of two among the shadow rays and the ray's own contribution, which also takes all remainders.
+/// How a ray's credit 2^-e is split at a surface: a quarter to each secondary ray, the other half
+/// in equal powers of two among the shadow rays and the ray's own contribution, which also takes
+/// all remainders.
 class CreditSplit {
  public:
   CreditSplit(int exponent, std::size_t shadow_rays, std::size_t secondary_rays)
@@ -46,9 +48,10 @@ class CreditSplit {
 };
 
 /// A ray from `origin` that inherits pixel and generation.
-/// Written in place, number by number: a copy made on the way would wait for its parts to reach the cache.
-void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const Vec3& origin, const Vec3& direction,
-           const Rgb& weight, RayTask& r) {
+/// Written in place, number by number: a copy made on the way would wait for its parts to reach the
+/// cache.
+void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const Vec3& origin,
+           const Vec3& direction, const Rgb& weight, RayTask& r) {
   r.ray.origin = origin;
   r.ray.direction = direction;
   r.t = origin_epsilon(origin);
@@ -81,7 +84,8 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
     point_[a][index] = p[static_cast<int>(a)];
     normal_[a][index] = n[static_cast<int>(a)];
   }
-  SurfacePoint& at = surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
+  SurfacePoint& at =
+      surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
   if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
   const Rgb ambient = (m.ambient * (1 - m.transmit)) * (m.color * model.settings.ambient);
   contribute(ray, task.weight * ambient, step);
@@ -115,8 +119,8 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
   if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
 }
 
-/// From all surfaces of the wave that face it. The first loop is written to be vectorized: it does what
-/// length, a scaled vector and dot do.
+/// From all surfaces of the wave that face it. The first loop is written to be vectorized: it does
+/// what length, a scaled vector and dot do.
 void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   const Vec3 at = domain_.settings().lights[light].position;
   const std::size_t count = surfaces_.size();
@@ -135,9 +139,11 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   }
   look_up_horizons(light);
   for (std::size_t i = 0; i < count; ++i) {
-    // A light in the surface's plane, but for rounding, lights nothing: highlights would come and go at random.
+    // A light in the surface's plane, but for rounding, lights nothing: highlights would come and
+    // go at random.
     const double above = cosine_[i] * distance_[i];
-    if (above > 0 && above > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]})) send_light_ray(light, i, step);
+    if (above > 0 && above > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]}))
+      send_light_ray(light, i, step);
   }
 }
 
@@ -147,7 +153,8 @@ void Evaluator::look_up_horizons(std::uint32_t light) {
   if (!domain_.has_horizons() && !has_foreign) return;
   std::array<std::uint32_t, kWaveRays> texels;
   static_assert(kWaveRays % kTexelLanes == 0);
-  find_opposite_texels(to_light_[0], to_light_[1], to_light_[2], surfaces_.size(), LightHorizons::kSide, texels);
+  find_opposite_texels(to_light_[0], to_light_[1], to_light_[2], surfaces_.size(),
+                       LightHorizons::kSide, texels);
   const auto used = std::span(texels).first(surfaces_.size());
   if (domain_.has_horizons()) domain_.horizons().distances_at(light, used, lit_);
   if (has_foreign) domain_.foreign_horizons().distances_at(light, used, all_held_);
@@ -161,8 +168,10 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   const Vec3 l{to_light_[0][surface], to_light_[1][surface], to_light_[2][surface]};
   ++step.rays.created[static_cast<std::size_t>(RayKind::kShadow)];
   Rgb intensity = source.color;
-  if (source.falloff == Falloff::kInverseSquare) intensity = (1 / (distance * distance)) * intensity;
-  const Rgb weight = task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
+  if (source.falloff == Falloff::kInverseSquare)
+    intensity = (1 / (distance * distance)) * intensity;
+  const Rgb weight =
+      task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
   if (!(max_component(weight) > 0)) return;
   const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
   ShadowWay way{origin_epsilon(p), distance - origin_epsilon(p)};
@@ -187,13 +196,14 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   ++at.lights;
 }
 
-/// Shortens a shadow ray's way to where it reaches its light's horizon, unless it begins beyond that, where nothing can stand
-/// in its way, or where no light comes.
+/// Shortens a shadow ray's way to where it reaches its light's horizon, unless it begins beyond
+/// that, where nothing can stand in its way, or where no light comes.
 Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, ShadowWay& way) {
   // Crossings that count end a little before the light: the ray is between these distances from it.
   const double epsilon = way.t;
   const double farthest = way.t_max + 4 * epsilon;
-  if (way.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance) return Horizon::kEndsInShadow;
+  if (way.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance)
+    return Horizon::kEndsInShadow;
   const double end = farthest - reach.lit;
   if (!(end < way.t_max)) return Horizon::kGoesOn;
   way.t_max = end;

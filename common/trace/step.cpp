@@ -18,7 +18,9 @@ static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Whether two rays may be traced in one wave.
-bool are_alike(const RayTask& a, const RayTask& b) { return a.kind == b.kind && a.depth == b.depth; }
+bool are_alike(const RayTask& a, const RayTask& b) {
+  return a.kind == b.kind && a.depth == b.depth;
+}
 
 }  // namespace
 
@@ -37,7 +39,8 @@ void Step::clear() {
 void Evaluator::trace_pixels(const PixelRect& rect, Step& step) {
   for (std::uint32_t y = rect.y0; y < rect.y1; y += kBlockSide) {
     for (std::uint32_t x = rect.x0; x < rect.x1; x += kBlockSide) {
-      trace_block({x, y, std::min(x + kBlockSide, rect.x1), std::min(y + kBlockSide, rect.y1)}, step);
+      trace_block({x, y, std::min(x + kBlockSide, rect.x1), std::min(y + kBlockSide, rect.y1)},
+                  step);
       if (domain_.grid() == nullptr) finish_pixels(step);
     }
   }
@@ -57,11 +60,13 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
     std::uint32_t slot = first_slot;
     for (std::uint32_t y = block.y0; y < block.y1; y += kPacketSide) {
       for (std::uint32_t x = block.x0; x < block.x1; x += kPacketSide) {
-        start_primary_rays({x, y, std::min(x + kPacketSide, block.x1),
-                            std::min(y + kPacketSide, block.y1)}, s, slot, step);
+        start_primary_rays(
+            {x, y, std::min(x + kPacketSide, block.x1), std::min(y + kPacketSide, block.y1)}, s,
+            slot, step);
       }
     }
-    // Where rays leave for other nodes, too few stay of a block's to fill packets: those of several blocks gather.
+    // Where rays leave for other nodes, too few stay of a block's to fill packets: those of several
+    // blocks gather.
     if (domain_.grid() != nullptr && s == 0) {
       take_wave(viewing_);
       trace_wave(step);
@@ -71,8 +76,10 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
   }
 }
 
-/// Sample number s of each pixel. The pixels of a block are opened by the first, in the order of all others.
-void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std::uint32_t& slot, Step& step) {
+/// Sample number s of each pixel. The pixels of a block are opened by the first, in the order of
+/// all others.
+void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std::uint32_t& slot,
+                                   Step& step) {
   const ImageSize& image = domain_.settings().image;
   const std::uint32_t sx = s % image.samples, sy = s / image.samples;
   const RegionIndex first = domain_.region_of_pixel(pixels.x0, pixels.y0);
@@ -134,8 +141,8 @@ bool Evaluator::has_enough(const Step& step) const {
   return step.leaving.size() + step.lacking.size() >= most_leaving_;
 }
 
-/// Viewing rays first, then shadow rays, each in the order of their stack: whoever takes the last first goes on
-/// where this ended.
+/// Viewing rays first, then shadow rays, each in the order of their stack: whoever takes the last
+/// first goes on where this ended.
 void Evaluator::set_all_aside(Step& step) {
   for (std::vector<OpenRay>* stack : {&viewing_, &lights_}) {
     for (const OpenRay& ray : *stack) step.set_aside.push_back(ray.task);
@@ -173,8 +180,8 @@ void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   stack.resize(first);
 }
 
-/// What the surfaces of a wave send out: shadow rays are traced at once, light by light; secondary rays go on
-/// the stack.
+/// What the surfaces of a wave send out: shadow rays are traced at once, light by light; secondary
+/// rays go on the stack.
 void Evaluator::trace_sent_rays(Step& step) {
   for (std::uint32_t light = 0; light < shadow_.size(); ++light) send_light_rays(light, step);
   share_credit();
@@ -197,7 +204,8 @@ void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
 }
 
 /// A shadow ray that reached its region's boundary, with the light that is left of it.
-void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step) {
+void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit,
+                               Step& step) {
   const auto move_on = [&](RayTask& task) {
     task.weight = light;
     task.t = exit.t;
@@ -214,7 +222,8 @@ void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const Regio
   }
 }
 
-/// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own regions waits.
+/// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own
+/// regions waits.
 void Evaluator::finish_light_ray(const OpenRay& at_border, Step& step) {
   OpenRay ray = at_border;
   RayTask& task = ray.task;
@@ -240,7 +249,8 @@ void Evaluator::light_arrives(const OpenRay& ray, const Rgb& light, Step& step) 
   open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
-/// As Domain::shorten_to_exits, also for rays in several regions, and in those of others, which they leave where they are.
+/// As Domain::shorten_to_exits, also for rays in several regions, and in those of others, which
+/// they leave where they are.
 RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
                                             std::span<RegionExit, RayPacket::kSize> exits) const {
   if (domain_.grid() == nullptr || domain_.is_replica()) return 0;
@@ -252,7 +262,8 @@ RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPa
   RayPacket::Mask leaving = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayTask& task = rays[i].task;
-    const auto exit = domain_.holds(task.region) ? domain_.exit(task) : RegionExit{task.t, task.region};
+    const auto exit =
+        domain_.holds(task.region) ? domain_.exit(task) : RegionExit{task.t, task.region};
     if (!exit || !(exit->t < packet.t1[i])) continue;
     leaving |= RayPacket::Mask{1} << i;
     packet.t1[i] = exit->t;
@@ -266,7 +277,8 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
                                               std::span<RegionExit, RayPacket::kSize> exits) {
   if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
   const RayPacket::Mask leaving = shorten_to_exits(rays, packet, exits);
-  const bool has_horizons = domain_.has_foreign_horizons(), has_bounds = domain_.has_foreign_bounds();
+  const bool has_horizons = domain_.has_foreign_horizons(),
+             has_bounds = domain_.has_foreign_bounds();
   RaySelection beyond;
   RayPacket::Mask finished = 0;
   for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
@@ -279,7 +291,8 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
     }
   }
   if (beyond.packet.count > 0) {
-    finished |= beyond.among_all(beyond.packet.all() & ~domain_.may_meet_foreign(beyond.packet, scratch_));
+    finished |=
+        beyond.among_all(beyond.packet.all() & ~domain_.may_meet_foreign(beyond.packet, scratch_));
   }
   for (RayPacket::Mask left = finished; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -288,10 +301,12 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
   return leaving & ~finished;
 }
 
-/// Of the rays that leave, those that can't be finished here: what they meet of what the domain holds (`hits`, `found`, wherever
-/// it is) is beyond where they leave, and something foreign may be before it.
+/// Of the rays that leave, those that can't be finished here: what they meet of what the domain
+/// holds (`hits`, `found`, wherever it is) is beyond where they leave, and something foreign may be
+/// before it.
 RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& packet,
-                                      std::span<const RegionExit, RayPacket::kSize> exits, RayPacket::Mask hits,
+                                      std::span<const RegionExit, RayPacket::kSize> exits,
+                                      RayPacket::Mask hits,
                                       std::span<const Crossing, RayPacket::kSize> found) {
   RaySelection beyond;
   for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
@@ -340,7 +355,8 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   std::array<Crossing, RayPacket::kSize> found;
   RayPacket::Mask hits = domain_.first_crossings(packet, scratch_, found);
   hits |= entries_behind(domain_, front.kind, packet, scratch_, found);
-  const RayPacket::Mask gone = sees_on ? must_leave(leaving, packet, exits, hits, found) : leaving & ~hits;
+  const RayPacket::Mask gone =
+      sees_on ? must_leave(leaving, packet, exits, hits, found) : leaving & ~hits;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if ((gone >> i & 1) != 0) {
       go_on(rays[i], exits[i], step);

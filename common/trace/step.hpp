@@ -1,5 +1,5 @@
-// The pure step: rays go in; rays that go on and light come out. No sockets, threads, clocks or picture.
-// `serial`, `roth` and `macro` are three ways to feed it.
+// The pure step: rays go in; rays that go on and light come out. No sockets, threads, clocks or
+// picture. `serial`, `roth` and `macro` are three ways to feed it.
 #pragma once
 
 #include <array>
@@ -47,8 +47,8 @@ struct Step {
   std::vector<Lacking> lacking;
   /// What was left when enough had left: rays in the domain, still to be traced.
   std::vector<RayTask> set_aside;
-  /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it would hold
-  /// too many contributions.
+  /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it
+  /// would hold too many contributions.
   std::vector<PixelReturn> returns;
   RayCounts rays;
   RoundingCounts rounding;
@@ -56,8 +56,9 @@ struct Step {
   void clear();
 };
 
-/// Evaluates rays until nothing of them is left in the domain: packet by packet of rays of one kind and
-/// generation, the youngest first, so that what is under way stays little. One evaluator a thread.
+/// Evaluates rays until nothing of them is left in the domain: packet by packet of rays of one kind
+/// and generation, the youngest first, so that what is under way stays little. One evaluator a
+/// thread.
 class Evaluator {
  public:
   /// So many rays are under way together: an 8 × 8 block of pixels, and what descends from it.
@@ -66,8 +67,9 @@ class Evaluator {
 
   explicit Evaluator(const Domain& domain);
 
-  /// Once so many rays of a step have left, or wait for a model, what else is under way is set aside. That is looked
-  /// at between packets of at most kWaveRays rays, each of which may send out a ray to each light and two others.
+  /// Once so many rays of a step have left, or wait for a model, what else is under way is set
+  /// aside. That is looked at between packets of at most kWaveRays rays, each of which may send out
+  /// a ray to each light and two others.
   void stop_after(std::size_t most_leaving) { most_leaving_ = most_leaving; }
 
   /// Traces the primary rays of a rectangle of pixels; appends to `step`.
@@ -105,7 +107,8 @@ class Evaluator {
   void trace_block(const PixelRect& block, Step& step);
   void finish_pixels(Step& step);
   void trace_all(Step& step);
-  void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, std::uint32_t& slot, Step& step);
+  void start_primary_rays(const PixelRect& pixels, std::uint32_t sample, std::uint32_t& slot,
+                          Step& step);
   bool has_enough(const Step& step) const;
   void set_all_aside(Step& step);
   void take_wave(std::vector<OpenRay>& stack);
@@ -116,8 +119,10 @@ class Evaluator {
   void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
   RayPacket::Mask shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const;
-  RayPacket::Mask must_leave(RayPacket::Mask leaving, const RayPacket& packet, std::span<const RegionExit, RayPacket::kSize> exits,
-                             RayPacket::Mask hits, std::span<const Crossing, RayPacket::kSize> found);
+  RayPacket::Mask must_leave(RayPacket::Mask leaving, const RayPacket& packet,
+                             std::span<const RegionExit, RayPacket::kSize> exits,
+                             RayPacket::Mask hits,
+                             std::span<const Crossing, RayPacket::kSize> found);
   RayPacket::Mask shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
                                      std::span<RegionExit, RayPacket::kSize> exits);
   void trace_light_rays(std::span<const OpenRay> rays, Step& step);
@@ -127,7 +132,8 @@ class Evaluator {
   void light_arrives(const OpenRay& ray, const Rgb& light, Step& step);
   void shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step);
   RegionIndex region_of(const SurfacePoint& at) const;
-  void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering, Step& step);
+  void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
+                           Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
   /// What becomes of a new shadow ray.
@@ -150,13 +156,13 @@ class Evaluator {
   /// Rays of one kind, generation and region, under way together.
   std::vector<OpenRay> wave_;
   std::vector<OpenRay> viewing_, lights_;
-  /// The surfaces of the wave; their points and normals side by side, and of the light under way the unit
-  /// direction, the distance and the cosine.
+  /// The surfaces of the wave; their points and normals side by side, and of the light under way
+  /// the unit direction, the distance and the cosine.
   std::vector<SurfacePoint> surfaces_;
   alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
   alignas(64) Coordinates distance_, cosine_;
-  /// Of the light's horizons, where the domain has them: what is surely nearer to the light than any surface, and than
-  /// any that is foreign.
+  /// Of the light's horizons, where the domain has them: what is surely nearer to the light than
+  /// any surface, and than any that is foreign.
   std::array<float, kWaveRays> lit_, all_held_;
   /// What they send out: refracted and reflected rays, and the shadow rays of each light.
   std::array<std::vector<OpenRay>, 2> secondary_;

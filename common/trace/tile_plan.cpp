@@ -8,13 +8,19 @@
 namespace graycube {
 
 TilePlan::TilePlan(const ImageSize& image, TileShape shape)
-    : image_(image), shape_(shape), first_areas_{0}, row_of_y_(image.height, 0), place_of_x_(image.width, 0) {
+    : image_(image),
+      shape_(shape),
+      first_areas_{0},
+      row_of_y_(image.height, 0),
+      place_of_x_(image.width, 0) {
   add_area({0, 0, image.width, image.height}, {}, {});
 }
 
-TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid, std::span<const std::int64_t> own_edges)
+TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid,
+                   std::span<const std::int64_t> own_edges)
     : image_(image), shape_(shape), is_jagged_(!own_edges.empty()) {
-  GRAYCUBE_CHECK(own_edges.empty() || own_edges.size() == (grid.columns() - 1) * grid.rows(), "%zu edges", own_edges.size());
+  GRAYCUBE_CHECK(own_edges.empty() || own_edges.size() == (grid.columns() - 1) * grid.rows(),
+                 "%zu edges", own_edges.size());
   for (std::uint32_t y = 0; y < image.height; ++y) {
     row_of_y_.push_back(grid.region_of_pixel(0, y).row);
   }
@@ -35,9 +41,11 @@ TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& gri
 }
 
 /// Areas end where the macro-region changes or the owner does.
-void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row, std::span<const std::int64_t> own_edges) {
+void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row,
+                              std::span<const std::int64_t> own_edges) {
   std::vector<std::uint32_t> ends{image_.width};
-  for (const std::span<const std::int64_t> edges : {std::span(grid.column_edges()), own_edges_of_row(own_edges, grid, row)}) {
+  for (const std::span<const std::int64_t> edges :
+       {std::span(grid.column_edges()), own_edges_of_row(own_edges, grid, row)}) {
     for (const std::int64_t edge : edges) {
       if (edge > 0 && edge < image_.width) ends.push_back(static_cast<std::uint32_t>(edge));
     }
@@ -49,7 +57,8 @@ void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row, std::spa
   std::uint16_t areas = 0;
   for (const std::uint32_t end : ends) {
     const RegionIndex region{grid.region_of_pixel(began, 0).column, row};
-    add_area({began, pixels.y0, end, pixels.y1}, region, owner_of_pixel(began, region, grid, own_edges));
+    add_area({began, pixels.y0, end, pixels.y1}, region,
+             owner_of_pixel(began, region, grid, own_edges));
     place_of_x_.insert(place_of_x_.end(), end - began, areas++);
     began = end;
   }
@@ -71,8 +80,7 @@ const TilePlan::Area& TilePlan::area_at(std::uint32_t x, std::uint32_t y) const 
 }
 
 std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
-  const std::uint32_t end =
-      area + 1 < areas_.size() ? areas_[area + 1].first_tile : tile_count_;
+  const std::uint32_t end = area + 1 < areas_.size() ? areas_[area + 1].first_tile : tile_count_;
   return end - areas_[area].first_tile;
 }
 
@@ -90,8 +98,9 @@ std::vector<std::uint32_t> TilePlan::tiles_of(const RegionShare& share) const {
 
 std::uint32_t TilePlan::area_of_tile(std::uint32_t tile) const {
   GRAYCUBE_CHECK(tile < tile_count_, "tile %u of %u", tile, tile_count_);
-  const auto after = std::upper_bound(areas_.begin(), areas_.end(), tile,
-                                      [](std::uint32_t t, const Area& a) { return t < a.first_tile; });
+  const auto after =
+      std::upper_bound(areas_.begin(), areas_.end(), tile,
+                       [](std::uint32_t t, const Area& a) { return t < a.first_tile; });
   return static_cast<std::uint32_t>(after - areas_.begin() - 1);
 }
 

@@ -1,5 +1,5 @@
-// Tiles: the rectangles of pixels that are handed out, accounted for and finished as one. The plan numbers
-// them the same way in the frontal and in every node.
+// Tiles: the rectangles of pixels that are handed out, accounted for and finished as one. The plan
+// numbers them the same way in the frontal and in every node.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,11 @@ class TilePlan {
  public:
   /// The whole picture as one area, cut row by row.
   TilePlan(const ImageSize& image, TileShape shape);
-  /// One area per macro-region, row by row; each area is cut by itself, so that a tile's primary rays all
-  /// belong to one region. Where own pixels are others than the regions' (own_pixels.hpp), areas end with them, too.
-  TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid, std::span<const std::int64_t> own_edges = {});
+  /// One area per macro-region, row by row; each area is cut by itself, so that a tile's primary
+  /// rays all belong to one region. Where own pixels are others than the regions' (own_pixels.hpp),
+  /// areas end with them, too.
+  TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid,
+           std::span<const std::int64_t> own_edges = {});
 
   std::uint32_t tile_count() const { return tile_count_; }
   std::uint64_t pixel_count() const { return std::uint64_t{image_.width} * image_.height; }
@@ -34,7 +36,8 @@ class TilePlan {
 
   /// Areas are numbered row · columns + column, where each is a macro-region's.
   std::uint32_t area_of_tile(std::uint32_t tile) const;
-  /// The macro-region that all of a tile's primary rays belong to; {0, 0} where the picture is one area.
+  /// The macro-region that all of a tile's primary rays belong to; {0, 0} where the picture is one
+  /// area.
   RegionIndex region_of_tile(std::uint32_t tile) const { return areas_[area_of_tile(tile)].region; }
   /// The macro-region whose node traces them.
   RegionIndex owner_of_tile(std::uint32_t tile) const { return areas_[area_of_tile(tile)].owner; }
@@ -51,7 +54,8 @@ class TilePlan {
     std::uint32_t across = 0;
   };
   void add_area(const PixelRect& rect, RegionIndex region, RegionIndex owner);
-  void add_jagged_row(const MacroGrid& grid, std::uint16_t row, std::span<const std::int64_t> own_edges);
+  void add_jagged_row(const MacroGrid& grid, std::uint16_t row,
+                      std::span<const std::int64_t> own_edges);
   const Area& area_at(std::uint32_t x, std::uint32_t y) const;
 
   ImageSize image_;
@@ -59,7 +63,8 @@ class TilePlan {
   std::vector<Area> areas_;
   /// By row of areas: its first.
   std::vector<std::uint32_t> first_areas_;
-  /// The row of areas that each pixel row belongs to, and the place in it of each pixel column: in all rows alike, or row by row.
+  /// The row of areas that each pixel row belongs to, and the place in it of each pixel column: in
+  /// all rows alike, or row by row.
   std::vector<std::uint16_t> row_of_y_, place_of_x_;
   bool is_jagged_ = false;
   std::uint32_t tile_count_ = 0;

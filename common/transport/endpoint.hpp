@@ -1,5 +1,5 @@
-// Where a farm may listen: local sockets and loopback addresses only, as long as links are neither encrypted
-// nor authenticated.
+// Where a farm may listen: local sockets and loopback addresses only, as long as links are neither
+// encrypted nor authenticated.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,13 @@ namespace graycube {
 /// The longest path of a local socket on Linux, without its terminating zero.
 inline constexpr std::size_t kMaxSocketPath = 107;
 
-/// Why `endpoint` ("ipc:///path", "tcp://127.0.0.1:5555", "tcp://[::1]:5555", "tcp://localhost:5555"; port
+/// Why `endpoint` ("ipc:///path", "tcp://127.0.0.1:5555", "tcp://[::1]:5555",
+/// "tcp://localhost:5555"; port
 /// "*" picks a free one) may not be used; nothing when it may.
 std::optional<std::string> endpoint_problem(std::string_view endpoint);
 
-/// Where `graycube up` listens and clients connect when nothing else is said: below $XDG_RUNTIME_DIR, or in
-/// a folder of the user's in /tmp.
+/// Where `graycube up` listens and clients connect when nothing else is said: below
+/// $XDG_RUNTIME_DIR, or in a folder of the user's in /tmp.
 std::string default_endpoint();
 
 }  // namespace graycube

@@ -1,4 +1,5 @@
-// What travels over a link: one frame, or two where a control message has a binary payload behind it.
+// What travels over a link: one frame, or two where a control message has a binary payload behind
+// it.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,8 @@ inline std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Bytes that nobody changes any more, held together by all who need them: a model that goes to every node, or what
-/// the socket received.
+/// Bytes that nobody changes any more, held together by all who need them: a model that goes to
+/// every node, or what the socket received.
 class SharedBytes {
  public:
   SharedBytes() = default;

@@ -9,8 +9,8 @@
 
 namespace graycube {
 
-/// A folder of one's own among the temporary files, for sockets and the like; goes with all that is in it when
-/// this does. Throws std::system_error when it can't be made.
+/// A folder of one's own among the temporary files, for sockets and the like; goes with all that is
+/// in it when this does. Throws std::system_error when it can't be made.
 class TemporaryFolder {
  public:
   /// The path of a socket is short: so should `prefix` be.

@@ -14,8 +14,8 @@ namespace graycube {
 namespace {
 
 constexpr int kNoLimit = 0;
-/// How long unsent messages hold a closing socket up. Goodbyes are acknowledged, so nothing that matters is
-/// under way by then.
+/// How long unsent messages hold a closing socket up. Goodbyes are acknowledged, so nothing that
+/// matters is under way by then.
 constexpr int kLinger_ms = 500;
 
 void configure(zmq::socket_t& socket) {
@@ -88,7 +88,8 @@ void receive_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) 
 }
 
 /// Frames from `first` on as a message: one or two of them, else nothing.
-std::optional<MessageView> message_of(const std::vector<zmq::message_t>& frames, std::size_t first) {
+std::optional<MessageView> message_of(const std::vector<zmq::message_t>& frames,
+                                      std::size_t first) {
   if (frames.size() <= first || frames.size() > first + 2) return std::nullopt;
   MessageView m;
   m.frame = bytes_of(frames[first]);
@@ -207,7 +208,8 @@ std::optional<Inbox::Received> Inbox::receive() {
     receive_frames(impl_->socket, frames);
     is_drained_ = frames.empty();
     // Anything but one or two frames is not of this protocol.
-    if (const auto message = message_of(frames, 1)) return Received{frames.front().to_string(), *message};
+    if (const auto message = message_of(frames, 1))
+      return Received{frames.front().to_string(), *message};
   }
   return std::nullopt;
 }
@@ -221,8 +223,9 @@ void Inbox::send(const std::string& peer, Message message) {
 const std::string& Inbox::endpoint() const { return impl_->endpoint; }
 void* Inbox::socket() { return impl_->socket.handle(); }
 
-// zmq::poll asks each socket before it waits and after. What this waits for is described under ZMQ_FD: the descriptor
-// tells once that something happened to a socket, and is silent about what came while the socket was used.
+// zmq::poll asks each socket before it waits and after. What this waits for is described under
+// ZMQ_FD: the descriptor tells once that something happened to a socket, and is silent about what
+// came while the socket was used.
 void wait_readable(std::span<Readable* const> sockets, std::span<const int> descriptors,
                    std::chrono::milliseconds timeout) {
   std::vector<pollfd> items;

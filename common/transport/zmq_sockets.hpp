@@ -1,5 +1,5 @@
-// ZeroMQ, and the only place that knows it. High-water marks are 0: flow is controlled by credits of our own
-// (a ROUTER silently drops past its mark).
+// ZeroMQ, and the only place that knows it. High-water marks are 0: flow is controlled by credits
+// of our own (a ROUTER silently drops past its mark).
 #pragma once
 
 #include <atomic>
@@ -37,8 +37,8 @@ class ZmqContext {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A file descriptor that another thread makes readable. Who waits for it calls clear() before looking at what the others
-/// may have left.
+/// A file descriptor that another thread makes readable. Who waits for it calls clear() before
+/// looking at what the others may have left.
 class Wakeup {
  public:
   Wakeup();
@@ -56,8 +56,8 @@ class Wakeup {
   std::atomic<bool> is_signalled_{false};
 };
 
-/// A socket that wait_readable can wait for. What ZeroMQ tells of a socket takes system calls to ask, also that there is
-/// nothing; so it is asked only when there may be something.
+/// A socket that wait_readable can wait for. What ZeroMQ tells of a socket takes system calls to
+/// ask, also that there is nothing; so it is asked only when there may be something.
 class Readable {
  public:
   virtual ~Readable() = default;
@@ -69,7 +69,8 @@ class Readable {
  private:
   friend class Connection;
   friend class Inbox;
-  friend void wait_readable(std::span<Readable* const>, std::span<const int>, std::chrono::milliseconds);
+  friend void wait_readable(std::span<Readable* const>, std::span<const int>,
+                            std::chrono::milliseconds);
   virtual void* socket() = 0;
 
   /// Becomes readable, and stays so until the socket is used, when something may have come.
@@ -103,7 +104,8 @@ class Connection : public Readable {
 /// The listening end (ROUTER).
 class Inbox : public Readable {
  public:
-  /// Throws TransportError when the endpoint can't be bound, also when somebody answers there already.
+  /// Throws TransportError when the endpoint can't be bound, also when somebody answers there
+  /// already.
   Inbox(ZmqContext& context, const std::string& endpoint);
   ~Inbox() override;
   struct Received {
@@ -123,8 +125,8 @@ class Inbox : public Readable {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Waits until one of the sockets or descriptors may be readable, or the time is up. An interrupting signal ends the
-/// wait early.
+/// Waits until one of the sockets or descriptors may be readable, or the time is up. An
+/// interrupting signal ends the wait early.
 void wait_readable(std::span<Readable* const> sockets, std::span<const int> descriptors,
                    std::chrono::milliseconds timeout);
 

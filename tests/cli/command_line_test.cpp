@@ -18,12 +18,13 @@ std::string refused(const std::vector<const char*>& arguments) {
 }
 
 TEST_CASE("every option of render arrives") {
-  const auto c = std::get<RenderCommand>(parsed(
-      {"render",      "a.json", "-o",        "b.exr",     "--png",       "c.png",       "--stats",
-       "d.json",      "-n",     "16",        "--threads", "3",           "--algorithm", "macro",
-       "--grain",     "line",   "--shadows", "forward",   "--partition", "regular",     "--scatter",
-       "1",           "--flow", "credit",    "--sums",    "tree",        "--size",    "64x32",       "--samples",   "2",
-       "--max-depth", "7",      "--timeout", "2.5",       "--quiet"}));
+  const auto c = std::get<RenderCommand>(
+      parsed({"render",      "a.json",  "-o",        "b.exr", "--png",     "c.png",
+              "--stats",     "d.json",  "-n",        "16",    "--threads", "3",
+              "--algorithm", "macro",   "--grain",   "line",  "--shadows", "forward",
+              "--partition", "regular", "--scatter", "1",     "--flow",    "credit",
+              "--sums",      "tree",    "--size",    "64x32", "--samples", "2",
+              "--max-depth", "7",       "--timeout", "2.5",   "--quiet"}));
   CHECK(c.scene == "a.json");
   CHECK(c.outputs.exr == "b.exr");
   CHECK(c.outputs.png == "c.png");
@@ -62,11 +63,12 @@ TEST_CASE("submit asks for the farm's own threads unless told otherwise") {
 }
 
 TEST_CASE("every option of simulate arrives") {
-  const auto c = std::get<SimulateCommand>(parsed(
-      {"simulate",     "a.json", "--nodes",   "64,256",   "--link-gbps", "0.002",    "--link-us",
-       "1000",         "--cores", "3",        "--host-gbps", "1",        "--message-us", "7",
-       "--cpu-scale",  "1e4",    "--algorithm", "macro",  "--flow",      "blocking", "--queue",
-       "9",            "--json", "--plot",    "b.svg",    "--size",      "64x32",    "-q"}));
+  const auto c = std::get<SimulateCommand>(
+      parsed({"simulate",     "a.json",   "--nodes",     "64,256", "--link-gbps", "0.002",
+              "--link-us",    "1000",     "--cores",     "3",      "--host-gbps", "1",
+              "--message-us", "7",        "--cpu-scale", "1e4",    "--algorithm", "macro",
+              "--flow",       "blocking", "--queue",     "9",      "--json",      "--plot",
+              "b.svg",        "--size",   "64x32",       "-q"}));
   CHECK(c.scene == "a.json");
   CHECK(c.nodes == std::vector<std::uint32_t>{64, 256});
   CHECK(c.link_gbps == 0.002);

@@ -23,12 +23,14 @@ TEST_CASE("node counts come one or more, with commas between") {
   CHECK(parse_node_list("-n", "64,256,1024") == std::vector<std::uint32_t>{64, 256, 1024});
   for (const char* bad : {"", ",", "4,", ",4", "4,,8", "4;8", "4, 8", "4,3"}) {
     INFO(bad);
-    CHECK(refusal([&] { parse_node_list("-n", bad); })
-              .starts_with("graycube: usage: -n: expected a power of two from 1 to 1024"));
+    CHECK(refusal([&] {
+            parse_node_list("-n", bad);
+          }).starts_with("graycube: usage: -n: expected a power of two from 1 to 1024"));
   }
   std::string many = "1";
   for (std::size_t i = 0; i < kMaxNodeCounts; ++i) many += ",1";
-  CHECK(refusal([&] { parse_node_list("-n", many); }).find("at most 16 numbers") != std::string::npos);
+  CHECK(refusal([&] { parse_node_list("-n", many); }).find("at most 16 numbers") !=
+        std::string::npos);
 }
 
 TEST_CASE("numbers have a range") {
@@ -36,7 +38,8 @@ TEST_CASE("numbers have a range") {
   for (const char* bad : {"", "-1", "10.5", "nan", "inf", "1e999", "5us"}) {
     INFO(bad);
     CHECK(refusal([&] { parse_number("--link-us", bad, 0, 10); }) ==
-          "graycube: usage: --link-us: expected a number from 0 to 10, found \"" + std::string(bad) + "\"");
+          "graycube: usage: --link-us: expected a number from 0 to 10, found \"" +
+              std::string(bad) + "\"");
   }
 }
 
@@ -61,10 +64,11 @@ TEST_CASE("counts are whole numbers within their limits") {
 TEST_CASE("AOVs are named in any order and told back in one") {
   CHECK(parse_aov_list("--aov", "object,depth") == "depth,object");
   for (const char* bad : {"", "depth,", "depht", "normal,normal"}) {
-    CHECK(refusal([&] { parse_aov_list("--aov", bad); }) ==
-          "graycube: usage: --aov: expected depth,normal,albedo,object, or some of them, each once, "
-          "found \"" +
-              std::string(bad) + "\"");
+    CHECK(
+        refusal([&] { parse_aov_list("--aov", bad); }) ==
+        "graycube: usage: --aov: expected depth,normal,albedo,object, or some of them, each once, "
+        "found \"" +
+            std::string(bad) + "\"");
   }
 }
 
@@ -121,10 +125,12 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_sums("--sums", "tree") == SumsMode::kTree);
   CHECK(parse_scatter("--scatter", "1") == 1);
   CHECK(parse_scatter("--scatter", "8") == 8);
-  CHECK(refusal([] { parse_scatter("--scatter", "9"); })
-            .starts_with("graycube: usage: --scatter: expected a whole number from 1 to 8"));
-  CHECK(refusal([] { parse_shadows("--shadows", "hard"); })
-            .starts_with("graycube: usage: --shadows: expected horizon, forward or local"));
+  CHECK(refusal([] {
+          parse_scatter("--scatter", "9");
+        }).starts_with("graycube: usage: --scatter: expected a whole number from 1 to 8"));
+  CHECK(refusal([] {
+          parse_shadows("--shadows", "hard");
+        }).starts_with("graycube: usage: --shadows: expected horizon, forward or local"));
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for") {
   CHECK(*again.scene == input.scene);
 }
 
-constexpr const char* kTetrahedron = "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+constexpr const char* kTetrahedron =
+    "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 TEST_CASE("a mesh file becomes a framed scene of one mesh") {
   const TemporaryFolder folder;
@@ -73,9 +74,9 @@ TEST_CASE("what goes to the farm of a scene with a mesh file holds the mesh") {
 TEST_CASE("a mesh file's faults have the file and the line once") {
   const TemporaryFolder folder;
   const auto path = write_file(folder / "open.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  CHECK(refusal([&] {
-          read_scene_input(path);
-        }).starts_with("graycube: scene: " + path.string() + ": not closed: the edge from (0, 0, 0) to (1, 0, 0)"));
+  CHECK(refusal([&] { read_scene_input(path); })
+            .starts_with("graycube: scene: " + path.string() +
+                         ": not closed: the edge from (0, 0, 0) to (1, 0, 0)"));
 }
 
 TEST_CASE("every error of a scene has the file and the place") {
@@ -108,13 +109,15 @@ TEST_CASE("what is no scene file is told apart") {
   CHECK(refusal([&] {
           read_scene_input(folder / "none.json");
         }).ends_with("No such file or directory"));
-  CHECK(refusal([&] {
-          read_scene_input(folder.path());
-        }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
+  CHECK(
+      refusal([&] {
+        read_scene_input(folder.path());
+      }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
   ModelChoice facets;
   facets.facets = true;
-  CHECK(refusal([&] { read_scene_input(write_file(folder / "a.json", ""), {}, facets); }).find("--facets") !=
-        std::string::npos);
+  CHECK(refusal([&] {
+          read_scene_input(write_file(folder / "a.json", ""), {}, facets);
+        }).find("--facets") != std::string::npos);
   std::filesystem::create_directory(folder / "folder.json");
   CHECK(refusal([&] { read_scene_input(folder / "folder.json"); }).ends_with("is a folder"));
 }
@@ -141,7 +144,8 @@ TEST_CASE("OpenSCAD's file, its emptiness and its errors come back from a child 
     return process.evaluate("cube(1);", OpenscadProgram::Format::kOff);
   };
   CHECK(evaluate("cat \"$3\" > \"$2\"; echo ERROR: none >&2").text == "cube(1);");
-  CHECK(evaluate("echo 'ERROR: no such thing' >&2; exit 1").trouble == "openscad: ERROR: no such thing");
+  CHECK(evaluate("echo 'ERROR: no such thing' >&2; exit 1").trouble ==
+        "openscad: ERROR: no such thing");
   CHECK(evaluate("exit 3").trouble == "openscad ended with status 3");
   CHECK(evaluate("kill -9 $$").trouble == "openscad ended by signal 9");
   const auto empty = evaluate("echo 'Current top level object is empty.' >&2; exit 1");
@@ -150,11 +154,13 @@ TEST_CASE("OpenSCAD's file, its emptiness and its errors come back from a child 
 
 TEST_CASE("OpenSCAD is killed when its time is up, and its files go") {
   const TemporaryFolder folder;
-  const auto process = script(folder, "echo $$ > " + (folder / "pid").string() + "; echo \"$2\" > " +
-                                          (folder / "output").string() + "; exec sleep 60");
+  const auto process =
+      script(folder, "echo $$ > " + (folder / "pid").string() + "; echo \"$2\" > " +
+                         (folder / "output").string() + "; exec sleep 60");
   {
     OpenscadProcess openscad(process, 1);
-    CHECK(openscad.evaluate("cube(1);", OpenscadProgram::Format::kOff).trouble == "openscad took more than 1 s");
+    CHECK(openscad.evaluate("cube(1);", OpenscadProgram::Format::kOff).trouble ==
+          "openscad took more than 1 s");
   }
   std::ifstream pid_file(folder / "pid"), output_file(folder / "output");
   int pid = 0;

@@ -14,7 +14,8 @@ namespace {
 
 double volume_of(const TriangleMesh& mesh) {
   double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) sum += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c]));
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c]));
   return sum / 6;
 }
 
@@ -31,7 +32,9 @@ std::vector<double> cut_areas(const std::vector<Vec3>& corners) {
   return areas;
 }
 
-bool contains_text(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains_text(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -66,7 +69,9 @@ TEST_CASE("points with equal coordinates are one, and unused ones are dropped") 
   PolygonMesh soup;
   const PolygonMesh box = box_polygons({-1, -1, -1}, {0, 0, 0});
   soup.points.push_back({9, 9, 9});
-  for (const std::uint32_t i : box.corners) soup.points.push_back(0.0 == box.points[i].x ? box.points[i] + Vec3{-0.0, 0, 0} : box.points[i]);
+  for (const std::uint32_t i : box.corners)
+    soup.points.push_back(0.0 == box.points[i].x ? box.points[i] + Vec3{-0.0, 0, 0}
+                                                 : box.points[i]);
   for (std::uint32_t f = 0; f < 6; ++f) {
     const std::uint32_t n = 1 + 4 * f;
     soup.add_face(std::array{n, n + 1, n + 2, n + 3});

@@ -12,7 +12,9 @@
 
 namespace graycube::testing {
 
-inline TriangleMesh closed(const PolygonMesh& polygons) { return std::get<TriangleMesh>(closed_mesh(polygons)); }
+inline TriangleMesh closed(const PolygonMesh& polygons) {
+  return std::get<TriangleMesh>(closed_mesh(polygons));
+}
 inline std::string fault_of(const PolygonMesh& polygons) {
   const auto result = closed_mesh(polygons);
   const auto* fault = std::get_if<MeshFault>(&result);
@@ -23,7 +25,8 @@ inline std::string fault_of(const PolygonMesh& polygons) {
 inline PolygonMesh box_polygons(const Vec3& lo, const Vec3& hi) {
   PolygonMesh mesh;
   for (unsigned i = 0; i < 8; ++i) {
-    mesh.points.push_back({(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z});
+    mesh.points.push_back(
+        {(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z});
   }
   constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -45,7 +48,8 @@ inline void append(PolygonMesh& to, const PolygonMesh& more, bool inside_out = f
 }
 
 /// A grid of quads, rows × columns, both ways around: a ring (torus) about z.
-inline PolygonMesh ring_polygons(double major, double minor, std::uint32_t rows, std::uint32_t columns) {
+inline PolygonMesh ring_polygons(double major, double minor, std::uint32_t rows,
+                                 std::uint32_t columns) {
   PolygonMesh mesh;
   for (std::uint32_t r = 0; r < rows; ++r) {
     const double u = 360.0 * r / rows;
@@ -57,7 +61,8 @@ inline PolygonMesh ring_polygons(double major, double minor, std::uint32_t rows,
   for (std::uint32_t r = 0; r < rows; ++r) {
     for (std::uint32_t c = 0; c < columns; ++c) {
       const std::uint32_t r1 = (r + 1) % rows, c1 = (c + 1) % columns;
-      mesh.add_face(std::array{r * columns + c, r1 * columns + c, r1 * columns + c1, r * columns + c1});
+      mesh.add_face(
+          std::array{r * columns + c, r1 * columns + c, r1 * columns + c1, r * columns + c1});
     }
   }
   return mesh;
@@ -71,7 +76,8 @@ inline PolygonMesh ball_polygons(double radius, std::uint32_t rings, std::uint32
     const double polar = 180.0 * r / (rings + 1);
     for (std::uint32_t c = 0; c < columns; ++c) {
       const double around = 360.0 * c / columns, d = radius * sin_degrees(polar);
-      mesh.points.push_back({d * cos_degrees(around), d * sin_degrees(around), radius * cos_degrees(polar)});
+      mesh.points.push_back(
+          {d * cos_degrees(around), d * sin_degrees(around), radius * cos_degrees(polar)});
     }
   }
   const auto south = static_cast<std::uint32_t>(mesh.points.size());

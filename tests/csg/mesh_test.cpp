@@ -54,7 +54,8 @@ std::vector<TriangleMesh> meshes() {
 
 }  // namespace
 
-TEST_CASE("every line leaves a closed mesh as often as it enters, through corners and along edges too") {
+TEST_CASE(
+    "every line leaves a closed mesh as often as it enters, through corners and along edges too") {
   Dice dice(11);
   for (const TriangleMesh& mesh : meshes()) {
     for (int i = 0; i < 3000; ++i) {
@@ -70,7 +71,9 @@ TEST_CASE("an edge counts one way what it counts the other way, negated") {
   for (int i = 0; i < 20000; ++i) {
     // Magnitudes at which products vanish or overflow, and many exact zeros.
     const double scale = std::ldexp(1.0, static_cast<int>(dice.below(1200)) - 600);
-    const auto number = [&] { return dice.one_in(3) ? dice.on_grid(2) : scale * dice.between(-1, 1); };
+    const auto number = [&] {
+      return dice.one_in(3) ? dice.on_grid(2) : scale * dice.between(-1, 1);
+    };
     const csg::LinePoint a{number(), number()}, b{number(), number()};
     REQUIRE(csg::edge_count(a, b) == -csg::edge_count(b, a));
   }
@@ -116,8 +119,10 @@ TEST_CASE("a mesh of a box has the box's spans, bit for bit, and its normals") {
       if (a.count == 0) continue;
       REQUIRE(a.interval[0].enter == b.interval[0].enter);
       REQUIRE(a.interval[0].leave == b.interval[0].leave);
-      REQUIRE(length(box.normal(ray, a.interval[0].enter) - mesh.normal(ray, a.interval[0].enter)) < 1e-12);
-      REQUIRE(length(box.normal(ray, a.interval[0].leave) - mesh.normal(ray, a.interval[0].leave)) < 1e-12);
+      REQUIRE(length(box.normal(ray, a.interval[0].enter) - mesh.normal(ray, a.interval[0].enter)) <
+              1e-12);
+      REQUIRE(length(box.normal(ray, a.interval[0].leave) - mesh.normal(ray, a.interval[0].leave)) <
+              1e-12);
     }
   }
 }
@@ -125,11 +130,13 @@ TEST_CASE("a mesh of a box has the box's spans, bit for bit, and its normals") {
 TEST_CASE("a convex mesh is hit where the polyhedron of its planes is, under any map") {
   Dice dice(14);
   for (int i = 0; i < 60; ++i) {
-    const auto rings = static_cast<std::uint32_t>(1 + dice.below(5)), columns = static_cast<std::uint32_t>(3 + dice.below(6));
+    const auto rings = static_cast<std::uint32_t>(1 + dice.below(5)),
+               columns = static_cast<std::uint32_t>(3 + dice.below(6));
     const TriangleMesh ball = closed(ball_polygons(dice.between(0.5, 2), rings, columns));
     PolyhedronShape planes;
     for (const auto& [a, b, c] : ball.triangles) {
-      const Vec3 n = normalized(cross(ball.points[b] - ball.points[a], ball.points[c] - ball.points[a]));
+      const Vec3 n =
+          normalized(cross(ball.points[b] - ball.points[a], ball.points[c] - ball.points[a]));
       planes.planes.push_back({n, dot(n, ball.points[a])});
     }
     RandomModel random(static_cast<std::uint64_t>(i));
@@ -173,7 +180,8 @@ TEST_CASE("what lies ahead of a ray is what its whole line crosses there") {
       std::vector<double> whole, ahead;
       const Spans spans = mesh.spans(ray);
       for (int k = 0; k < spans.count; ++k) {
-        for (const double t : {spans.interval[static_cast<std::size_t>(k)].enter, spans.interval[static_cast<std::size_t>(k)].leave}) {
+        for (const double t : {spans.interval[static_cast<std::size_t>(k)].enter,
+                               spans.interval[static_cast<std::size_t>(k)].leave}) {
           if (t >= t0 && t < 4) whole.push_back(t);
         }
       }
@@ -203,5 +211,6 @@ TEST_CASE("a cell without a triangle is inside or outside, and told so") {
   CHECK(ring.classify({{1.95, -0.05, -0.05}, {2.05, 0.05, 0.05}}) == CellSide::kInside);
   CHECK(ring.classify({{1, -0.5, -0.5}, {2, 0.5, 0.5}}) == CellSide::kCrosses);
   CHECK(ring.classify(Aabb::everything()) == CellSide::kCrosses);
-  CHECK(ring.classify({{-Aabb::kInf, -Aabb::kInf, 1}, {Aabb::kInf, Aabb::kInf, Aabb::kInf}}) == CellSide::kOutside);
+  CHECK(ring.classify({{-Aabb::kInf, -Aabb::kInf, 1}, {Aabb::kInf, Aabb::kInf, Aabb::kInf}}) ==
+        CellSide::kOutside);
 }

@@ -1,4 +1,5 @@
-// Points tell: what is near a point of a solid lies in the dilated one, what is near one of the eroded solid in the solid.
+// Points tell: what is near a point of a solid lies in the dilated one, what is near one of the
+// eroded solid in the solid.
 #include "csg/morphology.hpp"
 
 #include <array>
@@ -15,18 +16,21 @@ namespace {
 
 /// A vector of at most that length, mostly as long.
 Vec3 some_offset(Dice& dice, double most) {
-  return (dice.one_in(3) ? dice.between(0, most) : most) * (dice.one_in(4) ? dice.axis() : dice.unit_vector());
+  return (dice.one_in(3) ? dice.between(0, most) : most) *
+         (dice.one_in(4) ? dice.axis() : dice.unit_vector());
 }
 
 Vec3 point_in(Dice& dice, const Aabb& box) {
   Vec3 p;
-  for (int a = 0; a < 3; ++a) p[a] = dice.between(std::max(box.lo[a], -6.0), std::min(box.hi[a], 6.0));
+  for (int a = 0; a < 3; ++a)
+    p[a] = dice.between(std::max(box.lo[a], -6.0), std::min(box.hi[a], 6.0));
   return p;
 }
 
 bool is_inside(const Model& model, const Object& object, const Vec3& point) {
   const std::span<const TreeNode> tree{model.nodes.data() + object.first_node, object.node_count};
-  return evaluate(tree, [&](std::uint32_t p) { return contains(model.primitives[p], model.data(), point); });
+  return evaluate(
+      tree, [&](std::uint32_t p) { return contains(model.primitives[p], model.data(), point); });
 }
 
 }  // namespace
@@ -66,9 +70,9 @@ TEST_CASE("dilated and eroded primitives enclose and are enclosed") {
     }
   }
   for (const PrimitiveKind kind :
-       {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid, PrimitiveKind::kBox, PrimitiveKind::kParallelepiped,
-        PrimitiveKind::kCylinder, PrimitiveKind::kCone, PrimitiveKind::kTorus, PrimitiveKind::kHalfSpace,
-        PrimitiveKind::kPolyhedron}) {
+       {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid, PrimitiveKind::kBox,
+        PrimitiveKind::kParallelepiped, PrimitiveKind::kCylinder, PrimitiveKind::kCone,
+        PrimitiveKind::kTorus, PrimitiveKind::kHalfSpace, PrimitiveKind::kPolyhedron}) {
     INFO("kind " << static_cast<int>(kind));
     CHECK(dilated_points[static_cast<std::size_t>(kind)] > 200);
     CHECK(eroded_points[static_cast<std::size_t>(kind)] > 20);
@@ -94,7 +98,8 @@ TEST_CASE("dilated and eroded scenes enclose and are enclosed, object by object"
       for (const Object& object : model.objects) {
         if (!larger || !is_inside(model, object, q)) continue;
         const auto same_object = [&](const Object& o) { return o.id == object.id; };
-        const auto found = std::find_if(larger->objects.begin(), larger->objects.end(), same_object);
+        const auto found =
+            std::find_if(larger->objects.begin(), larger->objects.end(), same_object);
         REQUIRE(found != larger->objects.end());
         REQUIRE(is_inside(*larger, *found, near));
         REQUIRE(found->bounds.grown(1e-9).contains(near));

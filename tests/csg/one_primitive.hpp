@@ -10,8 +10,8 @@
 namespace graycube::testing {
 
 inline const std::array<const char*, kLeafKinds> kLeafNames{
-    "sphere",  "box",        "cylinder",      "cone",           "torus",   "ellipsoid",
-    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "mesh", "half_space"};
+    "sphere",     "box",           "cylinder",       "cone",    "torus", "ellipsoid",
+    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "mesh",  "half_space"};
 
 struct OnePrimitive {
   Model model;

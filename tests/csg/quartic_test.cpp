@@ -9,11 +9,13 @@
 using namespace graycube::csg;
 using graycube::testing::Dice;
 
-TEST_CASE("three squares have bit for bit the values and derivatives of the products that they are") {
+TEST_CASE(
+    "three squares have bit for bit the values and derivatives of the products that they are") {
   Dice dice(5);
   const auto quadratic = [&] {
     const double scale = std::exp2(static_cast<double>(dice.below(60)) - 30);
-    return Quadratic{scale * dice.between(-1, 1), scale * dice.between(-1, 1), scale * dice.between(-1, 1)};
+    return Quadratic{scale * dice.between(-1, 1), scale * dice.between(-1, 1),
+                     scale * dice.between(-1, 1)};
   };
   for (int i = 0; i < 100000; ++i) {
     const Quadratic x = quadratic(), y = quadratic(), w = quadratic();

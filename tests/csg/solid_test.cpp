@@ -62,7 +62,8 @@ CsgNode random_leaf(RandomModel& random) {
 std::vector<WholeCrossing> without_skins(const std::vector<WholeCrossing>& crossings) {
   std::vector<WholeCrossing> r;
   for (const WholeCrossing& c : crossings) {
-    if (!r.empty() && r.back().entering && !c.entering && c.t - r.back().t <= 1e-12 * (1 + std::fabs(c.t))) {
+    if (!r.empty() && r.back().entering && !c.entering &&
+        c.t - r.back().t <= 1e-12 * (1 + std::fabs(c.t))) {
       r.pop_back();
     } else {
       r.push_back(c);
@@ -71,15 +72,17 @@ std::vector<WholeCrossing> without_skins(const std::vector<WholeCrossing>& cross
   return r;
 }
 
-/// Whether two lists have the same crossings, their parameters but for the last places: where a mesh stands twice, its faces
-/// coincide with others, and are crossed where the planes are that they share.
+/// Whether two lists have the same crossings, their parameters but for the last places: where a
+/// mesh stands twice, its faces coincide with others, and are crossed where the planes are that
+/// they share.
 bool agree(std::vector<WholeCrossing> a, std::vector<WholeCrossing> b, bool with_primitives) {
   a = without_skins(a);
   b = without_skins(b);
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const WholeCrossing& c, const WholeCrossing& d) {
-    if (with_primitives && (c.primitive != d.primitive || c.object != d.object)) return false;
-    return c.entering == d.entering && std::fabs(c.t - d.t) <= 1e-12 * (1 + std::fabs(c.t));
-  });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [&](const WholeCrossing& c, const WholeCrossing& d) {
+        if (with_primitives && (c.primitive != d.primitive || c.object != d.object)) return false;
+        return c.entering == d.entering && std::fabs(c.t - d.t) <= 1e-12 * (1 + std::fabs(c.t));
+      });
 }
 
 /// Parameters only.

@@ -144,8 +144,7 @@ TEST_CASE("equal pictures are equal EXR files whatever the thread count") {
   Imf::setGlobalThreadCount(before);
 }
 
-TEST_CASE(
-    "an EXR's header says scene and version and 32-bit float, and nothing of its making") {
+TEST_CASE("an EXR's header says scene and version and 32-bit float, and nothing of its making") {
   const TemporaryFolder folder;
   write_exr(folder / "a.exr", noise(4, 3), kOrigin);
   const Imf::InputFile file((folder / "a.exr").c_str());
@@ -406,8 +405,8 @@ TEST_CASE("AOVs are channels of the EXR beside R, G and B, and come back") {
   const Imf::ChannelList& channels = input.header().channels();
   REQUIRE(channels.findChannel("object.I") != nullptr);
   CHECK(channels.findChannel("object.I")->type == Imf::UINT);
-  for (const char* name : {"depth.Z", "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G",
-                           "albedo.B"}) {
+  for (const char* name :
+       {"depth.Z", "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B"}) {
     INFO(name);
     REQUIRE(channels.findChannel(name) != nullptr);
     CHECK(channels.findChannel(name)->type == Imf::FLOAT);

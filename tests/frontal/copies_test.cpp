@@ -18,7 +18,8 @@ const Hypercube kCube = *Hypercube::of_size(4);
 RenderJob job_with_slices(const std::vector<std::size_t>& bytes) {
   PreparedScene cut = prepared(corner_scene(), {});
   for (std::size_t i = 0; i < bytes.size(); ++i) cut.slices[i] = Bytes(bytes[i]);
-  cut.copy_room = copy_room(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}), kCube.nodes());
+  cut.copy_room =
+      copy_room(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}), kCube.nodes());
   return RenderJob(1, std::move(cut), kCube, 1);
 }
 

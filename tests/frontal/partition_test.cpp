@@ -24,7 +24,9 @@ TEST_CASE("boundaries are placed by the work where nothing is asked for") {
   CHECK(choices_text(balanced) == "scatter 1, horizon shadows, balanced partition");
 }
 
-TEST_CASE("where work lies where pixels are, each row of nodes has its own cuts, and as much to do as the others") {
+TEST_CASE(
+    "where work lies where pixels are, each row of nodes has its own cuts, and as much to do as "
+    "the others") {
   Scene scene = corner_scene();
   for (int i = 0; i < 6; ++i) scene.settings.lights.push_back(scene.settings.lights.front());
   const PreparedScene open = prepared(scene, {}, 16);
@@ -37,7 +39,11 @@ TEST_CASE("where work lies where pixels are, each row of nodes has its own cuts,
     std::map<std::uint32_t, std::uint32_t> work;
     std::uint32_t most = 0, all = 0;
     for (std::uint32_t pixel = 0; pixel < 128 * 96; ++pixel) {
-      const bool hits = whole.first_crossing(whole.frame().primary_ray(pixel % 128, pixel / 128, 0, 0), 0, 1e9, scratch).has_value();
+      const bool hits =
+          whole
+              .first_crossing(whole.frame().primary_ray(pixel % 128, pixel / 128, 0, 0), 0, 1e9,
+                              scratch)
+              .has_value();
       const RegionIndex owner = cut.plan->owner_of_tile(cut.plan->tile_of_pixel(pixel));
       all += hits ? 9 : 1;
       most = std::max(most, work[owner.row * 4u + owner.column] += hits ? 9 : 1);
@@ -46,20 +52,24 @@ TEST_CASE("where work lies where pixels are, each row of nodes has its own cuts,
   };
   CHECK(busiest(open) < 1.5);
   CHECK(busiest(prepared(scene, {.partition = PartitionMode::kRegular}, 16)) > 2);
-  // Nothing is known of rays that begin beside their node's region, or pixels' rays lie on boundaries: own pixels are the region's.
+  // Nothing is known of rays that begin beside their node's region, or pixels' rays lie on
+  // boundaries: own pixels are the region's.
   CHECK(prepared(scene, {.partition = PartitionMode::kRegular}, 16).grid.own_edges.empty());
   CHECK(prepared(scene, {.shadows = ShadowMode::kForward}, 16).grid.own_edges.empty());
   CHECK(prepared(scene, {.shadows = ShadowMode::kLocal}, 16).grid.own_edges.empty());
   CHECK(prepared(scene, {.scatter = 2}, 16).grid.own_edges.empty());
 }
 
-TEST_CASE("own pixels of a row's nodes follow each other, however small the picture and however uneven the work") {
+TEST_CASE(
+    "own pixels of a row's nodes follow each other, however small the picture and however uneven "
+    "the work") {
   std::size_t beside = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     INFO("seed " << seed);
     Dice dice(seed);
     Scene scene = corner_scene();
-    scene.settings.image = {static_cast<std::uint32_t>(64 + dice.below(20)), static_cast<std::uint32_t>(64 + dice.below(20)), 1};
+    scene.settings.image = {static_cast<std::uint32_t>(64 + dice.below(20)),
+                            static_cast<std::uint32_t>(64 + dice.below(20)), 1};
     scene.settings.camera.look_at = {dice.between(-4, 4), dice.between(-4, 4), 0};
     for (int i = 0; i < 30; ++i) scene.settings.lights.push_back(scene.settings.lights.front());
     const PreparedScene cut = prepared(scene, {}, 16);
@@ -81,14 +91,18 @@ TEST_CASE("no pre-render is made where it would not pay") {
     CHECK(prepared(scene, {}).partition == PartitionMode::kBalanced);
     for (int i = 0; i < 600; ++i) scene.objects.push_back(scene.objects.front());
     CHECK(prepared(scene, {}).partition == PartitionMode::kRegular);
-    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition == PartitionMode::kBalanced);
+    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition ==
+          PartitionMode::kBalanced);
   }
   SECTION("a picture too small for its cells, even where it is asked for") {
     Scene scene = corner_scene();
     scene.settings.image = {8, 8, 1};
-    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition == PartitionMode::kRegular);
+    CHECK(prepared(scene, {.partition = PartitionMode::kBalanced}).partition ==
+          PartitionMode::kRegular);
   }
-  SECTION("one node") { CHECK(prepared(corner_scene(), {}, 1).partition == PartitionMode::kRegular); }
+  SECTION("one node") {
+    CHECK(prepared(corner_scene(), {}, 1).partition == PartitionMode::kRegular);
+  }
   SECTION("nodes that hold the whole scene and help each other") {
     const PreparedScene local = prepared(corner_scene(), {.shadows = ShadowMode::kLocal});
     CHECK(local.has_replicas);
@@ -97,6 +111,7 @@ TEST_CASE("no pre-render is made where it would not pay") {
     CHECK(local.partition == PartitionMode::kRegular);
   }
   SECTION("the queues of 1987") {
-    CHECK(prepared(corner_scene(), {.flow = FlowMode::kBlocking}).partition == PartitionMode::kRegular);
+    CHECK(prepared(corner_scene(), {.flow = FlowMode::kBlocking}).partition ==
+          PartitionMode::kRegular);
   }
 }

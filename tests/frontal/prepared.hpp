@@ -8,8 +8,8 @@
 
 namespace graycube::testing {
 
-inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options, std::uint32_t nodes = 4,
-                              Algorithm algorithm = Algorithm::kMacro) {
+inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options,
+                              std::uint32_t nodes = 4, Algorithm algorithm = Algorithm::kMacro) {
   const std::string text = write_scene_text(scene);
   PreparationWork work;
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());

@@ -22,7 +22,8 @@ namespace {
 Scene many_balls() {
   Dice dice(7);
   std::vector<CsgNode> balls;
-  for (int i = 0; i < 1500; ++i) balls.push_back(node_of(SphereShape{dice.point(10), dice.between(0.1, 0.4)}));
+  for (int i = 0; i < 1500; ++i)
+    balls.push_back(node_of(SphereShape{dice.point(10), dice.between(0.1, 0.4)}));
   Scene scene = scene_of(std::move(balls));
   scene.settings.camera.eye = {0, 0, -30};
   scene.settings.camera.look_at = {0, 0, 0};
@@ -59,7 +60,9 @@ std::vector<Slice> slices(const PreparedScene& prepared) {
 
 }  // namespace
 
-TEST_CASE("with light horizons nodes get occluders too, but less than half of a scene, and without only their own part") {
+TEST_CASE(
+    "with light horizons nodes get occluders too, but less than half of a scene, and without only "
+    "their own part") {
   const PreparedScene with = prepared(many_balls(), {.shadows = ShadowMode::kHorizon}, 16);
   const PreparedScene without = prepared(many_balls(), {.shadows = ShadowMode::kForward}, 16);
   const PreparedScene historical =
@@ -93,7 +96,8 @@ TEST_CASE("nodes know where all is that they do not hold, and all hold a floor w
   for (std::size_t rank = 0; rank < 16; ++rank) {
     INFO("rank " << rank);
     const auto& held = all[rank].model.objects;
-    REQUIRE(std::ranges::any_of(held, [&](const Object& o) { return o.id == model.objects[floor].id; }));
+    REQUIRE(std::ranges::any_of(held,
+                                [&](const Object& o) { return o.id == model.objects[floor].id; }));
     REQUIRE(all[rank].foreign_bounds);
     CHECK(all[rank].foreign_bounds->memory_bytes() <= kSmallBounds);
     // Rays through the middle of each ball, from just before it to just behind.
@@ -103,7 +107,8 @@ TEST_CASE("nodes know where all is that they do not hold, and all hold a floor w
       const double radius = 0.5 * (box.hi.x - box.lo.x);
       RayPacket packet;
       packet.add({box.center() - Vec3{2, 0, 0}, {1, 0, 0}}, 2 - radius, 2 + radius);
-      const bool is_held = std::ranges::any_of(held, [&](const Object& o) { return o.id == model.objects[i].id; });
+      const bool is_held =
+          std::ranges::any_of(held, [&](const Object& o) { return o.id == model.objects[i].id; });
       const bool may_meet = all[rank].foreign_bounds->may_meet(packet, scratch) != 0;
       if (!is_held) REQUIRE(may_meet);
       met += may_meet ? 1 : 0;
@@ -115,12 +120,15 @@ TEST_CASE("nodes know where all is that they do not hold, and all hold a floor w
   }
 }
 
-TEST_CASE("where one node can't know where all is, none does, and own pixels are the macro-regions'") {
-  // A floor with more holes than any node has room for: each holds a part of it, and its bounds are all of space.
+TEST_CASE(
+    "where one node can't know where all is, none does, and own pixels are the macro-regions'") {
+  // A floor with more holes than any node has room for: each holds a part of it, and its bounds are
+  // all of space.
   Scene scene = many_balls();
   std::vector<CsgNode> holes{node_of(HalfSpaceShape{{0, 1, 0}, -5})};
   Dice dice(3);
-  for (int i = 0; i < 1500; ++i) holes.push_back(node_of(SphereShape{{dice.between(-12, 12), -5, dice.between(-12, 12)}, 0.2}));
+  for (int i = 0; i < 1500; ++i)
+    holes.push_back(node_of(SphereShape{{dice.between(-12, 12), -5, dice.between(-12, 12)}, 0.2}));
   scene.objects = scene_of({operation(Operation::kDifference, std::move(holes))}).objects;
   const PreparedScene cut = prepared(scene, {}, 16);
   CHECK(cut.partition == PartitionMode::kBalanced);
@@ -135,7 +143,8 @@ TEST_CASE("where one node can't know where all is, none does, and own pixels are
 }
 
 TEST_CASE("where objects without bounds are too many for one node, no node knows what is foreign") {
-  // Floors one below the other, all below the picture's middle, are too many for the nodes above it.
+  // Floors one below the other, all below the picture's middle, are too many for the nodes above
+  // it.
   std::vector<CsgNode> floors;
   for (int i = 0; i < 80; ++i) floors.push_back(node_of(HalfSpaceShape{{0, 1, 0}, -2.0 - i}));
   Scene scene = many_balls();
@@ -158,8 +167,8 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
   const auto frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid(frame, cut.grid.column_edges, cut.grid.row_edges);
   const Hypercube cube = *Hypercube::of_size(16);
-  // The light shines from the left and above: of two nodes with as much of the scene, the one to the right below has more
-  // in its way.
+  // The light shines from the left and above: of two nodes with as much of the scene, the one to
+  // the right below has more in its way.
   std::size_t beside_upper_left = 0, beside_lower_right = 0;
   const auto all = slices(cut);
   for (std::uint32_t rank = 0; rank < 16; ++rank) {
@@ -171,7 +180,8 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
     if (share.column >= 2 && share.row >= 2) beside_lower_right += beside;
   }
   CHECK(beside_lower_right != beside_upper_left);
-  CHECK(2 * std::max(beside_lower_right, beside_upper_left) > 3 * std::min(beside_lower_right, beside_upper_left));
+  CHECK(2 * std::max(beside_lower_right, beside_upper_left) >
+        3 * std::min(beside_lower_right, beside_upper_left));
 }
 
 TEST_CASE("a slice is the bytes of what is extracted") {
@@ -179,7 +189,8 @@ TEST_CASE("a slice is the bytes of what is extracted") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     INFO("seed " << seed);
     const Model model = compile_scene(RandomModel(seed).scene());
-    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 4);
+    const MacroGrid grid =
+        MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 4);
     const SliceEncoder encoder(model);
     Dice dice(seed);
     for (std::uint32_t column = 0; column < 4; ++column) {

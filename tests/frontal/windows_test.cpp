@@ -37,8 +37,8 @@ TEST_CASE("roth hands out many tiles while many are left, and few towards the en
 TEST_CASE("in macro tiles are handed out again when a quarter of the window is free") {
   Scene scene = corner_scene();
   scene.settings.image = {512, 512, 1};
-  RenderJob job(1, prepared(scene, {.partition = PartitionMode::kRegular}, kNodes), *Hypercube::of_size(kNodes), 1,
-                {.window_tiles = 16});
+  RenderJob job(1, prepared(scene, {.partition = PartitionMode::kRegular}, kNodes),
+                *Hypercube::of_size(kNodes), 1, {.window_tiles = 16});
   const std::vector<std::uint32_t> first = job.next_tiles(Rank{0});
   REQUIRE(first.size() == 16);
   std::uint64_t sequence = 0;
@@ -46,7 +46,8 @@ TEST_CASE("in macro tiles are handed out again when a quarter of the window is f
     const BatchStamp stamp{job.id(), job.epoch(), 0, 0, sequence++};
     const std::uint64_t units = kTileSide * kTileSide;
     std::vector<Rank> opened;
-    const Bytes batch = encode_contributions(stamp, {{{tile, Credit::from_words({units, 0, 0, 0, 0})}}}, {});
+    const Bytes batch =
+        encode_contributions(stamp, {{{tile, Credit::from_words({units, 0, 0, 0, 0})}}}, {});
     REQUIRE(job.add_contributions(batch, opened).empty());
     REQUIRE(opened == std::vector<Rank>{Rank{0}});
   };
@@ -67,13 +68,15 @@ TEST_CASE("in macro windows shrink where many rays descend from a pixel") {
   RenderJob open = job(plain, {});
   CHECK(open.next_tiles(Rank{0}).size() == FlowLimits{}.window_tiles);
   CHECK(open.load().window_tiles == FlowLimits{}.window_tiles);
-  // A third of the rays that 64 such tiles may bring, each of 256 primary rays and more than one in all for each.
+  // A third of the rays that 64 such tiles may bring, each of 256 primary rays and more than one in
+  // all for each.
   RenderJob narrow = job(plain, {.window_rays = 64 * 256 / 3.0});
   const std::size_t fewer = narrow.next_tiles(Rank{0}).size();
   CHECK(fewer < 64 / 3);
   CHECK(fewer > FlowLimits{}.least_window_tiles);
   CHECK(narrow.load().window_tiles == fewer);
-  CHECK(job(plain, {.window_rays = 1}).next_tiles(Rank{0}).size() == FlowLimits{}.least_window_tiles);
+  CHECK(job(plain, {.window_rays = 1}).next_tiles(Rank{0}).size() ==
+        FlowLimits{}.least_window_tiles);
   CHECK(job(plain, {.window_tiles = 3, .window_rays = 1}).next_tiles(Rank{0}).size() == 3);
 }
 

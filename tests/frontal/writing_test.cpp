@@ -11,7 +11,8 @@ namespace {
 /// The answer of a frontal that has no job to a request.
 control::Failed refusal(bool is_private, const ControlMessage& request) {
   const auto store = make_memory_store();
-  Frontal frontal({.cube = *Hypercube::of_size(2), .version = "test", .is_private = is_private}, *store);
+  Frontal frontal({.cube = *Hypercube::of_size(2), .version = "test", .is_private = is_private},
+                  *store);
   const Message message = Message::of_text(encode(request));
   frontal.on_message("client", message);
   for (const Frontal::Outgoing& o : frontal.take_outgoing()) {

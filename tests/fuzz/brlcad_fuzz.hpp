@@ -1,4 +1,5 @@
-// What must hold for any bytes read as a BRL-CAD database; the normal suite drives it with mutations of small ones.
+// What must hold for any bytes read as a BRL-CAD database; the normal suite drives it with
+// mutations of small ones.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +37,8 @@ inline void fuzz_brlcad(std::string_view bytes) {
       read_brlcad("title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n", options);
   GRAYCUBE_CHECK(seen.scene.has_value() == seen.errors.empty(), "%zu errors", seen.errors.size());
   if (seen.scene) {
-    GRAYCUBE_CHECK(read_scene_text(write_scene_text(*seen.scene)).scene.has_value(), "a view no scene may have");
+    GRAYCUBE_CHECK(read_scene_text(write_scene_text(*seen.scene)).scene.has_value(),
+                   "a view no scene may have");
   }
 }
 

@@ -1,4 +1,5 @@
-// What must hold for any bytes read as CBOR: they are refused, or mean a tree that can be written and read again.
+// What must hold for any bytes read as CBOR: they are refused, or mean a tree that can be written
+// and read again.
 #pragma once
 
 #include <bit>
@@ -14,19 +15,24 @@
 namespace graycube {
 
 inline void check_same_meaning(const JsonTree& a, const JsonTree& b) {
-  GRAYCUBE_CHECK(a.value_count() == b.value_count(), "%zu values, not %zu", a.value_count(), b.value_count());
+  GRAYCUBE_CHECK(a.value_count() == b.value_count(), "%zu values, not %zu", a.value_count(),
+                 b.value_count());
   for (JsonIndex i = 0; i < a.value_count(); ++i) {
     const JsonKind kind = a.kind(i);
-    GRAYCUBE_CHECK(b.kind(i) == kind && b.next(i) == a.next(i) && b.key(i) == a.key(i), "value %u differs", i);
+    GRAYCUBE_CHECK(b.kind(i) == kind && b.next(i) == a.next(i) && b.key(i) == a.key(i),
+                   "value %u differs", i);
     if (kind == JsonKind::kNumber) {
-      GRAYCUBE_CHECK(std::bit_cast<std::uint64_t>(a.number(i)) == std::bit_cast<std::uint64_t>(b.number(i)),
-                     "value %u: %a, not %a", i, b.number(i), a.number(i));
+      GRAYCUBE_CHECK(
+          std::bit_cast<std::uint64_t>(a.number(i)) == std::bit_cast<std::uint64_t>(b.number(i)),
+          "value %u: %a, not %a", i, b.number(i), a.number(i));
     }
-    if (kind == JsonKind::kString) GRAYCUBE_CHECK(a.string(i) == b.string(i), "value %u: another string", i);
+    if (kind == JsonKind::kString)
+      GRAYCUBE_CHECK(a.string(i) == b.string(i), "value %u: another string", i);
   }
 }
 
-/// A root without a length isn't read in pieces: the scene must be the same. `cbor` has no syntax errors.
+/// A root without a length isn't read in pieces: the scene must be the same. `cbor` has no syntax
+/// errors.
 inline void check_whole_is_same(const std::string& cbor, const ReadResult& read) {
   const auto root = static_cast<unsigned char>(cbor[kCborMagic.size()]);
   constexpr unsigned kEmptyMap = 0xA0, kFullMap = 0xB7;
@@ -35,10 +41,11 @@ inline void check_whole_is_same(const std::string& cbor, const ReadResult& read)
   whole[kCborMagic.size()] = '\xBF';
   const ReadResult again = read_scene_text(whole);
   GRAYCUBE_CHECK(!again.was_read_in_pieces, "read in pieces");
-  GRAYCUBE_CHECK(again.scene == read.scene && again.errors.size() == read.errors.size(), "%zu errors, not %zu",
-                 again.errors.size(), read.errors.size());
+  GRAYCUBE_CHECK(again.scene == read.scene && again.errors.size() == read.errors.size(),
+                 "%zu errors, not %zu", again.errors.size(), read.errors.size());
   for (std::size_t i = 0; i < read.errors.size(); ++i) {
-    GRAYCUBE_CHECK(again.errors[i].pointer == read.errors[i].pointer && again.errors[i].message == read.errors[i].message,
+    GRAYCUBE_CHECK(again.errors[i].pointer == read.errors[i].pointer &&
+                       again.errors[i].message == read.errors[i].message,
                    "%s, not %s", again.errors[i].message.c_str(), read.errors[i].message.c_str());
   }
 }
@@ -54,7 +61,8 @@ inline bool fuzz_cbor(std::string_view bytes) {
   check_whole_is_same(text, read);
   const std::string written = cbor_of(tree);
   // Halves, of three bytes, are written as singles, of five.
-  GRAYCUBE_CHECK(written.size() <= text.size() + 2 * tree.value_count(), "%zu bytes of %zu", written.size(), text.size());
+  GRAYCUBE_CHECK(written.size() <= text.size() + 2 * tree.value_count(), "%zu bytes of %zu",
+                 written.size(), text.size());
   const JsonTree again(written);
   GRAYCUBE_CHECK(!again.syntax_error(), "%s", again.syntax_error()->message.c_str());
   check_same_meaning(tree, again);

@@ -38,15 +38,24 @@ void replay(const std::string& corpus, Check check) {
   }
 }
 
-std::span<const std::byte> as_bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> as_bytes(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
 
 }  // namespace
 
-TEST_CASE("no input that was fuzzed harms the reader of BRL-CAD's databases") { replay("brlcad", testing::fuzz_brlcad); }
+TEST_CASE("no input that was fuzzed harms the reader of BRL-CAD's databases") {
+  replay("brlcad", testing::fuzz_brlcad);
+}
 TEST_CASE("no input that was fuzzed harms the reader of CBOR") { replay("cbor", fuzz_cbor); }
-TEST_CASE("no input that was fuzzed harms the readers of mesh files") { replay("mesh", testing::fuzz_mesh); }
-TEST_CASE("no input that was fuzzed harms the reader of OpenSCAD's trees") { replay("openscad", testing::fuzz_openscad); }
-TEST_CASE("no input that was fuzzed tells the two JSON parsers apart, or harms the reader of scenes") {
+TEST_CASE("no input that was fuzzed harms the readers of mesh files") {
+  replay("mesh", testing::fuzz_mesh);
+}
+TEST_CASE("no input that was fuzzed harms the reader of OpenSCAD's trees") {
+  replay("openscad", testing::fuzz_openscad);
+}
+TEST_CASE(
+    "no input that was fuzzed tells the two JSON parsers apart, or harms the reader of scenes") {
   replay("scene_json", [](std::string_view text) {
     fuzz_json(text);
     fuzz_scene(text);
@@ -55,7 +64,9 @@ TEST_CASE("no input that was fuzzed tells the two JSON parsers apart, or harms t
 TEST_CASE("no input that was fuzzed harms the decoder of batches") {
   replay("proto_batch", [](std::string_view text) { fuzz_batch(as_bytes(text)); });
 }
-TEST_CASE("no input that was fuzzed harms the decoder of control messages") { replay("proto_control", fuzz_control); }
+TEST_CASE("no input that was fuzzed harms the decoder of control messages") {
+  replay("proto_control", fuzz_control);
+}
 TEST_CASE("no input that was fuzzed harms the decoder of models") {
   replay("proto_model", [](std::string_view text) { fuzz_model(as_bytes(text)); });
 }

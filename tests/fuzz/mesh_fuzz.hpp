@@ -1,4 +1,5 @@
-// What must hold for any bytes read as a mesh file; the normal suite drives it with mutations of small ones.
+// What must hold for any bytes read as a mesh file; the normal suite drives it with mutations of
+// small ones.
 #pragma once
 
 #include <cstddef>
@@ -42,15 +43,17 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
       }
     }
   }
-  // What is written for a farm must be accepted there, and mean the same. Coordinates near the largest double have no
-  // camera that sees them, and what is next to nothing none that is away from it.
+  // What is written for a farm must be accepted there, and mean the same. Coordinates near the
+  // largest double have no camera that sees them, and what is next to nothing none that is away
+  // from it.
   for (const Vec3& p : mesh.points) {
     if (!(max_abs(p) < 1e100)) return;
   }
   const Scene scene = scene_of_mesh({mesh});
   const ReadResult again = read_scene_text(write_scene_text(scene));
   for (const SceneError& e : again.errors) {
-    GRAYCUBE_CHECK(e.pointer.starts_with("/camera"), "%s: %s", e.pointer.c_str(), e.message.c_str());
+    GRAYCUBE_CHECK(e.pointer.starts_with("/camera"), "%s: %s", e.pointer.c_str(),
+                   e.message.c_str());
   }
   GRAYCUBE_CHECK(!again.scene || *again.scene == scene, "another scene");
 }

@@ -1,4 +1,5 @@
-// What must hold for any text read as OpenSCAD's evaluated tree; the normal suite drives it with mutations of small ones.
+// What must hold for any text read as OpenSCAD's evaluated tree; the normal suite drives it with
+// mutations of small ones.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +41,8 @@ inline bool fuzz_openscad(std::string_view text) {
     const OpenscadResult read = read_openscad_csg(text, options);
     GRAYCUBE_CHECK(read.scene.has_value() == read.errors.empty(), "%zu errors", read.errors.size());
     GRAYCUBE_CHECK(read.errors.size() <= kMaxOpenscadErrors + 1, "%zu errors", read.errors.size());
-    GRAYCUBE_CHECK(read.warnings.size() <= kMaxOpenscadWarnings + 1, "%zu warnings", read.warnings.size());
+    GRAYCUBE_CHECK(read.warnings.size() <= kMaxOpenscadWarnings + 1, "%zu warnings",
+                   read.warnings.size());
     if (!read.scene) continue;
     accepted = true;
     // What is written for a farm must be accepted there, and mean the same.

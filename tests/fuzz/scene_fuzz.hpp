@@ -1,5 +1,5 @@
-// What must hold for any text read as a scene: it is refused with reasons, or means a model that survives being written
-// for a farm.
+// What must hold for any text read as a scene: it is refused with reasons, or means a model that
+// survives being written for a farm.
 #pragma once
 
 #include <string_view>

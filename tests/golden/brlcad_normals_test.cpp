@@ -1,5 +1,6 @@
-// A BRL-CAD model of our own against normals worked out in closed form, in rt's kind of picture: from the text of
-// the database to the comparison that bench/against_rt.sh makes with rt's own pictures.
+// A BRL-CAD model of our own against normals worked out in closed form, in rt's kind of picture:
+// from the text of the database to the comparison that bench/against_rt.sh makes with rt's own
+// pictures.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,8 +30,10 @@ constexpr double kRadius = 20;
 constexpr const char* kModel =
     "title {A ball and a brick}\nunits mm\n"
     "put ball ell V {0 0 0} A {20 0 0} B {0 20 0} C {0 0 20}\n"
-    "put cut arb8 V1 {0 0 0} V2 {30 0 0} V3 {30 30 0} V4 {0 30 0} V5 {0 0 30} V6 {30 0 30} V7 {30 30 30} V8 {0 30 30}\n"
-    "put brick arb8 V1 {-4 -4 -4} V2 {4 -4 -4} V3 {4 4 -4} V4 {-4 4 -4} V5 {-4 -4 4} V6 {4 -4 4} V7 {4 4 4} V8 {-4 4 4}\n"
+    "put cut arb8 V1 {0 0 0} V2 {30 0 0} V3 {30 30 0} V4 {0 30 0} V5 {0 0 30} V6 {30 0 30} V7 {30 "
+    "30 30} V8 {0 30 30}\n"
+    "put brick arb8 V1 {-4 -4 -4} V2 {4 -4 -4} V3 {4 4 -4} V4 {-4 4 -4} V5 {-4 -4 4} V6 {4 -4 4} "
+    "V7 {4 4 4} V8 {-4 4 4}\n"
     "put a.r comb region yes id 1 tree {- {l ball} {l cut}}\n"
     "put b.r comb region yes id 2 tree {l brick {1 0 0 0  0 1 0 0  0 0 1 -22  0 0 0 1}}\n"
     "put all comb region no tree {u {l a.r} {l b.r}}\n";
@@ -113,7 +116,9 @@ int status_of(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("a BRL-CAD model's normals are those of rt's picture, by rays through the cells' lower-left corners") {
+TEST_CASE(
+    "a BRL-CAD model's normals are those of rt's picture, by rays through the cells' lower-left "
+    "corners") {
   BrlcadOptions options;
   options.image = {kSide, kSide, 1};
   options.view = kView;
@@ -123,13 +128,16 @@ TEST_CASE("a BRL-CAD model's normals are those of rt's picture, by rays through 
   const Domain domain(compile_scene(*read.scene));
   Film film(kSide, kSide, 1, domain.settings().aovs);
   render_serial(domain, {}, film);
-  const fs::path folder = fs::temp_directory_path() / ("graycube-normals-" + std::to_string(::getpid()));
+  const fs::path folder =
+      fs::temp_directory_path() / ("graycube-normals-" + std::to_string(::getpid()));
   fs::create_directory(folder);
   write_exr(folder / "ours.exr", film.develop(), {});
   write_png(folder / "theirs.linear.png", reference(0));
   write_png(folder / "shifted.linear.png", reference(0.5));
-  const std::string command = std::string(COMPARE_NORMALS) + " " + (folder / "ours.exr").string() + " ";
-  CHECK(status_of(command + (folder / "theirs.linear.png").string() + " 0.05 0.02 > /dev/null") == 0);
+  const std::string command =
+      std::string(COMPARE_NORMALS) + " " + (folder / "ours.exr").string() + " ";
+  CHECK(status_of(command + (folder / "theirs.linear.png").string() + " 0.05 0.02 > /dev/null") ==
+        0);
   CHECK(status_of(command + (folder / "shifted.linear.png").string() + " > /dev/null") == 1);
   fs::remove_all(folder);
 }

@@ -1,6 +1,7 @@
-// compare_normals PICTURE.exr REFERENCE.png [MOST_OFF_PERCENT [MOST_COVERAGE_PERCENT]]: how well a render's normal
-// AOV agrees with a picture of normals as BRL-CAD's `rt -l2` makes it: 0.5 − 0.5 n, black where nothing is hit.
-// Status 0 when at most so many pixels are off by more than 2/255, and coverages differ by at most so much.
+// compare_normals PICTURE.exr REFERENCE.png [MOST_OFF_PERCENT [MOST_COVERAGE_PERCENT]]: how well a
+// render's normal AOV agrees with a picture of normals as BRL-CAD's `rt -l2` makes it: 0.5 − 0.5 n,
+// black where nothing is hit. Status 0 when at most so many pixels are off by more than 2/255, and
+// coverages differ by at most so much.
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +21,8 @@ int shade_of(std::uint32_t word) {
   return static_cast<int>(std::floor(255 * (0.5 - 0.5 * n) + 0.5));
 }
 
-int compare(const char* picture_path, const char* reference_path, double most_off, double most_coverage) {
+int compare(const char* picture_path, const char* reference_path, double most_off,
+            double most_coverage) {
   const Picture picture = read_exr(picture_path);
   const PngImage reference = read_png(reference_path);
   if (!picture.aovs.has(Aov::kNormal)) {
@@ -51,11 +53,12 @@ int compare(const char* picture_path, const char* reference_path, double most_of
     off += is_off;
   }
   const double off_percent = 100.0 * static_cast<double>(off) / static_cast<double>(pixels);
-  const double coverage = 100.0 * std::fabs(static_cast<double>(hit) - static_cast<double>(reference_hit)) /
+  const double coverage = 100.0 *
+                          std::fabs(static_cast<double>(hit) - static_cast<double>(reference_hit)) /
                           static_cast<double>(pixels);
   const bool is_good = off_percent <= most_off && coverage <= most_coverage;
-  std::printf("%s: %.3f %% of pixels off, coverage differs by %.3f %%\n", is_good ? "same" : "DIFFERENT",
-              off_percent, coverage);
+  std::printf("%s: %.3f %% of pixels off, coverage differs by %.3f %%\n",
+              is_good ? "same" : "DIFFERENT", off_percent, coverage);
   return is_good ? 0 : 1;
 }
 
@@ -63,11 +66,13 @@ int compare(const char* picture_path, const char* reference_path, double most_of
 
 int main(int argc, char** argv) {
   if (argc < 3 || argc > 5) {
-    std::fprintf(stderr, "compare_normals PICTURE.exr REFERENCE.png [MOST_OFF_%% [MOST_COVERAGE_%%]]\n");
+    std::fprintf(stderr,
+                 "compare_normals PICTURE.exr REFERENCE.png [MOST_OFF_%% [MOST_COVERAGE_%%]]\n");
     return 2;
   }
   try {
-    return compare(argv[1], argv[2], argc > 3 ? std::atof(argv[3]) : 0.3, argc > 4 ? std::atof(argv[4]) : 0.1);
+    return compare(argv[1], argv[2], argc > 3 ? std::atof(argv[3]) : 0.3,
+                   argc > 4 ? std::atof(argv[4]) : 0.1);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 2;

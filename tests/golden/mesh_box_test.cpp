@@ -11,8 +11,9 @@ using namespace graycube::testing;
 namespace {
 
 Picture picture_of(CsgNode solid) {
-  Scene scene = scene_of({operation(Operation::kDifference, {std::move(solid), node_of(SphereShape{{1, 1, -1}, 0.7})}),
-                          node_of(HalfSpaceShape{{0, 1, 0}, -1.5})});
+  Scene scene = scene_of(
+      {operation(Operation::kDifference, {std::move(solid), node_of(SphereShape{{1, 1, -1}, 0.7})}),
+       node_of(HalfSpaceShape{{0, 1, 0}, -1.5})});
   RenderSettings& s = scene.settings;
   s.image = {96, 64, 1};
   s.camera.projection = Projection::kPerspective;

@@ -127,13 +127,15 @@ TEST_CASE("nodes that may hold few rays render the same picture") {
   const std::string glass = scene_file("glass.json").string();
   const Arguments size{"--size", "64x48", "--max-depth", "4", "--quiet"};
   Arguments here{"render", glass, "--algorithm", "serial", "-o", "here.exr"};
-  Arguments there{"submit", glass, "--wait", "--algorithm", "macro", "--shadows", "forward", "-o", "there.exr", "--stats", "s.json"};
+  Arguments there{"submit",  glass, "--wait",    "--algorithm", "macro", "--shadows",
+                  "forward", "-o",  "there.exr", "--stats",     "s.json"};
   for (Arguments* arguments : {&here, &there}) {
     arguments->insert(arguments->end(), size.begin(), size.end());
     ok(sandbox, *arguments);
   }
   CHECK((file_bytes(sandbox / "here.exr") == file_bytes(sandbox / "there.exr")));
-  // So few that they are full much of the time; what a node adds to forty is its evaluators' packets and classes.
+  // So few that they are full much of the time; what a node adds to forty is its evaluators'
+  // packets and classes.
   constexpr int kChildren = 4, kThreads = 2, kPacket = 64, kClasses = 2 * 5 * 4;
   constexpr int kBound = 40 + kThreads * (2 + (kPacket + kClasses) * kChildren);
   const nlohmann::json stats = sandbox.json("s.json");
@@ -157,7 +159,8 @@ TEST_CASE("submit --wait is a render on the farm") {
   CHECK(o.err.find("token round") != std::string::npos);
   CHECK(sandbox.files() == std::vector<std::string>{"a.exr", "a.json", "a.png"});
   CHECK(read_exr(sandbox / "a.exr").width == 64);
-  ok(sandbox, {"submit", first(), "--wait", "--algorithm", "macro", "--size", "64x48", "--stats", "b.json"});
+  ok(sandbox,
+     {"submit", first(), "--wait", "--algorithm", "macro", "--size", "64x48", "--stats", "b.json"});
   const auto start_cpu_s = [&](const char* stats) {
     return sandbox.json(stats)["start_cpu_s"].get<double>();
   };
@@ -310,7 +313,8 @@ TEST_CASE("the farm's web page shows jobs, nodes and pictures, and refuses what 
   CHECK(picture->status == 200);
   ok(sandbox, {"fetch", job, "-o", "a.exr", "--png", "a.png"});
   CHECK((picture->body == file_bytes(sandbox / "a.png")));
-  for (const char* path : {"/jobs/77.png", "/api/jobs/77", "/jobs/99999999999999.png", "/nothing"}) {
+  for (const char* path :
+       {"/jobs/77.png", "/api/jobs/77", "/jobs/99999999999999.png", "/nothing"}) {
     const auto missing = browser.Get(path);
     REQUIRE(missing);
     CHECK(missing->status == 404);

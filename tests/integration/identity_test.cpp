@@ -1,10 +1,10 @@
 // One scene, one picture: byte for byte, whatever computes it.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "integration/sandbox.hpp"
 #include "geometry/simd.hpp"
+#include "integration/sandbox.hpp"
 
 namespace graycube {
 namespace {
@@ -47,7 +47,8 @@ void check_ways(const std::string& scene, const std::vector<Arguments>& ways, co
   CHECK(sandbox.temporary_files().empty());
 }
 
-void check_identity(const std::string& scene, const char* size = kSize, const Arguments& also = {}) {
+void check_identity(const std::string& scene, const char* size = kSize,
+                    const Arguments& also = {}) {
   std::vector<Arguments> ways{{"--algorithm", "serial", "--threads", "2"},
                               {"--algorithm", "auto"},
                               {"--algorithm", "macro", "-n", "4", "--threads", "2"},
@@ -68,28 +69,32 @@ void check_identity(const std::string& scene, const char* size = kSize, const Ar
   for (const char* nodes : {"1", "4", "16"}) {
     ways.push_back({"--algorithm", "macro", "-n", nodes, "--sums", "tree"});
   }
-  ways.push_back({"--algorithm", "macro", "-n", "8", "--sums", "tree", "--shadows", "local", "--threads", "2"});
-  ways.push_back({"--algorithm", "macro", "-n", "4", "--sums", "tree", "--flow", "blocking", "--queue", "65536"});
+  ways.push_back({"--algorithm", "macro", "-n", "8", "--sums", "tree", "--shadows", "local",
+                  "--threads", "2"});
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--sums", "tree", "--flow", "blocking",
+                  "--queue", "65536"});
   ways.push_back({"--algorithm", "roth", "-n", "8", "--sums", "tree"});
   check_ways(scene, ways, size, also);
 }
 
 TEST_CASE("compare renders a scene in every way and finds the same picture each time") {
   Sandbox sandbox;
-  const Outcome o = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "4", "--size",
-                                 kSize, "--queue", "4", "--plot", "bars.svg", "-q"});
+  const Outcome o = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "4",
+                                 "--size", kSize, "--queue", "4", "--plot", "bars.svg", "-q"});
   INFO(o.out << o.err);
   REQUIRE(o.status == 0);
   CHECK(o.err.empty());
-  for (const char* way : {"serial ", "roth pixel", "macro as in 1987", "macro, horizons", "auto "}) {
+  for (const char* way :
+       {"serial ", "roth pixel", "macro as in 1987", "macro, horizons", "auto "}) {
     CHECK(o.out.find(way) != std::string::npos);
   }
   CHECK(o.out.find("DIFFERENT") == std::string::npos);
   CHECK(file_bytes(sandbox / "bars.svg").starts_with("<svg "));
-  const Outcome json = sandbox.run({"compare", scene_file("mirrors.json").string(), "-n", "2", "--size",
-                                    kSize, "--json", "-q"});
+  const Outcome json = sandbox.run(
+      {"compare", scene_file("mirrors.json").string(), "-n", "2", "--size", kSize, "--json", "-q"});
   REQUIRE(json.status == 0);
-  CHECK(json.out.starts_with("{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
+  CHECK(json.out.starts_with(
+      "{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
 }
@@ -97,8 +102,9 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
 TEST_CASE("a deadlock's report, row and bars show what the nodes did until then") {
   Sandbox sandbox;
   const std::string scene = scene_file("mirrors.json").string();
-  const Outcome o = sandbox.run({"render", scene, "--algorithm", "macro", "-n", "16", "--shadows", "forward",
-                                 "--flow", "blocking", "--queue", "4", "--stats", "dead.json", "-q"});
+  const Outcome o =
+      sandbox.run({"render", scene, "--algorithm", "macro", "-n", "16", "--shadows", "forward",
+                   "--flow", "blocking", "--queue", "4", "--stats", "dead.json", "-q"});
   INFO(o.err);
   REQUIRE(o.status == 1);
   CHECK(o.err.starts_with("graycube: render: --flow blocking: deadlock: node "));
@@ -118,8 +124,8 @@ TEST_CASE("a deadlock's report, row and bars show what the nodes did until then"
   CHECK(queue_peak > 0);
   CHECK(queue_peak <= 4);
 
-  const Outcome compared = sandbox.run({"compare", scene, "-n", "16", "--size", "128x128", "--queue", "4", "--json",
-                                        "--plot", "bars.svg", "-q"});
+  const Outcome compared = sandbox.run({"compare", scene, "-n", "16", "--size", "128x128",
+                                        "--queue", "4", "--json", "--plot", "bars.svg", "-q"});
   INFO(compared.err);
   REQUIRE(compared.status == 0);
   const auto rows = nlohmann::json::parse(compared.out)["rows"];
@@ -138,8 +144,8 @@ TEST_CASE("with sums along the tree nodes send light to each other") {
   Sandbox sandbox;
   for (const char* nodes : {"4", "16"}) {
     const Outcome o =
-        sandbox.run({"render", scene_file("mirrors.json").string(), "--algorithm", "macro", "-n", nodes, "--sums",
-                     "tree", "-o", "out.exr", "--stats", "s.json", "-q"});
+        sandbox.run({"render", scene_file("mirrors.json").string(), "--algorithm", "macro", "-n",
+                     nodes, "--sums", "tree", "-o", "out.exr", "--stats", "s.json", "-q"});
     INFO(nodes << " nodes" << o.err);
     REQUIRE(o.status == 0);
     const auto stats = sandbox.json("s.json");
@@ -152,9 +158,15 @@ TEST_CASE("with sums along the tree nodes send light to each other") {
 
 TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {
   Sandbox sandbox;
-  const std::vector<std::string> way{scene_file("mirrors.json").string(), "--algorithm", "macro",
-                                     "--shadows", "forward", "--partition", "regular",
-                                     "--size", kSize};
+  const std::vector<std::string> way{scene_file("mirrors.json").string(),
+                                     "--algorithm",
+                                     "macro",
+                                     "--shadows",
+                                     "forward",
+                                     "--partition",
+                                     "regular",
+                                     "--size",
+                                     kSize};
   const auto with = [&](std::string command, std::vector<std::string> more) {
     std::vector<std::string> arguments{std::move(command)};
     arguments.insert(arguments.end(), way.begin(), way.end());
@@ -195,7 +207,8 @@ TEST_CASE("meshes look the same whatever computes them") {
 void check_model(const std::string& model) {
   std::vector<Arguments> ways;
   for (const char* algorithm : {"roth", "macro"}) {
-    for (const char* nodes : {"1", "4", "16"}) ways.push_back({"--algorithm", algorithm, "-n", nodes});
+    for (const char* nodes : {"1", "4", "16"})
+      ways.push_back({"--algorithm", algorithm, "-n", nodes});
   }
   check_ways(model, ways, kSize, {"--aov", "depth,normal,albedo,object"});
 }
@@ -207,7 +220,9 @@ TEST_CASE("each solid that is read from BRL-CAD looks the same whatever computes
   CHECK(o.out.find("27 objects") != std::string::npos);
   check_model("brlcad/solids.asc");
 }
-TEST_CASE("a model from OpenSCAD looks the same whatever computes it") { check_model("openscad/bracket.csg"); }
+TEST_CASE("a model from OpenSCAD looks the same whatever computes it") {
+  check_model("openscad/bracket.csg");
+}
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");
 }
@@ -217,7 +232,8 @@ TEST_CASE("an orthographic picture is the same whatever computes it") {
 
 TEST_CASE("a picture does not show which vector instructions computed it") {
   Sandbox sandbox;
-  for (const char* scene : {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json"}) {
+  for (const char* scene :
+       {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json"}) {
     std::string reference;
     for (const std::string& name : simd_names()) {
       INFO(scene << " with " << name);
@@ -238,7 +254,8 @@ TEST_CASE("vector instructions that the machine doesn't have are refused") {
   const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-q"});
   ::unsetenv("GRAYCUBE_SIMD");
   CHECK(o.status == 2);
-  CHECK(o.err.find("graycube: environment: GRAYCUBE_SIMD: mmx: this machine has best, scalar") == 0);
+  CHECK(o.err.find("graycube: environment: GRAYCUBE_SIMD: mmx: this machine has best, scalar") ==
+        0);
 }
 
 }  // namespace

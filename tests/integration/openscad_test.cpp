@@ -91,10 +91,15 @@ TEST_CASE("a model of every construct is the same here and on nodes, exact and w
   sandbox.write("every.csg", kEveryConstruct);
   for (const Arguments& facets : {Arguments{}, Arguments{"--facets"}}) {
     std::string reference;
-    for (const auto& [algorithm, nodes] :
-         {std::pair{"serial", "1"}, {"roth", "4"}, {"macro", "1"}, {"macro", "4"}, {"macro", "16"}}) {
-      Arguments arguments{"render", "every.csg", "--algorithm", algorithm, "-n", nodes, "--size", "90x70", "-o", "a.exr",
-                          "--aov", "depth,normal,albedo,object", "-q"};
+    for (const auto& [algorithm, nodes] : {std::pair{"serial", "1"},
+                                           {"roth", "4"},
+                                           {"macro", "1"},
+                                           {"macro", "4"},
+                                           {"macro", "16"}}) {
+      Arguments arguments{"render", "every.csg", "--algorithm", algorithm,
+                          "-n",     nodes,       "--size",      "90x70",
+                          "-o",     "a.exr",     "--aov",       "depth,normal,albedo,object",
+                          "-q"};
       arguments.insert(arguments.end(), facets.begin(), facets.end());
       const Outcome o = sandbox.run(arguments);
       INFO(algorithm << " on " << nodes << ": " << o.err);
@@ -115,7 +120,8 @@ TEST_CASE("a scene in CBOR gives the picture of its JSON, and comes back as it w
   REQUIRE(sandbox.run({"convert", "a.cbor", "b.json"}).status == 0);
   CHECK(file_bytes(sandbox / "a.json") == file_bytes(sandbox / "b.json"));
   for (const char* scene : {"a.json", "a.cbor"}) {
-    const Outcome o = sandbox.run({"render", scene, "-n", "2", "--size", "64x64", "-o", std::string(scene) + ".exr", "-q"});
+    const Outcome o = sandbox.run(
+        {"render", scene, "-n", "2", "--size", "64x64", "-o", std::string(scene) + ".exr", "-q"});
     INFO(o.err);
     REQUIRE(o.status == 0);
   }
@@ -144,18 +150,21 @@ class FakeOpenscad {
 };
 
 constexpr const char* kTetrahedron =
-    "printf 'OFF 4 4 0\\n0 0 0\\n2 0 0\\n0 2 0\\n0 0 2\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 0 3 2\\n' > \"$2\"\n";
+    "printf 'OFF 4 4 0\\n0 0 0\\n2 0 0\\n0 2 0\\n0 0 2\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 0 3 2\\n' "
+    "> \"$2\"\n";
 
 TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves nothing behind") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "echo run >> runs\n" + std::string(kTetrahedron));
   sandbox.write("m.csg",
                 "minkowski() { surface(); sphere(1); }\nminkowski() { surface(); sphere(1); }\n");
-  const Outcome o = fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
+  const Outcome o =
+      fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
   INFO(o.err);
   REQUIRE(o.status == 0);
-  CHECK(lines_of(o.err) == std::vector<std::string>{
-                               "graycube: warning: m.csg:1: minkowski() is evaluated by OpenSCAD, as a mesh"});
+  CHECK(lines_of(o.err) ==
+        std::vector<std::string>{
+            "graycube: warning: m.csg:1: minkowski() is evaluated by OpenSCAD, as a mesh"});
   CHECK(lines_of(file_bytes(sandbox / "runs")).size() == 1);
   CHECK(sandbox.temporary_files().empty());
 }
@@ -166,7 +175,8 @@ TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was ask
   sandbox.write("m.csg", "cube(1);\ntext(text = \"a\");\nminkowski() { surface(); }\n");
   const Outcome o = fake.run({"check", "m.csg"});
   CHECK(o.status == 2);
-  CHECK(o.err.find("graycube: scene: m.csg:3: minkowski(): openscad: ERROR: it is broken\n") != std::string::npos);
+  CHECK(o.err.find("graycube: scene: m.csg:3: minkowski(): openscad: ERROR: it is broken\n") !=
+        std::string::npos);
   sandbox.write("m.scad", "cube(;");
   const Outcome scad = fake.run({"check", "m.scad"});
   CHECK(scad.status == 2);
@@ -193,25 +203,30 @@ TEST_CASE("while OpenSCAD isn't at work an interrupt ends an importer at once") 
   FakeOpenscad fake(sandbox, "exit 0\n");
   // Nobody writes to it, so reading it takes for ever.
   REQUIRE(::mkfifo((sandbox / "pipe.csg").c_str(), 0600) == 0);
-  const Outcome o = fake.run({"check", "pipe.csg"}, {"timeout", "--signal=INT", "--kill-after=20", "1"});
+  const Outcome o =
+      fake.run({"check", "pipe.csg"}, {"timeout", "--signal=INT", "--kill-after=20", "1"});
   CHECK(o.status == 124);
   CHECK(o.err == "graycube: check: SIGINT: interrupted\n");
 }
 #endif
 
-TEST_CASE("text, Minkowski sums and files of the model's folder come through OpenSCAD where it is installed") {
+TEST_CASE(
+    "text, Minkowski sums and files of the model's folder come through OpenSCAD where it is "
+    "installed") {
   if (!find_program("openscad")) {
     WARN("no openscad here");
     return;
   }
   Sandbox sandbox;
   std::filesystem::create_directory(sandbox / "folder");
-  sandbox.write("folder/part.off", "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  sandbox.write("folder/part.off",
+                "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   sandbox.write("folder/m.scad",
                 "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { difference() "
                 "{ cube(4); cube(2); } cylinder(1); }\n"
                 "translate([20, 0, 0]) import(\"part.off\");\n");
-  const Outcome o = sandbox.run({"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
+  const Outcome o = sandbox.run(
+      {"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
   INFO(o.err);
   CHECK(o.status == 0);
   CHECK(o.err.find("text() is evaluated by OpenSCAD, as a polygon") != std::string::npos);
@@ -219,7 +234,8 @@ TEST_CASE("text, Minkowski sums and files of the model's folder come through Ope
   CHECK(sandbox.temporary_files().empty());
 }
 
-/// A model of every kind of number that has no end in six digits; modules of the user's, and of a file that it uses.
+/// A model of every kind of number that has no end in six digits; modules of the user's, and of a
+/// file that it uses.
 constexpr const char* kEndless = R"(
 use <lib.scad>
 module twice() { children(); translate([0, 0, 7 / 3]) children(); }
@@ -232,7 +248,9 @@ rotate_extrude(angle = 1000 / 3) translate([5 / 3, 0]) circle(1 / 3);
 polyhedron([[0, 0, 1 / 3], [1 / 7, 0, 0], [0, 1, 0], [0, 0, -1]], [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]);
 difference() { peg(10 / 3); *cube(1 / 3); #cube(1 / 7, center = true); }
 )";
-constexpr const char* kPeg = "module peg(h) { translate([-h / 7, 0, 0]) cylinder(h, 2 / 3, 2 / 3, center = true, $fn = 7); }";
+constexpr const char* kPeg =
+    "module peg(h) { translate([-h / 7, 0, 0]) cylinder(h, 2 / 3, 2 / 3, center = true, $fn = 7); "
+    "}";
 
 TEST_CASE("numbers of a .scad file come with all their digits, whatever holds them") {
   if (!find_program("openscad")) {
@@ -254,15 +272,19 @@ TEST_CASE("numbers of a .scad file come with all their digits, whatever holds th
   CHECK(sandbox.temporary_files().empty());
 }
 
-TEST_CASE("a model that isn't the same when it is evaluated again keeps its six digits, and its messages come once") {
+TEST_CASE(
+    "a model that isn't the same when it is evaluated again keeps its six digits, and its messages "
+    "come once") {
   if (!find_program("openscad")) {
     WARN("no openscad here");
     return;
   }
   Sandbox sandbox;
-  // Modules of the user's in the place of OpenSCAD's, numbers at random, what OpenSCAD doesn't take.
-  for (const char* model : {"module cube(s) { sphere(s / 3); } cube(1);", "translate(rands(0, 1, 3)) cube(1 / 3);",
-                            "echo(\"once\"); cube([1 / 3]); sphere(1 / 3);"}) {
+  // Modules of the user's in the place of OpenSCAD's, numbers at random, what OpenSCAD doesn't
+  // take.
+  for (const char* model :
+       {"module cube(s) { sphere(s / 3); } cube(1);", "translate(rands(0, 1, 3)) cube(1 / 3);",
+        "echo(\"once\"); cube([1 / 3]); sphere(1 / 3);"}) {
     sandbox.write("m.scad", model);
     const Outcome o = sandbox.run({"convert", "m.scad", "m.json"});
     INFO(model << "\n" << o.err);

@@ -39,8 +39,8 @@ TEST_CASE("the first scene is rendered on 8 nodes in seconds, and says how") {
 TEST_CASE("a picture whose name is no UTF-8 is the same as any other") {
   Sandbox sandbox;
   for (const char* name : {"plain.exr", "odd\xff.exr"}) {
-    const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-n", "4", "--algorithm", "macro",
-                                   "-q", "-o", name});
+    const Outcome o = sandbox.run({"render", scene_file("first.json").string(), "-n", "4",
+                                   "--algorithm", "macro", "-q", "-o", name});
     INFO(o.err);
     REQUIRE(o.status == 0);
   }

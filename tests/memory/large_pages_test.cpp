@@ -28,7 +28,9 @@ long faults_of_writing(ZeroPages::Use use, std::size_t bytes) {
 }
 
 /// Whether the system has large pages for who asks, here and now.
-bool has_large_pages() { return faults_of_writing(ZeroPages::Use::kAllOver, 8 * kLargePage) < 4 * 512; }
+bool has_large_pages() {
+  return faults_of_writing(ZeroPages::Use::kAllOver, 8 * kLargePage) < 4 * 512;
+}
 
 }  // namespace
 
@@ -59,7 +61,8 @@ TEST_CASE("a kept heap serves all threads, and again what was freed") {
   keep_freed_memory(1, 16 * kLargePage);
   const auto fill = [] {
     std::vector<std::vector<char>> blocks;
-    for (std::size_t size = 1; size < 6 * kLargePage; size = size * 3 + 1) blocks.emplace_back(size, 'x');
+    for (std::size_t size = 1; size < 6 * kLargePage; size = size * 3 + 1)
+      blocks.emplace_back(size, 'x');
     for (const auto& block : blocks) {
       for (const char c : block) REQUIRE(c == 'x');
     }

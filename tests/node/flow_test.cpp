@@ -1,5 +1,5 @@
-// When rays and credit go out: full batches, parts of them on quiet links, what is left when nothing else is to do; and
-// how a full node goes on.
+// When rays and credit go out: full batches, parts of them on quiet links, what is left when
+// nothing else is to do; and how a full node goes on.
 #include <catch2/catch.hpp>
 
 #include "node/node_at_work.hpp"
@@ -27,7 +27,9 @@ Bytes nothing() {
 
 /// The left one of two nodes, the picture begun.
 struct LeftNode : NodeAtWork {
-  explicit LeftNode(const control::Load& m = load()) : NodeAtWork(kPair, left(), m, nothing()) { begin(); }
+  explicit LeftNode(const control::Load& m = load()) : NodeAtWork(kPair, left(), m, nothing()) {
+    begin();
+  }
 
   static Rank left() { return kPair.column_of(Rank{0}) == 0 ? Rank{0} : Rank{1}; }
   static control::Load load() {
@@ -42,8 +44,8 @@ struct LeftNode : NodeAtWork {
   }
   /// The same on the credit of a class.
   void receive_on_class(std::size_t rays, std::uint16_t of_class, bool go_back) {
-    node.on_neighbour(
-        encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(of_class, go_back)), BatchType::kClassRays));
+    node.on_neighbour(encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(of_class, go_back)),
+                                  BatchType::kClassRays));
   }
   static RayTask ray(std::uint16_t hops, bool go_back) {
     RayTask ray;
@@ -58,14 +60,19 @@ struct LeftNode : NodeAtWork {
 };
 
 struct Sent {
-  std::vector<std::size_t> batches;  // rays in each
-  std::vector<std::uint64_t> grants;  // rays' worth in each
+  std::vector<std::size_t> batches;                     // rays in each
+  std::vector<std::uint64_t> grants;                    // rays' worth in each
   std::vector<std::uint16_t> class_rays, class_grants;  // their classes
   bool has_error = false;
 
   explicit Sent(Node& node) {
-    const BatchLimits limits{.pixel_count = kSide * kSide, .tile_count = 16, .max_depth = 5, .lights = 1,
-                             .columns = 2, .rows = 1, .nodes = 2};
+    const BatchLimits limits{.pixel_count = kSide * kSide,
+                             .tile_count = 16,
+                             .max_depth = 5,
+                             .lights = 1,
+                             .columns = 2,
+                             .rows = 1,
+                             .nodes = 2};
     for (const Node::Outgoing& o : node.take_outgoing()) {
       if (!looks_like_batch(o.message.frame)) {
         has_error = has_error || o.message.text().find("node_error") != std::string_view::npos;
@@ -74,11 +81,13 @@ struct Sent {
       const auto header = std::get<BatchHeader>(peek_header(o.message.frame));
       if (header.type == BatchType::kRays) batches.push_back(header.count);
       std::vector<RayTask> rays;
-      if (std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, rays, BatchType::kClassRays))) {
+      if (std::holds_alternative<BatchHeader>(
+              decode_rays(o.message.frame, limits, rays, BatchType::kClassRays))) {
         for (const RayTask& ray : rays) class_rays.push_back(ray.hops);
       }
       std::vector<std::uint16_t> classes;
-      if (std::holds_alternative<BatchHeader>(decode_class_credit(o.message.frame, limits, classes))) {
+      if (std::holds_alternative<BatchHeader>(
+              decode_class_credit(o.message.frame, limits, classes))) {
         class_grants.insert(class_grants.end(), classes.begin(), classes.end());
       }
       std::uint64_t bytes = 0;
@@ -186,7 +195,9 @@ TEST_CASE("a full node takes nothing that came on its link's credit until its ou
   CHECK(full.work_once());
 }
 
-TEST_CASE("a full node traces what comes on class credit, highest class first, where there is room for the next") {
+TEST_CASE(
+    "a full node traces what comes on class credit, highest class first, where there is room for "
+    "the next") {
   FullNode full;
   full.receive_on_class(1, 3, true);
   full.receive_on_class(1, 5, true);
@@ -212,7 +223,8 @@ TEST_CASE("a full node traces what comes on class credit, highest class first, w
   CHECK(full.work_once());
 }
 
-TEST_CASE("what descends from rays on class credit is sent before all else when the link has credit") {
+TEST_CASE(
+    "what descends from rays on class credit is sent before all else when the link has credit") {
   FullNode full;
   full.receive_on_class(2, 5, true);
   full.receive_on_class(1, 6, true);

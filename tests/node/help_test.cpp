@@ -37,10 +37,13 @@ MacroGrid grid() {
   return {CameraFrame::from(model.settings.camera, model.settings.image), {kSide / 2}, {kSide / 2}};
 }
 
-Bytes slice_of(Rank rank) { return encode_model(restrict_to_share(ball(), grid(), share_of(kCube, rank))); }
+Bytes slice_of(Rank rank) {
+  return encode_model(restrict_to_share(ball(), grid(), share_of(kCube, rank)));
+}
 
 RegionIndex region_of(Rank rank) {
-  return {static_cast<std::uint16_t>(kCube.column_of(rank)), static_cast<std::uint16_t>(kCube.row_of(rank))};
+  return {static_cast<std::uint16_t>(kCube.column_of(rank)),
+          static_cast<std::uint16_t>(kCube.row_of(rank))};
 }
 
 std::vector<std::uint32_t> tiles_of(Rank rank) {
@@ -74,26 +77,35 @@ struct Sent {
   std::size_t class_rays = 0;
 
   explicit Sent(Node& node) {
-    const BatchLimits limits{.pixel_count = 4 * kSide * kSide, .tile_count = 4 * kTiles, .max_depth = 5, .lights = 1,
-                             .columns = 2, .rows = 2, .nodes = 4};
+    const BatchLimits limits{.pixel_count = 4 * kSide * kSide,
+                             .tile_count = 4 * kTiles,
+                             .max_depth = 5,
+                             .lights = 1,
+                             .columns = 2,
+                             .rows = 2,
+                             .nodes = 4};
     for (const Node::Outgoing& o : node.take_outgoing()) {
       if (!looks_like_batch(o.message.frame)) {
         const auto decoded = decode(o.message.text());
         const auto& m = std::get<ControlMessage>(decoded);
         if (const auto* wish = std::get_if<control::Share>(&m)) wishes.push_back(*wish);
-        if (const auto* error = std::get_if<control::NodeError>(&m)) errors.push_back(error->message);
+        if (const auto* error = std::get_if<control::NodeError>(&m))
+          errors.push_back(error->message);
         continue;
       }
       const BatchType type = std::get<BatchHeader>(peek_header(o.message.frame)).type;
-      if (type == BatchType::kIdle || type == BatchType::kIdleWithCopy) offers.emplace_back(*o.to, type);
+      if (type == BatchType::kIdle || type == BatchType::kIdleWithCopy)
+        offers.emplace_back(*o.to, type);
       if (type == BatchType::kClassRays) ++class_rays;
       std::vector<std::uint32_t> numbers;
       std::vector<RayTask> forwarded;
       std::vector<TileCredit> credits;
       std::vector<Contribution> contributions;
-      if (std::holds_alternative<BatchHeader>(decode_assignment(o.message.frame, limits, numbers))) {
+      if (std::holds_alternative<BatchHeader>(
+              decode_assignment(o.message.frame, limits, numbers))) {
         tiles.emplace_back(*o.to, numbers);
-      } else if (std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, forwarded))) {
+      } else if (std::holds_alternative<BatchHeader>(
+                     decode_rays(o.message.frame, limits, forwarded))) {
         rays.emplace_back(*o.to, forwarded);
       } else if (std::holds_alternative<BatchHeader>(
                      decode_contributions(o.message.frame, limits, credits, contributions))) {
@@ -115,7 +127,9 @@ RayTask ray_in(RegionIndex region) {
 
 }  // namespace
 
-TEST_CASE("a node with much left has its slice copied to a neighbour that is idle, and then gives it tiles") {
+TEST_CASE(
+    "a node with much left has its slice copied to a neighbour that is idle, and then gives it "
+    "tiles") {
   Worker owner(Rank{0});
   const Rank helper = owner.neighbour(1);
   const auto own = tiles_of(Rank{0});
@@ -147,14 +161,17 @@ TEST_CASE("a node with much left has its slice copied to a neighbour that is idl
   CHECK(Sent(owner.node).tiles.empty());
 }
 
-TEST_CASE("who has done as much as a node will have done gets nothing of it, and who has done a little less gets little") {
+TEST_CASE(
+    "who has done as much as a node will have done gets nothing of it, and who has done a little "
+    "less gets little") {
   // What the node does by itself.
   Worker alone(Rank{0});
   alone.assign(tiles_of(Rank{0}));
   alone.work();
   std::uint64_t all = 0;
   for (const Node::Outgoing& o : alone.node.take_outgoing()) {
-    if (looks_like_batch(o.message.frame)) static_cast<void>(decode_offer(o.message.frame, {.nodes = 4}, all));
+    if (looks_like_batch(o.message.frame))
+      static_cast<void>(decode_offer(o.message.frame, {.nodes = 4}, all));
   }
   REQUIRE(all > 0);
   const auto given_to = [&](std::uint64_t offered_after) {
@@ -186,7 +203,8 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
   const Rank first{0}, second = kCube.owner_of(1, 0);
   REQUIRE(own_of(first).size() == kTiles + 8);
   REQUIRE(own_of(second).size() == kTiles - 8);
-  const ModelContents contents = contents_with_own_pixels(model, grid(), share_of(kCube, first), with_own.grid.own_edges);
+  const ModelContents contents =
+      contents_with_own_pixels(model, grid(), share_of(kCube, first), with_own.grid.own_edges);
   NodeAtWork node(kCube, first, with_own, encode_model(extract(model, contents)));
   node.begin();
   node.assign(own_of(first));
@@ -212,7 +230,8 @@ TEST_CASE("an offer that comes before the picture begins here is not forgotten")
   CHECK(sent.wishes.front() == control::Share{1, 0, helper.value});
 }
 
-TEST_CASE("an idle node says so once, and again with a copy; then it traces its neighbour's tiles") {
+TEST_CASE(
+    "an idle node says so once, and again with a copy; then it traces its neighbour's tiles") {
   Worker helper(Rank{0});
   const Rank owner = helper.neighbour(0);
   helper.assign(tiles_of(Rank{0}));
@@ -251,12 +270,14 @@ TEST_CASE("an idle node gets rays of a neighbour's regions and traces them there
   SECTION("with a copy") {
     helper.tell(control::Copy{1, 0, owner.value}, slice_of(owner));
     helper.work();
-    helper.node.on_neighbour(encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
+    helper.node.on_neighbour(
+        encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
     CHECK(helper.work() == 1);
     CHECK(Sent(helper.node).errors.empty());
   }
   SECTION("not without") {
-    helper.node.on_neighbour(encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
+    helper.node.on_neighbour(
+        encode_rays(helper.stamp_of(owner), std::vector{ray_in(region_of(owner))}));
     CHECK(helper.work() == 0);
     CHECK(Sent(helper.node).errors.size() == 1);
   }
@@ -266,7 +287,8 @@ TEST_CASE("rays for another neighbour are sent on, others refused") {
   Worker between(Rank{0});
   const Rank from = between.neighbour(0), to = between.neighbour(1);
   SECTION("a neighbour's") {
-    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}));
+    between.node.on_neighbour(
+        encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}));
     CHECK(between.work() == 0);
     const Sent sent(between.node);
     REQUIRE(sent.rays.size() == 1);
@@ -276,7 +298,8 @@ TEST_CASE("rays for another neighbour are sent on, others refused") {
   }
   SECTION("another node's") {
     const Rank far = kCube.neighbour(from, 1);
-    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(far))}));
+    between.node.on_neighbour(
+        encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(far))}));
     CHECK(Sent(between.node).errors.size() == 1);
   }
 }
@@ -288,7 +311,8 @@ TEST_CASE("a full node keeps rays between its neighbours until its outboxes have
   Worker between(Rank{0}, true, small);
   const Rank from = between.neighbour(0), to = between.neighbour(1);
   const auto receive = [&](BatchType type) {
-    between.node.on_neighbour(encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}, type));
+    between.node.on_neighbour(
+        encode_rays(between.stamp_of(from), std::vector{ray_in(region_of(to))}, type));
     CHECK(between.work() == 0);
     return Sent(between.node);
   };

@@ -1,4 +1,5 @@
-// What a node sends home: light summed per pixel, credit per tile, nothing lost, whatever comes in which order.
+// What a node sends home: light summed per pixel, credit per tile, nothing lost, whatever comes in
+// which order.
 #include "node/merge_buffer.hpp"
 
 #include <catch2/catch.hpp>
@@ -59,7 +60,8 @@ TEST_CASE("what is merged sums up to what came in, through many fillings") {
     Totals came, sent;
     for (int step = 0; step < 40; ++step) {
       std::vector<PixelReturn> returns;
-      for (std::size_t i = random() % 3000; i > 0; --i) returns.push_back(some_return(random, pixels));
+      for (std::size_t i = random() % 3000; i > 0; --i)
+        returns.push_back(some_return(random, pixels));
       for (const PixelReturn& r : returns) came.add(r);
       feed(buffer, returns, sent);
     }
@@ -74,7 +76,9 @@ TEST_CASE("a buffer takes its room when the first light comes, whichever way, an
   r.merged = 1;
   r.light = {1, 2, 3};
   r.credit.add_power(0);
-  const auto room = [](const MergeBuffer& buffer) { return buffer.gathered().contributions.capacity(); };
+  const auto room = [](const MergeBuffer& buffer) {
+    return buffer.gathered().contributions.capacity();
+  };
   MergeBuffer by_pixels, by_tile, gathered;
   gathered.expect_others(true);
   for (const MergeBuffer* buffer : {&by_pixels, &by_tile, &gathered}) CHECK(room(*buffer) == 0);
@@ -125,7 +129,8 @@ TEST_CASE("what children have gathered is added to what is here, exactly") {
     };
     for (int step = 0; step < 60; ++step) {
       std::vector<PixelReturn> returns;
-      for (std::size_t i = random() % 3000; i > 0; --i) returns.push_back(some_return(random, pixels));
+      for (std::size_t i = random() % 3000; i > 0; --i)
+        returns.push_back(some_return(random, pixels));
       for (const PixelReturn& r : returns) came.add(r);
       if (step % 4 == 3) {
         feed(parent, returns, sent);
@@ -160,7 +165,8 @@ TEST_CASE("gathered light that doesn't fit is left, and what is here stays as it
   CHECK(buffer.is_empty());
 }
 
-TEST_CASE("a tile's light comes with exactly its credit, also when the buffer fills within the tile") {
+TEST_CASE(
+    "a tile's light comes with exactly its credit, also when the buffer fills within the tile") {
   std::mt19937_64 random(2);
   MergeBuffer buffer;
   Totals came, sent;

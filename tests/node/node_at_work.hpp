@@ -1,4 +1,5 @@
-// A node's brain and the messages that it would get from the frontal and from neighbours that aren't there.
+// A node's brain and the messages that it would get from the frontal and from neighbours that
+// aren't there.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace graycube::testing {
 /// Of every node.
 inline constexpr std::uint32_t kIncarnation = 7;
 
-/// What the frontal says of a job whose macro-regions have these boundaries: square tiles, a window that holds them all,
-/// and no lack of credit.
+/// What the frontal says of a job whose macro-regions have these boundaries: square tiles, a window
+/// that holds them all, and no lack of credit.
 inline control::Load load_of(control::GridLayout grid) {
   control::Load load;
   load.job = 1;
@@ -29,11 +30,16 @@ class NodeAtWork {
  public:
   /// The node of that rank, with all its neighbours there and ready to begin the job.
   NodeAtWork(const Hypercube& cube, Rank rank, const control::Load& load, const Bytes& slice)
-      : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}), cube_(cube), rank_(rank), sent_(cube.nodes(), 0) {
-    tell(control::Welcome{cube.nodes(), "test", std::vector<std::string>(cube.nodes(), "ipc://there"), 1000});
+      : node({rank, kIncarnation, 1, "ipc://here", 1, "test"}),
+        cube_(cube),
+        rank_(rank),
+        sent_(cube.nodes(), 0) {
+    tell(control::Welcome{cube.nodes(), "test",
+                          std::vector<std::string>(cube.nodes(), "ipc://there"), 1000});
     for (std::uint32_t bit = 0; bit < cube.dimension(); ++bit) {
       const Rank peer = cube.neighbour(rank, bit);
-      node.on_neighbour(encode_signal({0, 0, peer.value, kIncarnation, 0}, BatchType::kGreetingAck));
+      node.on_neighbour(
+          encode_signal({0, 0, peer.value, kIncarnation, 0}, BatchType::kGreetingAck));
     }
     tell(load, slice);
     work();
@@ -47,13 +53,16 @@ class NodeAtWork {
 
   Rank neighbour(std::uint32_t bit) const { return cube_.neighbour(rank_, bit); }
   /// For that neighbour's next batch.
-  BatchStamp stamp_of(Rank sender) { return {1, 0, sender.value, kIncarnation, sent_[sender.value]++}; }
+  BatchStamp stamp_of(Rank sender) {
+    return {1, 0, sender.value, kIncarnation, sent_[sender.value]++};
+  }
 
   void tell(const ControlMessage& message, SharedBytes payload = {}) {
     node.on_frontal(Message::of_text(encode(message), std::move(payload)));
   }
   void assign(const std::vector<std::uint32_t>& tiles) {
-    node.on_frontal(Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, assigned_++}, tiles)));
+    node.on_frontal(
+        Message::of_batch(encode_assignment({1, 0, kFrontalRank, 0, assigned_++}, tiles)));
   }
   NodeAtWork(NodeAtWork&&) = default;
 

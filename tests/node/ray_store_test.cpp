@@ -54,7 +54,9 @@ TEST_CASE("the store gives the deepest rays, kind by kind, and says across which
     REQUIRE(credited == expected);
     if (taken.empty()) continue;
     // A generation's shadow rays come before its others, and those before the generation above.
-    const auto rank = [](const RayTask& r) { return 2 * r.depth + (r.kind == RayKind::kShadow ? 1 : 0); };
+    const auto rank = [](const RayTask& r) {
+      return 2 * r.depth + (r.kind == RayKind::kShadow ? 1 : 0);
+    };
     REQUIRE(std::is_sorted(taken.begin(), taken.end(),
                            [&](const RayTask& a, const RayTask& b) { return rank(a) > rank(b); }));
     for (const auto& [n, r] : held) REQUIRE(rank(r) <= rank(taken.back()));
@@ -75,7 +77,8 @@ TEST_CASE("as in 1987 the store gives rays as they came") {
                                      ray(2, RayKind::kRefraction, 2)};
   store.add(rays, 3);
   store.add({rays.data(), 1}, 1);
-  const auto taken = store.take(9, [&](std::uint32_t link, std::size_t count) { links.insert(links.end(), count, link); });
+  const auto taken = store.take(
+      9, [&](std::uint32_t link, std::size_t count) { links.insert(links.end(), count, link); });
   REQUIRE(taken.size() == 4);
   CHECK(std::equal(rays.begin(), rays.end(), taken.begin()));
   CHECK(links == std::vector<std::uint32_t>{3, 3, 3, 1});

@@ -1,4 +1,5 @@
-// Rays that begin where their node finished another, links away from their own macro-region's: they are sent there.
+// Rays that begin where their node finished another, links away from their own macro-region's: they
+// are sent there.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -19,15 +20,19 @@ constexpr std::uint32_t kSide = 64;
 const Hypercube kCube = *Hypercube::of_size(8);
 const Vec3 kFirstMirror{-6, 2, 5}, kSecondMirror{2, 2, 5}, kBall{2, 2, 9};
 
-/// A cube of side 2 about a point, from which all is cut away that lies beyond the point in a direction.
+/// A cube of side 2 about a point, from which all is cut away that lies beyond the point in a
+/// direction.
 CsgNode mirror_at(const Vec3& p, const Vec3& towards) {
   const HalfSpaceShape cut{towards, dot(towards, p)};
-  return operation(Operation::kIntersection, {node_of(BoxShape{p - Vec3{1, 1, 1}, p + Vec3{1, 1, 1}}), node_of(cut)});
+  return operation(Operation::kIntersection,
+                   {node_of(BoxShape{p - Vec3{1, 1, 1}, p + Vec3{1, 1, 1}}), node_of(cut)});
 }
 
-/// Rays along z meet the first mirror, go along x to the second, two columns further, and from there along z to a ball.
+/// Rays along z meet the first mirror, go along x to the second, two columns further, and from
+/// there along z to a ball.
 Model mirrors() {
-  Scene scene = scene_of({mirror_at(kFirstMirror, {1, 0, -1}), mirror_at(kSecondMirror, {-1, 0, 1}), node_of(SphereShape{kBall, 1})});
+  Scene scene = scene_of({mirror_at(kFirstMirror, {1, 0, -1}), mirror_at(kSecondMirror, {-1, 0, 1}),
+                          node_of(SphereShape{kBall, 1})});
   for (NamedMaterial& m : scene.materials) {
     m.material.reflect = 0.5;
     m.material.transmit = 0;
@@ -79,11 +84,18 @@ struct Batch {
 };
 
 std::vector<Batch> rays_of(Node& node) {
-  const BatchLimits limits{.pixel_count = kSide * kSide, .tile_count = 16, .max_depth = 2, .lights = 1, .columns = 4, .rows = 2, .nodes = 8};
+  const BatchLimits limits{.pixel_count = kSide * kSide,
+                           .tile_count = 16,
+                           .max_depth = 2,
+                           .lights = 1,
+                           .columns = 4,
+                           .rows = 2,
+                           .nodes = 8};
   std::vector<Batch> batches;
   for (const Node::Outgoing& o : node.take_outgoing()) {
     std::vector<RayTask> rays;
-    if (!o.to || !std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, rays))) continue;
+    if (!o.to || !std::holds_alternative<BatchHeader>(decode_rays(o.message.frame, limits, rays)))
+      continue;
     batches.push_back({*o.to, std::move(rays)});
   }
   return batches;
@@ -138,7 +150,9 @@ TEST_CASE("a ray that is finished sends nothing, however far away") {
   CHECK(rays_of(at_first.node).empty());
 }
 
-TEST_CASE("rays that are on their way to another node are refused where none are finished beyond their regions") {
+TEST_CASE(
+    "rays that are on their way to another node are refused where none are finished beyond their "
+    "regions") {
   const Rank first = owner_at(kFirstMirror), last = owner_at(kSecondMirror);
   const Rank between = kCube.neighbour(first, kCube.first_bit(first, last));
   NodeAtWork at_between = node_at(between, encode_model(mirrors()));

@@ -28,7 +28,8 @@ control::Load load(SumsMode sums) {
 
 /// One of two nodes, each of which has a tile, when a picture has begun.
 struct Summer : NodeAtWork {
-  Summer(Rank rank, SumsMode sums) : NodeAtWork(*Hypercube::of_size(2), rank, load(sums), encode_model(one_ball())) {
+  Summer(Rank rank, SumsMode sums)
+      : NodeAtWork(*Hypercube::of_size(2), rank, load(sums), encode_model(one_ball())) {
     begin();
   }
   /// Light that the other node sends, with half a ray's credit of the other tile.
@@ -36,7 +37,8 @@ struct Summer : NodeAtWork {
     TileCredit credit{1, {}};
     credit.credit.add_power(1);
     const Contribution c{pixel, light};
-    node.on_neighbour(encode_contributions(stamp_of(neighbour(0)), std::span(&credit, 1), std::span(&c, 1)));
+    node.on_neighbour(
+        encode_contributions(stamp_of(neighbour(0)), std::span(&credit, 1), std::span(&c, 1)));
   }
 };
 
@@ -79,7 +81,8 @@ bool is_refused(Node& node) {
 
 }  // namespace
 
-TEST_CASE("a node that has nothing to do sends its child's light on at once, all of it as one batch") {
+TEST_CASE(
+    "a node that has nothing to do sends its child's light on at once, all of it as one batch") {
   Summer root(Rank{0}, SumsMode::kTree);
   root.receive(9, {1, 2, 3});
   root.receive(9, {10, 20, 30});
@@ -117,7 +120,8 @@ TEST_CASE("a node sends its own light to its parent, in the order of the link's 
   CHECK(sent.of(15) == FixedRgb{1ll << 32, 1ll << 31, 1ll << 30});
 }
 
-TEST_CASE("contributions from anybody but a child are an error, and so are all where sums are direct") {
+TEST_CASE(
+    "contributions from anybody but a child are an error, and so are all where sums are direct") {
   Summer leaf(Rank{1}, SumsMode::kTree);
   leaf.receive(9, {1, 2, 3});
   CHECK(is_refused(leaf.node));

@@ -65,7 +65,8 @@ std::vector<Contribution> some_lights(Random& random, std::size_t count) {
   while (all.size() < count) {
     Contribution c = some_light(random);
     const auto bits = random.below(63);
-    for (std::int64_t* v : {&c.light.r, &c.light.g, &c.light.b}) *v &= (std::int64_t{1} << bits) - 1;
+    for (std::int64_t* v : {&c.light.r, &c.light.g, &c.light.b})
+      *v &= (std::int64_t{1} << bits) - 1;
     if (!all.empty() && !random.chance(3)) c.pixel = (all.back().pixel + 1) % 4096;
     all.push_back(c);
   }
@@ -197,10 +198,12 @@ TEST_CASE("contributions and their credit come back as sent") {
 }
 
 TEST_CASE("light lies in runs as FORMAT.md gives them") {
-  const std::vector<Contribution> light{{0x0102, {1, 0x0304, 0}}, {0x0103, {5, 6, 7}}, {0x0200, {0, 0, 0}}};
+  const std::vector<Contribution> light{
+      {0x0102, {1, 0x0304, 0}}, {0x0103, {5, 6, 7}}, {0x0200, {0, 0, 0}}};
   const Bytes bytes = encode_contributions(kStamp, {}, light);
-  const auto expected = std::to_array<std::uint8_t>({0x02, 0x01, 0, 0, 2, 2, 1, 0, 4, 3, 0, 0, 5, 0, 6, 0, 7, 0,
-                                                     0x00, 0x02, 0, 0, 1, 1, 0, 0, 0});
+  const auto expected =
+      std::to_array<std::uint8_t>({0x02, 0x01, 0, 0, 2,    2,    1, 0, 4, 3, 0, 0, 5, 0,
+                                   6,    0,    7, 0, 0x00, 0x02, 0, 0, 1, 1, 0, 0, 0});
   REQUIRE(bytes.size() == 44 + expected.size());
   CHECK(load_little<std::uint32_t>(bytes.data() + 32) == 3);
   CHECK(load_little<std::uint32_t>(bytes.data() + 36) == expected.size());
@@ -250,8 +253,8 @@ TEST_CASE("a run that could have been longer is refused, but for the longest") {
   light[1].pixel = 900;
   light.resize(2);
   const Bytes apart = encode_contributions(kStamp, {}, light);
-  CHECK(error_of(decode_contributions(with(apart, 44 + 6 + 3, std::uint32_t{1}), kLimits, credits, again)) ==
-        BatchError::kBadValue);
+  CHECK(error_of(decode_contributions(with(apart, 44 + 6 + 3, std::uint32_t{1}), kLimits, credits,
+                                      again)) == BatchError::kBadValue);
 }
 
 TEST_CASE("grants, tokens, assignments and signals come back as sent") {
@@ -264,9 +267,11 @@ TEST_CASE("grants, tokens, assignments and signals come back as sent") {
     REQUIRE(std::holds_alternative<BatchHeader>(result));
     CHECK(std::get<BatchHeader>(result).type == type);
     CHECK(work == 1ull << 50);
-    CHECK(decode_signal(encode_offer(kStamp, type, 1), kLimits) == BatchResult(BatchError::kBadType));
+    CHECK(decode_signal(encode_offer(kStamp, type, 1), kLimits) ==
+          BatchResult(BatchError::kBadType));
   }
-  CHECK(std::holds_alternative<BatchError>(decode_offer(encode_signal(kStamp, BatchType::kGreeting), kLimits, granted)));
+  CHECK(std::holds_alternative<BatchError>(
+      decode_offer(encode_signal(kStamp, BatchType::kGreeting), kLimits, granted)));
   TokenRecord token;
   const TokenRecord sent{true, -5'000'000'000, 17, 300, 1ull << 33};
   REQUIRE(decode_token(encode_token(kStamp, sent), kLimits, token).index() == 0);
@@ -425,10 +430,13 @@ TEST_CASE("grants, tokens and assignments with values out of range are refused")
   BatchLimits few_hops = kLimits;
   few_hops.max_hops = 12;
   std::vector<std::uint16_t> classes;
-  CHECK(error_of(decode_class_credit(encode_class_credit(kStamp, std::vector<std::uint16_t>{12, 13}), few_hops,
-                                     classes)) == BatchError::kBadValue);
+  CHECK(error_of(decode_class_credit(
+            encode_class_credit(kStamp, std::vector<std::uint16_t>{12, 13}), few_hops, classes)) ==
+        BatchError::kBadValue);
   CHECK(classes.empty());
-  CHECK(decode_class_credit(encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 12}), few_hops, classes).index() == 0);
+  CHECK(decode_class_credit(encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 12}),
+                            few_hops, classes)
+            .index() == 0);
   CHECK(classes == std::vector<std::uint16_t>{0, 12});
 }
 

@@ -25,7 +25,8 @@ WideNode empty_node() {
   return node;
 }
 
-void put_box(WideNode& node, std::size_t place, float at, std::uint32_t child = WideNode::kItemFlag) {
+void put_box(WideNode& node, std::size_t place, float at,
+             std::uint32_t child = WideNode::kItemFlag) {
   for (std::size_t a = 0; a < 3; ++a) {
     node.planes[0][a][place] = at + static_cast<float>(a);
     node.planes[1][a][place] = at + static_cast<float>(a) + 0.5f;
@@ -39,7 +40,8 @@ std::vector<WideNode> chain(std::uint32_t count) {
   for (std::uint32_t n = 0; n < count; ++n) {
     const bool is_last = n + 1 == count;
     for (std::uint32_t place = 0; place < 1 + n % WideNode::kWidth; ++place) {
-      put_box(nodes[n], place, static_cast<float>(place), place == 0 && !is_last ? n + 1 : WideNode::kItemFlag);
+      put_box(nodes[n], place, static_cast<float>(place),
+              place == 0 && !is_last ? n + 1 : WideNode::kItemFlag);
     }
   }
   return nodes;
@@ -47,9 +49,13 @@ std::vector<WideNode> chain(std::uint32_t count) {
 
 std::optional<ForeignBounds> taken(std::span<const std::byte> bytes) { return take_bounds(bytes); }
 
-std::vector<std::byte> encoded(std::vector<WideNode> nodes) { return encode_bounds(ForeignBounds(std::move(nodes))); }
+std::vector<std::byte> encoded(std::vector<WideNode> nodes) {
+  return encode_bounds(ForeignBounds(std::move(nodes)));
+}
 
-bool are_same(const WideNode& a, const WideNode& b) { return a.planes == b.planes && a.child == b.child; }
+bool are_same(const WideNode& a, const WideNode& b) {
+  return a.planes == b.planes && a.child == b.child;
+}
 
 }  // namespace
 
@@ -80,7 +86,8 @@ TEST_CASE("foreign bounds that can't be walked are refused") {
   }
   // Magic; more nodes than there are bytes; a node of no branches, and of nine.
   constexpr std::size_t kFirstNode = 8;
-  for (const auto& [at, value] : {std::pair{std::size_t{0}, 0}, {std::size_t{7}, 1}, {kFirstNode, 0}, {kFirstNode, 9}}) {
+  for (const auto& [at, value] :
+       {std::pair{std::size_t{0}, 0}, {std::size_t{7}, 1}, {kFirstNode, 0}, {kFirstNode, 9}}) {
     auto broken = good;
     broken[at] = std::byte(value);
     CHECK_FALSE(taken(broken));
@@ -117,7 +124,8 @@ TEST_CASE("foreign bounds with random bytes changed are refused, or can be walke
     INFO("seed " << seed);
     Random random(seed);
     auto bytes = good;
-    for (std::uint64_t i = 0; i <= random.below(3); ++i) bytes[random.below(bytes.size())] = std::byte(random.below(256));
+    for (std::uint64_t i = 0; i <= random.below(3); ++i)
+      bytes[random.below(bytes.size())] = std::byte(random.below(256));
     const auto received = taken(bytes);
     ++(received ? read : refused);
     if (!received) continue;

@@ -1,8 +1,8 @@
 #include "proto/control.hpp"
 
 #include <catch2/catch.hpp>
-#include <stdexcept>
 #include <limits>
+#include <stdexcept>
 
 #include "fuzz/proto_fuzz.hpp"
 #include "proto/control_examples.hpp"

@@ -21,8 +21,10 @@ LightHorizons some_horizons() {
   depths.unit = 0.25;
   depths.clearance = 1e-3;
   depths.blocks = {0, 77, LightHorizons::kTexels - 1};
-  for (std::size_t i = 0; i < depths.blocks.size() * 3 * 3; ++i) depths.lit.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
-  for (std::size_t i = 0; i < depths.blocks.size() * 6 * 6; ++i) depths.dark.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
+  for (std::size_t i = 0; i < depths.blocks.size() * 3 * 3; ++i)
+    depths.lit.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
+  for (std::size_t i = 0; i < depths.blocks.size() * 6 * 6; ++i)
+    depths.dark.push_back(static_cast<std::uint16_t>(random.below(0x10000)));
   return LightHorizons({map, {}, map}, {{}, {}, depths});
 }
 
@@ -47,7 +49,8 @@ TEST_CASE("bytes that are no horizons are refused") {
   auto bytes = encode_horizons(some_horizons());
   CHECK_FALSE(decode_horizons(bytes, 2));
   CHECK_FALSE(decode_horizons({}, 0));
-  for (const std::size_t size : {std::size_t{5}, std::size_t{12}, bytes.size() / 2, bytes.size() - 1}) {
+  for (const std::size_t size :
+       {std::size_t{5}, std::size_t{12}, bytes.size() / 2, bytes.size() - 1}) {
     CHECK_FALSE(decode_horizons(std::span(bytes).first(size), 3));
   }
   auto longer = bytes;
@@ -59,8 +62,17 @@ TEST_CASE("bytes that are no horizons are refused") {
     CHECK_FALSE(decode_horizons(broken, 3));
   }
   // Split, unit, clearance, the number of blocks, their order.
-  for (const auto& [at, value] : {std::pair{0, 0}, {0, 33}, {0, 4}, {8, 0x80}, {16, 0x80}, {17, 0},
-                                  {17, 2}, {17, 4}, {20, 0x60}, {25, 0}, {32, 1}}) {
+  for (const auto& [at, value] : {std::pair{0, 0},
+                                  {0, 33},
+                                  {0, 4},
+                                  {8, 0x80},
+                                  {16, 0x80},
+                                  {17, 0},
+                                  {17, 2},
+                                  {17, 4},
+                                  {20, 0x60},
+                                  {25, 0},
+                                  {32, 1}}) {
     INFO("byte " << at << " becomes " << value);
     auto broken = bytes;
     REQUIRE(broken[kDepthsAt] == std::byte{3});

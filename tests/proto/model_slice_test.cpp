@@ -32,7 +32,8 @@ Primitive some_primitive(Random& random, const Model& model) {
     p.plane_count =
         static_cast<std::uint32_t>(1 + random.below(model.planes.size() - p.first_plane));
   }
-  if (p.kind == PrimitiveKind::kMesh) p.mesh = static_cast<std::uint32_t>(random.below(model.meshes.size()));
+  if (p.kind == PrimitiveKind::kMesh)
+    p.mesh = static_cast<std::uint32_t>(random.below(model.meshes.size()));
   for (double& v : p.v) v = random.chance(2) ? 0.0 : random.any_finite();
   if (random.chance(2)) {
     for (auto& row : p.to_local.m) {
@@ -48,7 +49,8 @@ Mesh some_mesh(Random& random) {
   TriangleMesh m;
   for (std::uint64_t n = 1 + random.below(5); n > 0; --n) m.points.push_back(random.vec());
   const auto point = [&] { return static_cast<std::uint32_t>(random.below(m.points.size())); };
-  for (std::uint64_t n = 1 + random.below(9); n > 0; --n) m.triangles.push_back({point(), point(), point()});
+  for (std::uint64_t n = 1 + random.below(9); n > 0; --n)
+    m.triangles.push_back({point(), point(), point()});
   return Mesh(std::move(m));
 }
 
@@ -129,8 +131,8 @@ Model some_model(std::uint64_t seed) {
 Model small_model() {
   Model model;
   model.settings.image = {4, 3, 1};
-  model.settings.camera = {Projection::kPerspective, {0, 0, -5}, {0, 0, 0}, {0, 1, 0}, 40, 0,
-                           Handedness::kRight, {0.5, 0.5}, InsideView::kExit};
+  model.settings.camera = {Projection::kPerspective, {0, 0, -5}, {0, 0, 0},        {0, 1, 0}, 40, 0,
+                           Handedness::kRight,       {0.5, 0.5}, InsideView::kExit};
   model.materials.resize(1);
   model.planes = {{{1, 0, 0}, 2}, {{0, 1, 0}, 3}};
   model.meshes.emplace_back(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
@@ -196,8 +198,8 @@ TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives"
   CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 4);
   CHECK(load_little<std::uint32_t>(bytes.data() + 40) == 3);
   CHECK(load_little<double>(bytes.data() + 52 + 16) == -5);
-  // Settings end at 224; a material of 81 bytes, two planes, a mesh of three points, two triangles and a plane, then the
-  // first primitive.
+  // Settings end at 224; a material of 81 bytes, two planes, a mesh of three points, two triangles
+  // and a plane, then the first primitive.
   const std::byte* mesh = bytes.data() + 224 + 81 + 64;
   CHECK(load_little<std::uint32_t>(mesh) == 3);
   CHECK(load_little<std::uint32_t>(mesh + 4) == 2);
@@ -270,17 +272,25 @@ TEST_CASE("a broken model is refused, and the error names the part") {
          m.meshes.clear();
          m.primitives[1].kind = PrimitiveKind::kMesh;
        }},
-      {"mesh 0", "empty", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, 0, 0}}, {}}); }},
-      {"mesh 0", "finite", [](Model& m) { m.meshes[0] = Mesh(TriangleMesh{{{0, Aabb::kInf, 0}}, {{0, 0, 0}}}); }},
+      {"mesh 0", "empty",
+       [](Model& m) {
+         m.meshes[0] = Mesh(TriangleMesh{{{0, 0, 0}}, {}});
+       }},
+      {"mesh 0", "finite",
+       [](Model& m) {
+         m.meshes[0] = Mesh(TriangleMesh{{{0, Aabb::kInf, 0}}, {{0, 0, 0}}});
+       }},
       {"mesh 0", "planes",
        [](Model& m) {
          const TriangleMesh& old = m.meshes[0].surface();
-         m.meshes[0] = Mesh(TriangleMesh{old.points, old.triangles, std::vector<Plane>(3, old.planes[0]), {0, 1}});
+         m.meshes[0] = Mesh(
+             TriangleMesh{old.points, old.triangles, std::vector<Plane>(3, old.planes[0]), {0, 1}});
        }},
       {"mesh 0", "finite",
        [](Model& m) {
          const TriangleMesh& old = m.meshes[0].surface();
-         m.meshes[0] = Mesh(TriangleMesh{old.points, old.triangles, {{{0, 0, 1}, std::nan("")}}, {0, 0}});
+         m.meshes[0] =
+             Mesh(TriangleMesh{old.points, old.triangles, {{{0, 0, 1}, std::nan("")}}, {0, 0}});
        }},
       {"node 1", "primitive", [](Model& m) { m.nodes[1].primitive = 2; }},
       {"node 2", "children", [](Model& m) { m.nodes[2].size = 1; }},

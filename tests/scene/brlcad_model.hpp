@@ -22,11 +22,12 @@ inline std::string v4_sphere(const std::string& name, double x, double y, double
 /// A box: the first corner, then the others relative to it.
 inline std::string v4_box(const std::string& name, double x, double y, double z, double a, double b,
                           double c) {
-  return v4_solid(20, name, {x, y, z, a, 0, 0, a, b, 0, 0, b, 0, 0, 0, c, a, 0, c, a, b, c, 0, b, c});
+  return v4_solid(20, name,
+                  {x, y, z, a, 0, 0, a, b, 0, 0, b, 0, 0, 0, c, a, 0, c, a, b, c, 0, b, c});
 }
 inline std::string v4_member(char relation, const std::string& name,
-                             const std::array<double, 16>& m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,
-                                                                1}) {
+                             const std::array<double, 16>& m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
+                                                                0, 0, 0, 1}) {
   std::string line = std::string("M ") + relation + " " + name;
   for (const double v : m) line += " " + std::to_string(v);
   return line + " 0\n";
@@ -34,7 +35,9 @@ inline std::string v4_member(char relation, const std::string& name,
 inline std::string v4_region(const std::string& name, int air = 0) {
   return "C Y " + name + " 1000 " + std::to_string(air) + " 1 0 1 100 0 0 0 0 0 0 0\n";
 }
-inline std::string v4_group(const std::string& name) { return "C N " + name + " 0 0 1 0 0 0 0 0 0 0 0 0 0\n"; }
+inline std::string v4_group(const std::string& name) {
+  return "C N " + name + " 0 0 1 0 0 0 0 0 0 0 0 0 0\n";
+}
 inline const std::string kV4Head = "I 0 v4\nA model\n";
 
 /// Version 5, binary.
@@ -45,17 +48,19 @@ class V5Binary {
   void solid(const std::string& name, int minor, const std::vector<double>& numbers) {
     object(name, minor, doubles(numbers), {});
   }
-  /// Operations in postfix order: 1 a leaf, 2 union, 3 intersection, 4 difference; none: all united.
-  void comb(const std::string& name, const std::vector<std::string>& members, const std::string& postfix,
-            const std::vector<std::array<double, 16>>& matrices = {}, const std::vector<int>& matrix_of = {},
-            const std::string& attributes = {}) {
+  /// Operations in postfix order: 1 a leaf, 2 union, 3 intersection, 4 difference; none: all
+  /// united.
+  void comb(const std::string& name, const std::vector<std::string>& members,
+            const std::string& postfix, const std::vector<std::array<double, 16>>& matrices = {},
+            const std::vector<int>& matrix_of = {}, const std::string& attributes = {}) {
     std::string body(1, '\0');
     std::string leaves;
     for (std::size_t i = 0; i < members.size(); ++i) {
       leaves += members[i] + '\0';
       leaves += static_cast<char>(i < matrix_of.size() ? matrix_of[i] : -1);
     }
-    for (const std::size_t n : {matrices.size(), members.size(), leaves.size(), postfix.size(), members.size()}) {
+    for (const std::size_t n :
+         {matrices.size(), members.size(), leaves.size(), postfix.size(), members.size()}) {
       body += static_cast<char>(n);
     }
     for (const auto& m : matrices) body += doubles({m.begin(), m.end()});
@@ -75,15 +80,17 @@ class V5Binary {
     for (const double v : numbers) text += big(std::bit_cast<std::uint64_t>(v), 8);
     return text;
   }
-  void object(const std::string& name, int minor, const std::string& body, const std::string& attributes,
-              unsigned compression = 0) {
+  void object(const std::string& name, int minor, const std::string& body,
+              const std::string& attributes, unsigned compression = 0) {
     object(1, name, minor, body, attributes, compression);
   }
-  void attributes_only(const std::string& name, const std::string& attributes) { object(2, name, 0, {}, attributes, 0); }
+  void attributes_only(const std::string& name, const std::string& attributes) {
+    object(2, name, 0, {}, attributes, 0);
+  }
 
  private:
-  void object(int major, const std::string& name, int minor, const std::string& body, const std::string& attributes,
-              unsigned compression) {
+  void object(int major, const std::string& name, int minor, const std::string& body,
+              const std::string& attributes, unsigned compression) {
     unsigned width = 1u << width_code;
     unsigned code = width_code;
     if (width == 1 && body.size() + attributes.size() > 200) width = 2, code = 1;

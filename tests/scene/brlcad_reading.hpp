@@ -38,6 +38,8 @@ inline std::string error_of(const std::string& bytes, std::vector<std::string> o
   return result.errors.front().where + ": " + result.errors.front().text;
 }
 
-inline bool holds(const Scene& scene, double x, double y, double z) { return any_object_holds(scene, {x, y, z}); }
+inline bool holds(const Scene& scene, double x, double y, double z) {
+  return any_object_holds(scene, {x, y, z});
+}
 
 }  // namespace graycube::testing

@@ -12,7 +12,8 @@ using namespace graycube::testing;
 
 TEST_CASE("exclusive or and complement are what they say") {
   const std::string solids =
-      "title t\nput a ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\nput b ell V {2 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n";
+      "title t\nput a ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\nput b ell V {2 0 0} A {2 0 0} B "
+      "{0 2 0} C {0 0 2}\n";
   const Scene either = scene_of(solids + "put r comb region yes tree {^ {l a} {l b}}\n", {"r"});
   CHECK(holds(either, -1, 0, 0));
   CHECK(holds(either, 3, 0, 0));
@@ -36,7 +37,8 @@ TEST_CASE("trees of 100 000 members are read, however they lean") {
     const std::string quoted = repeated("{" + op + " ") + "{l first}" + repeated(" l\\ s}");
     for (const std::string& text : {left, right, quoted}) {
       BrlcadReport report;
-      const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree " + text + "\n", report);
+      const BrlcadDatabase database =
+          read_brlcad_database("put r comb region yes tree " + text + "\n", report);
       REQUIRE_FALSE(report.has_errors());
       const auto& tree = std::get<BrlcadComb>(database.find("r")->value).tree;
       REQUIRE(tree);
@@ -47,18 +49,21 @@ TEST_CASE("trees of 100 000 members are read, however they lean") {
   }
   const std::string minus = repeated("{- ") + "{l first}" + repeated(" {l s}}");
   BrlcadReport report;
-  const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree " + minus + "\n", report);
+  const BrlcadDatabase database =
+      read_brlcad_database("put r comb region yes tree " + minus + "\n", report);
   REQUIRE_FALSE(report.has_errors());
   CHECK(std::get<BrlcadComb>(database.find("r")->value).tree->children.size() == kMembers);
   // And so is the scene that they make.
   const std::string sphere = "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n";
-  const Scene scene = scene_of(sphere + "put r comb region yes tree " + repeated("{u {l s} ") + "{l s}" + repeated("}") + "\n");
+  const Scene scene = scene_of(sphere + "put r comb region yes tree " + repeated("{u {l s} ") +
+                               "{l s}" + repeated("}") + "\n");
   REQUIRE(scene.objects.size() == 1);
   CHECK(std::get<OperationNode>(scene.objects[0].csg.value).children.size() == kMembers);
 }
 
 TEST_CASE("members keep their order in chains that lean both ways") {
-  // A random binary tree of unions over m0, m1, …; its chain is flat, so the members are all that's left.
+  // A random binary tree of unions over m0, m1, …; its chain is flat, so the members are all that's
+  // left.
   std::mt19937 random(7);
   const auto chain = [&](const auto& self, int first, int count) -> std::string {
     if (count == 1) return "{l m" + std::to_string(first) + "}";
@@ -74,19 +79,24 @@ TEST_CASE("members keep their order in chains that lean both ways") {
     const auto& tree = std::get<BrlcadComb>(database.find("r")->value).tree;
     REQUIRE(tree);
     REQUIRE(tree->children.size() == 200);
-    for (std::size_t i = 0; i < 200; ++i) REQUIRE(tree->children[i].name == "m" + std::to_string(i));
+    for (std::size_t i = 0; i < 200; ++i)
+      REQUIRE(tree->children[i].name == "m" + std::to_string(i));
   }
 }
 
-TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is no tree is refused") {
+TEST_CASE(
+    "a tree's words may hold braces, quotes and backslashes, and what is no tree is refused") {
   const auto read = [](const std::string& tree) {
     BrlcadReport report;
-    const BrlcadDatabase database = read_brlcad_database("put r comb region yes tree {" + tree + "}\n", report);
+    const BrlcadDatabase database =
+        read_brlcad_database("put r comb region yes tree {" + tree + "}\n", report);
     const auto errors = report.take_errors();
-    return std::make_pair(std::get<BrlcadComb>(database.find("r")->value).tree,
-                          errors.empty() ? std::string() : errors.front().where + ": " + errors.front().text);
+    return std::make_pair(
+        std::get<BrlcadComb>(database.find("r")->value).tree,
+        errors.empty() ? std::string() : errors.front().where + ": " + errors.front().text);
   };
-  const auto [tree, problem] = read(" - {l {a {b} c}}\n { ^ {l d{e}f} { ! {l \"g h\" {1 0 0 4 0 1 0 0 0 0 1 0 0 0 0 1} } } } ");
+  const auto [tree, problem] = read(
+      " - {l {a {b} c}}\n { ^ {l d{e}f} { ! {l \"g h\" {1 0 0 4 0 1 0 0 0 0 1 0 0 0 0 1} } } } ");
   CHECK(problem.empty());
   REQUIRE(tree);
   CHECK(tree->op == BrlcadTree::Op::kDifference);
@@ -100,8 +110,9 @@ TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is n
   CHECK(complement.children[0].matrix->m[0][3] == 4);
   CHECK(read("l i\\ j").first->name == "i j");
 
-  for (const char* text : {"- {u {l a} {! {l b}}} {l {c d}}", R"(- "u {l a} {! {l b}}" "l {c d}")",
-                           R"(- {u "l a" !\ {l\ b}} l\ {c\ d})", R"(- "u \"l a\" \"! l\\\\ b\"" {l "c d"})"}) {
+  for (const char* text :
+       {"- {u {l a} {! {l b}}} {l {c d}}", R"(- "u {l a} {! {l b}}" "l {c d}")",
+        R"(- {u "l a" !\ {l\ b}} l\ {c\ d})", R"(- "u \"l a\" \"! l\\\\ b\"" {l "c d"})"}) {
     INFO(text);
     const auto [quoted, why] = read(text);
     CHECK(why.empty());
@@ -114,14 +125,16 @@ TEST_CASE("a tree's words may hold braces, quotes and backslashes, and what is n
     CHECK(quoted->children[0].children[1].children[0].name == "b");
   }
 
-  for (const char* text : {"u {l a}", "u {l a} {l b} {l c}", "! {l a} {l b}", "x {l a} {l b}", "l", "l a {1 0} b", "u l a",
-                           "{l a}", "{}", "u {l a} {}", "u {l a} {l b} c", "u \"l a\" \"x\"", "u \"l a\"", "! \"l a\" \"l b\""}) {
+  for (const char* text : {"u {l a}", "u {l a} {l b} {l c}", "! {l a} {l b}", "x {l a} {l b}", "l",
+                           "l a {1 0} b", "u l a", "{l a}", "{}", "u {l a} {}", "u {l a} {l b} c",
+                           "u \"l a\" \"x\"", "u \"l a\"", "! \"l a\" \"l b\""}) {
     INFO(text);
     const auto [nothing, why] = read(text);
     CHECK_FALSE(nothing);
     CHECK(why.find("line 1: ") == 0);
   }
-  CHECK(read("l a {1 2 3}").second == "line 1: r: the matrix of its member a is no invertible affine map");
+  CHECK(read("l a {1 2 3}").second ==
+        "line 1: r: the matrix of its member a is no invertible affine map");
   std::string deep = "l s";
   for (std::size_t i = 0; i <= kMaxBrlcadTreeDepth; ++i) deep = "- {l s} {" + deep + "}";
   CHECK(read(deep).second.find("deeper than 100 levels") != std::string::npos);

@@ -12,7 +12,9 @@ namespace {
 
 using namespace std::string_literals;
 
-std::string cbor_of_text(const std::string& json) { return cbor_of(JsonTree(std::string_view(json))); }
+std::string cbor_of_text(const std::string& json) {
+  return cbor_of(JsonTree(std::string_view(json)));
+}
 
 std::string refusal(const std::string& behind_magic) {
   const std::string bytes = std::string(kCborMagic) + behind_magic;
@@ -23,7 +25,8 @@ std::string refusal(const std::string& behind_magic) {
 TEST_CASE("a scene is the same from CBOR as from JSON") {
   const auto seed = GENERATE(range(1, 60));
   INFO("seed " << seed);
-  const std::string json = write_scene_text(testing::RandomScene(static_cast<std::uint64_t>(seed)).make());
+  const std::string json =
+      write_scene_text(testing::RandomScene(static_cast<std::uint64_t>(seed)).make());
   const std::string cbor = cbor_of_text(json);
   CHECK(cbor.size() < json.size());
   check_same_meaning(JsonTree(std::string_view(json)), JsonTree(std::string_view(cbor)));
@@ -96,15 +99,17 @@ TEST_CASE("what JSON doesn't have is refused") {
   CHECK_THAT(refusal("\x9B\x7F\xFF\xFF\xFF\xFF\xFF\xFF\xFF\x01"), Catch::Contains("end"));
   CHECK_THAT(refusal("\x7B\x7F\xFF\xFF\xFF\xFF\xFF\xFF\xFFxx"), Catch::Contains("end"));
   CHECK_THAT(refusal(std::string(2000, '\x81')), Catch::Contains("nest deeper than"));
-  CHECK_THAT(refusal("\x7A\x00\x01\x00\x00"s + std::string(65536, 'a')), Catch::Contains("longer than"));
+  CHECK_THAT(refusal("\x7A\x00\x01\x00\x00"s + std::string(65536, 'a')),
+             Catch::Contains("longer than"));
 }
 
 TEST_CASE("a key twice is an error of the reader's, as in JSON") {
   const std::string twice = "\xD9\xD9\xF7\xA2\x68graycube\x01\x68graycube\x01";
   const auto errors = read_scene_text(twice).errors;
   REQUIRE_FALSE(errors.empty());
-  CHECK(std::any_of(errors.begin(), errors.end(),
-                    [](const SceneError& e) { return e.message.find("uplicate") != std::string::npos; }));
+  CHECK(std::any_of(errors.begin(), errors.end(), [](const SceneError& e) {
+    return e.message.find("uplicate") != std::string::npos;
+  }));
 }
 
 TEST_CASE("strings in chunks and containers without a length are read") {
@@ -121,14 +126,17 @@ TEST_CASE("whatever happens to a scene in CBOR, it is read or refused") {
   int accepted = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     std::mt19937 random(seed);
-    std::string bytes =
-        cbor_of_text(write_scene_text(testing::RandomScene(seed % 40).make())).substr(kCborMagic.size());
+    std::string bytes = cbor_of_text(write_scene_text(testing::RandomScene(seed % 40).make()))
+                            .substr(kCborMagic.size());
     for (unsigned n = static_cast<unsigned>(random() % 4); n > 0 && !bytes.empty(); --n) {
       const auto at = static_cast<std::size_t>(random()) % bytes.size();
       switch (random() % 4) {
         case 0: bytes[at] = static_cast<char>(random()); break;
         case 1: bytes.erase(at, random() % 9); break;
-        case 2: bytes.insert(at, bytes.substr(static_cast<std::size_t>(random()) % bytes.size(), random() % 60)); break;
+        case 2:
+          bytes.insert(
+              at, bytes.substr(static_cast<std::size_t>(random()) % bytes.size(), random() % 60));
+          break;
         default: bytes[at] = static_cast<char>((random() % 8) << 5 | 24 | (random() % 8)); break;
       }
     }

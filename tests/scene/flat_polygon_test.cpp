@@ -41,8 +41,10 @@ TEST_CASE("orientation is exact where rounding would hide it") {
   Dice dice(static_cast<std::uint64_t>(seed));
   for (int i = 0; i < 200; ++i) {
     // On a fine grid all products are integers below 2^53 and the sign is known.
-    const auto at = [&] { return FlatPoint{std::ldexp(static_cast<double>(dice.below(1 << 20)), -30),
-                                           std::ldexp(static_cast<double>(dice.below(1 << 20)), -30)}; };
+    const auto at = [&] {
+      return FlatPoint{std::ldexp(static_cast<double>(dice.below(1 << 20)), -30),
+                       std::ldexp(static_cast<double>(dice.below(1 << 20)), -30)};
+    };
     const FlatPoint a = at(), b = at(), c{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
     CHECK(orientation(a, b, c) == 0);
     const FlatPoint d = at();
@@ -74,7 +76,8 @@ TEST_CASE("corners that stay keep their coordinates to the bit") {
   const FlatLoops a{{{0.1, 0.2}, {1e3 / 3, 0.3}, {7.7, 1e3 / 7}}};
   const FlatLoops result = resolved(a);
   REQUIRE(result.size() == 1);
-  for (const FlatPoint& p : a[0]) CHECK(std::find(result[0].begin(), result[0].end(), p) != result[0].end());
+  for (const FlatPoint& p : a[0])
+    CHECK(std::find(result[0].begin(), result[0].end(), p) != result[0].end());
 }
 
 TEST_CASE("an offset grows a square by round, pointed and blunt corners") {
@@ -97,7 +100,8 @@ TEST_CASE("the hull of random points holds them all and turns left everywhere") 
   const FlatLoop hull = flat_hull(points);
   REQUIRE(hull.size() >= 3);
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const FlatPoint &a = hull[i], &b = hull[(i + 1) % hull.size()], &c = hull[(i + 2) % hull.size()];
+    const FlatPoint &a = hull[i], &b = hull[(i + 1) % hull.size()],
+                    &c = hull[(i + 2) % hull.size()];
     CHECK(orientation(a, b, c) == 1);
     for (const FlatPoint& p : points) CHECK(orientation(a, b, p) >= 0);
   }
@@ -106,7 +110,9 @@ TEST_CASE("the hull of random points holds them all and turns left everywhere") 
 TEST_CASE("outlines that cross themselves too often are refused before they take memory") {
   const auto zigzag = [](int sides) {
     FlatLoop wild;
-    for (int i = 0; i < sides; ++i) wild.push_back({i % 2 == 0 ? 0.0 : 1.0, i * 0.618033988749895 - std::floor(i * 0.618033988749895)});
+    for (int i = 0; i < sides; ++i)
+      wild.push_back(
+          {i % 2 == 0 ? 0.0 : 1.0, i * 0.618033988749895 - std::floor(i * 0.618033988749895)});
     return std::vector<FlatLoops>{{wild}};
   };
   CHECK(crossings_are_few(zigzag(200)));

@@ -13,7 +13,8 @@ namespace {
 
 std::string off_text() {
   const PolygonMesh ring = ring_polygons(2, 1, 5, 4);
-  std::string text = "OFF\n" + std::to_string(ring.points.size()) + " " + std::to_string(ring.face_ends.size()) + " 0\n";
+  std::string text = "OFF\n" + std::to_string(ring.points.size()) + " " +
+                     std::to_string(ring.face_ends.size()) + " 0\n";
   for (const Vec3& p : ring.points) {
     text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   }
@@ -32,7 +33,8 @@ std::string stl_text() {
     text += "facet normal 0 0 0\nouter loop\n";
     for (const std::uint32_t i : t) {
       const Vec3& p = box.points[i];
-      text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+      text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
+              std::to_string(p.z) + "\n";
     }
     text += "endloop\nendfacet\n";
   }
@@ -61,7 +63,8 @@ std::string stl_bytes() {
 void mutate(std::string& bytes, std::mt19937& random) {
   if (bytes.empty()) return;
   const auto at = [&] { return static_cast<std::size_t>(random()) % bytes.size(); };
-  static const char* const kWords[] = {"1e300", "-1", "0", "nan", "inf", "-0.0", "1e-300", "\n", "9999999999", "#", " "};
+  static const char* const kWords[] = {"1e300",  "-1", "0",          "nan", "inf", "-0.0",
+                                       "1e-300", "\n", "9999999999", "#",   " "};
   switch (random() % 7) {
     case 0: bytes[at()] = static_cast<char>(random()); break;
     case 1:

@@ -118,7 +118,8 @@ TEST_CASE("thousands of damaged files are read without harm, and both ends occur
 }
 
 /// Flat shapes and what is made of them.
-constexpr const char* kFlatFile = R"(linear_extrude(height = 3, center = true, twist = 0, scale = [1, 1]) {
+constexpr const char* kFlatFile =
+    R"(linear_extrude(height = 3, center = true, twist = 0, scale = [1, 1]) {
 	difference() {
 		square(size = [4, 3], center = true);
 		multmatrix([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { circle($fn = 0, r = 1); }

@@ -1,4 +1,5 @@
-// Prisms and turned polygons against the plane's own even-odd rule, and the rays that might slip through a seam.
+// Prisms and turned polygons against the plane's own even-odd rule, and the rays that might slip
+// through a seam.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -69,14 +70,15 @@ TEST_CASE("a prism holds the points above its polygon") {
 
 TEST_CASE("a prism has holes, islands in them, and several parts") {
   Dice dice(7);
-  check_prism({star(dice, 0, 0, 4, 5, 31), star(dice, 0, 0, 2.2, 3.6, 17), star(dice, 0, 0, 0.5, 2, 12),
-               star(dice, 8, 0, 1, 2, 9)},
+  check_prism({star(dice, 0, 0, 4, 5, 31), star(dice, 0, 0, 2.2, 3.6, 17),
+               star(dice, 0, 0, 0.5, 2, 12), star(dice, 8, 0, 1, 2, 9)},
               10, dice, 20000);
 }
 
 TEST_CASE("an outline may cross itself: the rule is even-odd") {
   FlatLoop pentagram;
-  for (int i = 0; i < 5; ++i) pentagram.push_back({std::cos(0.8 * kPi * i), std::sin(0.8 * kPi * i)});
+  for (int i = 0; i < 5; ++i)
+    pentagram.push_back({std::cos(0.8 * kPi * i), std::sin(0.8 * kPi * i)});
   Dice dice(3);
   check_prism({pentagram}, 1.2, dice);
 }
@@ -87,7 +89,8 @@ TEST_CASE("a spiral's pockets lie within pockets") {
   SECTION("too many of them are cut in two") { check_prism({spiral(60, 12)}, 64, dice, 20000); }
 }
 
-/// Crossings of each ray enter and leave in turn, as they must of a closed solid, and lie where the polygon's sides do.
+/// Crossings of each ray enter and leave in turn, as they must of a closed solid, and lie where the
+/// polygon's sides do.
 TEST_CASE("rays through a prism's corners and sides cross it in pairs") {
   const auto seed = GENERATE(range(1, 25));
   INFO("seed " << seed);
@@ -162,10 +165,14 @@ TEST_CASE("a prism's errors have their places") {
     return read.errors[0].pointer + ": " + read.errors[0].message;
   };
   const std::string at = "/objects/0/csg/";
-  CHECK_THAT(error(R"("points": [[0,0],[1,0]], "height": 1)"), Catch::StartsWith(at + "points: expected 3 to"));
-  CHECK_THAT(error(R"("points": [[0,0],[1,0],[2,0]], "height": 1)"), Catch::Contains("go round an area"));
-  CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1,2]], "height": 1)"), Catch::StartsWith(at + "points/2: "));
-  CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1]], "height": 0)"), Catch::StartsWith(at + "height: "));
+  CHECK_THAT(error(R"("points": [[0,0],[1,0]], "height": 1)"),
+             Catch::StartsWith(at + "points: expected 3 to"));
+  CHECK_THAT(error(R"("points": [[0,0],[1,0],[2,0]], "height": 1)"),
+             Catch::Contains("go round an area"));
+  CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1,2]], "height": 1)"),
+             Catch::StartsWith(at + "points/2: "));
+  CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1]], "height": 0)"),
+             Catch::StartsWith(at + "height: "));
   CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1]], "height": 1, "paths": [[0,1,3]])"),
              Catch::StartsWith(at + "paths/0/2: "));
   CHECK_THAT(error(R"("points": [[0,0],[1,0],[0,1]])"), Catch::Contains("height"));

@@ -148,11 +148,12 @@ class RandomScene {
           std::get<PolyhedronShape>(node.value).planes.push_back({direction(), number()});
         return;
       case 8:
-        node.value = EllipticConeShape{corner,     corner + Vec3{0.1, 0.2, 2}, {1, fraction(), 0},
-                                       {0, 2, 0.1}, positive(),                positive()};
+        node.value = EllipticConeShape{
+            corner,    corner + Vec3{0.1, 0.2, 2}, {1, fraction(), 0}, {0, 2, 0.1}, positive(),
+            positive()};
         return;
       case 9:
-        node.value = EllipticTorusShape{vector(),       direction(), major, major * 0.5 * fraction(),
+        node.value = EllipticTorusShape{vector(),    direction(), major, major * 0.5 * fraction(),
                                         major * 0.5, major * 0.5};
         return;
       case 10:
@@ -161,8 +162,10 @@ class RandomScene {
                                   corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
         return;
       case 11:
-        node.value = MeshShape{closed(box_polygons(corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
-                               static_cast<std::uint32_t>(below(18))};
+        node.value =
+            MeshShape{closed(box_polygons(
+                          corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
+                      static_cast<std::uint32_t>(below(18))};
         return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};

@@ -140,9 +140,10 @@ TEST_CASE("a scene with mistakes fails with all of them") {
 TEST_CASE("a farm that anybody may submit to takes no compiled scene") {
   const Bytes compiled = encode_model(compile_scene(*read_scene_text(scene_text(36, 24)).scene));
   RandomFarm farm({.nodes = 2});
-  const Outcome outcome =
-      farm.render({reinterpret_cast<const char*>(compiled.data()), compiled.size()}, with(Algorithm::kMacro));
+  const Outcome outcome = farm.render(
+      {reinterpret_cast<const char*>(compiled.data()), compiled.size()}, with(Algorithm::kMacro));
   REQUIRE(outcome.failed);
   CHECK(outcome.failed->code == FailureCode::kBadInput);
-  CHECK(outcome.failed->errors.front().why == "this farm compiles scenes itself: expected JSON or CBOR");
+  CHECK(outcome.failed->errors.front().why ==
+        "this farm compiles scenes itself: expected JSON or CBOR");
 }

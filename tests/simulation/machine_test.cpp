@@ -88,7 +88,8 @@ TEST_CASE("costs from noisy measurements are not negative and meet their sum") {
   CHECK(cost_of(fit.counts(), found) == Approx(fit.seconds()));
 }
 
-TEST_CASE("tasks wait for a core, those of the process that has it go first until its time slice ends") {
+TEST_CASE(
+    "tasks wait for a core, those of the process that has it go first until its time slice ends") {
   Timeline timeline;
   Cores cores(timeline, 1);
   std::vector<std::pair<int, double>> ended;

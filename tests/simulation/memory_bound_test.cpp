@@ -1,5 +1,5 @@
-// What a node holds is bounded by the windows of open tiles, however deep the rays' trees and however slow the
-// links.
+// What a node holds is bounded by the windows of open tiles, however deep the rays' trees and
+// however slow the links.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
@@ -22,34 +22,39 @@ constexpr std::uint32_t kCredit = 64;
 std::string hall_of_mirrors() {
   std::string lights;
   for (std::uint32_t i = 0; i < kLights; ++i) {
-    lights += std::string(i == 0 ? "" : ",") + R"({"type": "point", "color": [0.2,0.2,0.2], "position": [)" +
+    lights += std::string(i == 0 ? "" : ",") +
+              R"({"type": "point", "color": [0.2,0.2,0.2], "position": [)" +
               std::to_string(i % 4 - 1.5) + "," + std::to_string(i < 4 ? 1.8 : -1.2) + ",-1.5]}";
   }
   std::string balls;
   for (int i = 0; i < 9; ++i) {
     balls += R"(,{"material": "glass", "csg": {"type": "sphere", "radius": 0.5, "center": [)" +
-             std::to_string(1.2 * (i % 3 - 1)) + "," + std::to_string(1.2 * (i / 3 - 1)) + R"(,-1]}})";
+             std::to_string(1.2 * (i % 3 - 1)) + "," + std::to_string(1.2 * (i / 3 - 1)) +
+             R"(,-1]}})";
   }
   return R"({"graycube": 1, "image": {"width": )" + std::to_string(kSide) + R"(, "height": )" +
          std::to_string(kSide) + R"(},
   "camera": {"type": "perspective", "eye": [0,0.3,-4], "look_at": [0,0,0], "up": [0,1,0], "fov": 70},
-  "background": [0.1,0.2,0.4], "max_depth": 12, "lights": [)" + lights + R"(],
+  "background": [0.1,0.2,0.4], "max_depth": 12, "lights": [)" +
+         lights + R"(],
   "materials": {"mirror": {"color": [0.9,0.8,0.9], "diffuse": 0.2, "reflect": 0.8},
                 "glass": {"diffuse": 0.1, "transmit": 0.8, "reflect": 0.2, "ior": 1.5}},
   "objects": [
     {"material": "mirror", "csg": {"type": "box", "min": [-4,-3,1], "max": [4,3,1.5]}},
-    {"material": "mirror", "csg": {"type": "box", "min": [-4,-3,-5.5], "max": [4,3,-5]}})" + balls + "]}";
+    {"material": "mirror", "csg": {"type": "box", "min": [-4,-3,-5.5], "max": [4,3,-5]}})" +
+         balls + "]}";
 }
 
-/// Rays that descend from each tile's primary rays, these included; most first. A tile is a macro-region's part
-/// of the picture, which is smaller than tiles could be.
+/// Rays that descend from each tile's primary rays, these included; most first. A tile is a
+/// macro-region's part of the picture, which is smaller than tiles could be.
 std::vector<std::uint64_t> trees_of(const std::string& text) {
   ReadResult read = read_scene_text(text);
   REQUIRE(read.scene);
   const Domain domain(compile_scene(*read.scene));
   Evaluator evaluator(domain);
   const Hypercube cube = *Hypercube::of_size(kNodes);
-  const std::uint32_t width = kSide / (kScatter * cube.columns()), height = kSide / (kScatter * cube.rows());
+  const std::uint32_t width = kSide / (kScatter * cube.columns()),
+                      height = kSide / (kScatter * cube.rows());
   REQUIRE(std::max(width, height) <= kTileSide);
   std::vector<std::uint64_t> trees;
   for (std::uint32_t y = 0; y < kSide; y += height) {
@@ -64,12 +69,13 @@ std::vector<std::uint64_t> trees_of(const std::string& text) {
   return trees;
 }
 
-Outcome render(const std::string& text, const Picture& expected, std::uint64_t seed, std::uint32_t window,
-               std::uint64_t outbox_rays = FlowLimits{}.outbox_rays) {
+Outcome render(const std::string& text, const Picture& expected, std::uint64_t seed,
+               std::uint32_t window, std::uint64_t outbox_rays = FlowLimits{}.outbox_rays) {
   RandomFarmOptions options{.nodes = kNodes, .threads = kThreads, .seed = seed, .link_delay_s = 1};
   options.heartbeat_s = 1e4;
   options.stalled_s = 1e7;
-  options.limits = {.window_tiles = window, .link_credit_bytes = kCredit * kRayBytes,
+  options.limits = {.window_tiles = window,
+                    .link_credit_bytes = kCredit * kRayBytes,
                     .batch_bytes = kCredit / 4 * kRayBytes,
                     .outbox_rays = outbox_rays};
   control::JobOptions job = with(Algorithm::kMacro);
@@ -90,7 +96,8 @@ std::uint64_t largest_outbox(const Outcome& outcome) {
 
 }  // namespace
 
-TEST_CASE("between mirrors and glass at depth 12 with eight lights, windows bound what nodes hold") {
+TEST_CASE(
+    "between mirrors and glass at depth 12 with eight lights, windows bound what nodes hold") {
   const std::string text = hall_of_mirrors();
   const Picture expected = serial_picture(text);
   const std::vector<std::uint64_t> trees = trees_of(text);
@@ -113,7 +120,8 @@ TEST_CASE("between mirrors and glass, nodes that are full hold no more, whatever
   const std::string text = hall_of_mirrors();
   const Picture expected = serial_picture(text);
   constexpr std::uint64_t kMost = 64;
-  // What an evaluator adds: a part of it, and then a packet's rays or what its class keeps room for.
+  // What an evaluator adds: a part of it, and then a packet's rays or what its class keeps room
+  // for.
   constexpr std::uint64_t kBound =
       kMost + kThreads * (kMost / kWorksPerOutboxes + (Evaluator::kWaveRays + 1) * (kLights + 2));
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {

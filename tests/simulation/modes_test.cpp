@@ -51,7 +51,8 @@ class LateNode : public RandomMachine {
   double arrival_s(Place from, Place to, std::size_t bytes, double now_s) override {
     if (!from && to == Rank{0}) told_s.push_back(now_s);
     const bool is_late = from == Rank{1} && !to && now_s >= late_from_s;
-    return RandomMachine::arrival_s(from, to, bytes, now_s) + (is_late ? 10 * kReportPatience_s : 0);
+    return RandomMachine::arrival_s(from, to, bytes, now_s) +
+           (is_late ? 10 * kReportPatience_s : 0);
   }
 
   double late_from_s = std::numeric_limits<double>::infinity();
@@ -124,7 +125,8 @@ TEST_CASE("with local shadows no shadow ray is forwarded, with horizons few are"
   CHECK(forwarded(ShadowMode::kLocal) == 0);
 }
 
-TEST_CASE("blocking queues give the serial picture or a deadlock, which is reported with its cycle") {
+TEST_CASE(
+    "blocking queues give the serial picture or a deadlock, which is reported with its cycle") {
   const std::string text = scene_text(36, 24);
   const Picture expected = serial_picture(text);
   int deadlocks = 0, pictures = 0;
@@ -200,7 +202,8 @@ TEST_CASE("a node with nothing left traces a neighbour's tiles in a copy of its 
   for (std::uint64_t seed = 1; seed <= 48; ++seed) {
     RandomFarmOptions how = farm_of(1u << (1 + seed % 4), seed);
     how.limits.window_tiles = 1 + static_cast<std::uint32_t>(seed % 3);
-    control::JobOptions options = macro_with(seed % 2 == 0 ? ShadowMode::kHorizon : ShadowMode::kForward, 1 + seed % 2);
+    control::JobOptions options =
+        macro_with(seed % 2 == 0 ? ShadowMode::kHorizon : ShadowMode::kForward, 1 + seed % 2);
     options.aov = "depth,normal,albedo,object";
     if (seed % 5 == 0) options.sums = SumsMode::kTree;
     INFO("seed " << seed << ", " << how.nodes << " nodes");
@@ -218,7 +221,9 @@ TEST_CASE("a node with nothing left traces a neighbour's tiles in a copy of its 
   CHECK(taken_over > 48);
 }
 
-TEST_CASE("sums along the tree give the serial picture, AOVs too, and only the root sends to the frontal") {
+TEST_CASE(
+    "sums along the tree give the serial picture, AOVs too, and only the root sends to the "
+    "frontal") {
   const std::string text = scene_text(48, 32);
   const Picture expected = serial_picture(text, AovSet::all());
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {

@@ -1,4 +1,5 @@
-// What the simulation tests share: a scene, its serial picture, and how a farm's is compared with it.
+// What the simulation tests share: a scene, its serial picture, and how a farm's is compared with
+// it.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,8 @@
 
 namespace graycube::simulation {
 
-/// Mirrors, glass, a torus, a drilled box and a floor without end, small enough for hundreds of runs.
+/// Mirrors, glass, a torus, a drilled box and a floor without end, small enough for hundreds of
+/// runs.
 inline std::string scene_text(unsigned width, unsigned height) {
   return R"({"graycube": 1, "image": {"width": )" + std::to_string(width) + R"(, "height": )" +
          std::to_string(height) + R"(},
@@ -46,7 +48,7 @@ inline Picture serial_picture(const std::string& text, AovSet aovs = {}) {
 }
 
 inline void check_same_picture(Farm& farm, const Outcome& outcome, std::uint32_t job,
-                        const Picture& expected) {
+                               const Picture& expected) {
   for (const std::string& v : outcome.violations) UNSCOPED_INFO(v);
   CHECK(outcome.violations.empty());
   if (outcome.failed && !outcome.failed->errors.empty()) {

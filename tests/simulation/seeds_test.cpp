@@ -1,6 +1,6 @@
-// Thousands of tiny renders, each on a farm, in a way and with delays that its seed decides: never a deadlock,
-// never an early end, the bounds on rays kept, and always the serial picture. GRAYCUBE_SEEDS=N runs N of them,
-// GRAYCUBE_SEED=S only that one.
+// Thousands of tiny renders, each on a farm, in a way and with delays that its seed decides: never
+// a deadlock, never an early end, the bounds on rays kept, and always the serial picture.
+// GRAYCUBE_SEEDS=N runs N of them, GRAYCUBE_SEED=S only that one.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -23,7 +23,8 @@ std::string tiny_scene(unsigned width, unsigned height) {
   return R"({"graycube": 1, "image": {"width": )" + std::to_string(width) + R"(, "height": )" +
          std::to_string(height) + R"(},
   "camera": {"type": "perspective", "eye": [0,1,-6], "look_at": [0,0,0], "up": [0,1,0], "fov": 60},
-  "background": [0.1,0.2,0.4], "max_depth": )" + std::to_string(kDepth) + R"(,
+  "background": [0.1,0.2,0.4], "max_depth": )" +
+         std::to_string(kDepth) + R"(,
   "lights": [{"type": "point", "position": [5,9,-6], "color": [0.6,0.6,0.6]},
              {"type": "point", "position": [-1,0.5,-1], "color": [0.4,0.3,0.3]}],
   "materials": {"mirror": {"color": [0.9,0.8,0.9], "diffuse": 0.2, "reflect": 0.8},
@@ -52,9 +53,10 @@ struct Trial {
 
   std::string name() const {
     const std::string sums = " " + std::string(to_string(job.sums));
-    if (job.algorithm == Algorithm::kRoth) return "roth " + std::string(to_string(job.grain)) + sums;
-    return "macro " + std::string(to_string(job.shadows)) + " " + std::string(to_string(job.partition)) + " " +
-           std::string(to_string(job.flow)) + sums;
+    if (job.algorithm == Algorithm::kRoth)
+      return "roth " + std::string(to_string(job.grain)) + sums;
+    return "macro " + std::string(to_string(job.shadows)) + " " +
+           std::string(to_string(job.partition)) + " " + std::string(to_string(job.flow)) + sums;
   }
 };
 
@@ -94,12 +96,15 @@ Trial trial_of(std::uint64_t seed) {
   return t;
 }
 
-/// Rays that descend from one primary ray at most, it included: each but shadow rays sends two others and one to
-/// each light.
-constexpr std::uint64_t largest_tree() { return ((std::uint64_t{2} << kDepth) - 1) * (1 + kLights); }
+/// Rays that descend from one primary ray at most, it included: each but shadow rays sends two
+/// others and one to each light.
+constexpr std::uint64_t largest_tree() {
+  return ((std::uint64_t{2} << kDepth) - 1) * (1 + kLights);
+}
 
-/// What a node may hold: in its inbox what its links' credit and its classes allow, in its outboxes what descends from
-/// the tiles that are open anywhere, and what it may hold before it is full, with what its evaluators add to that.
+/// What a node may hold: in its inbox what its links' credit and its classes allow, in its outboxes
+/// what descends from the tiles that are open anywhere, and what it may hold before it is full,
+/// with what its evaluators add to that.
 void check_bounds(const Trial& t, const Outcome& outcome, std::uint64_t pixels) {
   if (t.job.algorithm != Algorithm::kMacro) return;
   const std::uint64_t links = Hypercube::of_size(t.farm.nodes)->dimension();
@@ -111,15 +116,16 @@ void check_bounds(const Trial& t, const Outcome& outcome, std::uint64_t pixels) 
   constexpr std::uint64_t kChildren = kLights + 2;
   const std::uint64_t own = classes * t.farm.threads * kChildren * (kDepth + 1);
   std::uint64_t inbox = links * (t.farm.limits.link_credit_bytes / kRayBytes + classes) + own;
-  if (t.job.flow == FlowMode::kBlocking) inbox = links == 0 ? 0 : std::max<std::uint64_t>(t.job.queue, links);
+  if (t.job.flow == FlowMode::kBlocking)
+    inbox = links == 0 ? 0 : std::max<std::uint64_t>(t.job.queue, links);
   REQUIRE(outcome.reports.size() == t.farm.nodes);
   for (const control::NodeStats& n : outcome.reports) {
     // Rays that waited for a borrowed model lie there too.
     if (t.job.shadows != ShadowMode::kLocal) CHECK(n.queue_peak <= inbox);
     CHECK(n.outbox_peak <= pixels * largest_tree());
     const std::uint64_t most = t.farm.limits.outbox_rays;
-    const std::uint64_t added =
-        std::max<std::uint64_t>(1, most / kWorksPerOutboxes) + (Evaluator::kWaveRays + classes) * kChildren;
+    const std::uint64_t added = std::max<std::uint64_t>(1, most / kWorksPerOutboxes) +
+                                (Evaluator::kWaveRays + classes) * kChildren;
     CHECK(n.outbox_peak <= most + t.farm.threads * added);
   }
 }
@@ -131,7 +137,8 @@ std::uint64_t number_in_environment(const char* name, std::uint64_t otherwise) {
 
 }  // namespace
 
-TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an early end, bounds kept") {
+TEST_CASE(
+    "thousands of seeds: the serial picture, never a deadlock, never an early end, bounds kept") {
   const Pictures small(12, 8), square(16, 16);
   const std::uint64_t only = number_in_environment("GRAYCUBE_SEED", 0);
   const std::uint64_t last = only != 0 ? only : number_in_environment("GRAYCUBE_SEEDS", kSeeds);
@@ -139,7 +146,8 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
   std::uint64_t deadlocks = 0, beyond_credit = 0, on_class = 0, rounds = 0;
   for (std::uint64_t seed = only != 0 ? only : 1; seed <= last; ++seed) {
     const Trial t = trial_of(seed);
-    INFO("seed " << seed << ": " << t.name() << ", " << t.farm.nodes << " nodes, scatter " << t.job.scatter);
+    INFO("seed " << seed << ": " << t.name() << ", " << t.farm.nodes << " nodes, scatter "
+                 << t.job.scatter);
     const Pictures& pictures = t.is_square ? square : small;
     RandomFarm farm(t.farm);
     const Outcome outcome = farm.render(pictures.text, t.job);
@@ -158,12 +166,13 @@ TEST_CASE("thousands of seeds: the serial picture, never a deadlock, never an ea
     }
     check_bounds(t, outcome, pictures.pixels);
     // Two, two more once all tiles are whole, and now and then one for a ping.
-    if (t.job.flow == FlowMode::kCredit) CHECK(outcome.rounds <= 5 + outcome.render_s / t.farm.heartbeat_s);
+    if (t.job.flow == FlowMode::kCredit)
+      CHECK(outcome.rounds <= 5 + outcome.render_s / t.farm.heartbeat_s);
     rounds += outcome.rounds;
   }
   if (only != 0 || last < kSeeds) return;
-  // Grains, and shadows × partition × flow, each with either sums: the seeds reach them all, and where credit runs
-  // out and queues fill.
+  // Grains, and shadows × partition × flow, each with either sums: the seeds reach them all, and
+  // where credit runs out and queues fill.
   CHECK(ways.size() == 2 * (3 + 3 * 2 * 2));
   CHECK(deadlocks > 5);
   CHECK(on_class > 10 * last);

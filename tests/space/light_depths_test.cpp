@@ -21,7 +21,8 @@ bool light_comes(const SurfaceTree& tree, const Vec3& light, const Vec3& point) 
   const double epsilon = 1e-9 * std::max(1.0, max_abs(point));
   TreeScratch scratch;
   Rgb rgb{1, 1, 1};
-  return tree.pass_light({point, normalized(light - point)}, epsilon, distance - epsilon, scratch, rgb);
+  return tree.pass_light({point, normalized(light - point)}, epsilon, distance - epsilon, scratch,
+                         rgb);
 }
 
 /// A picture of a scene from aside.
@@ -61,7 +62,8 @@ TEST_CASE("depths promise light and darkness only where it is") {
         if (!(length(towards - at) > 0)) continue;
         const Vec3 d = normalized(towards - at);
         const LightHorizons::Reach reach = horizons.toward(light, d);
-        INFO("seed " << seed << ", light " << light << ", direction " << d.x << ' ' << d.y << ' ' << d.z);
+        INFO("seed " << seed << ", light " << light << ", direction " << d.x << ' ' << d.y << ' '
+                     << d.z);
         if (reach.clearance == 0) REQUIRE(reach.lit == coarse.distance(light, d));
         TreeScratch scratch;
         const auto hit = tree.first_crossing({at, d}, 0, Aabb::kInf, scratch);
@@ -83,12 +85,14 @@ TEST_CASE("depths promise light and darkness only where it is") {
 }
 
 TEST_CASE("behind a wall it is dark, before it light, and glass makes no darkness") {
-  Scene scene = scene_of({node_of(BoxShape{{-3, -3, 0}, {3, 3, 1}}), node_of(BoxShape{{-8, -8, -6}, {8, 8, -5}})});
+  Scene scene = scene_of(
+      {node_of(BoxShape{{-3, -3, 0}, {3, 3, 1}}), node_of(BoxShape{{-8, -8, -6}, {8, 8, -5}})});
   scene = seen(scene, {light_at({0, 0, 10})});
   const Vec3 down{0, 0, -1};
   const auto reach_of = [&](const Scene& s) {
     const Model model = compile_scene(s);
-    return with_depths(LightHorizons::of(model), SurfaceTree::build(model), 200'000).toward(0, down);
+    return with_depths(LightHorizons::of(model), SurfaceTree::build(model), 200'000)
+        .toward(0, down);
   };
   const LightHorizons::Reach wall = reach_of(scene);
   CHECK(wall.lit > 8.5);
@@ -102,7 +106,8 @@ TEST_CASE("behind a wall it is dark, before it light, and glass makes no darknes
 }
 
 TEST_CASE("no texels, no depths") {
-  const Scene scene = seen(scene_of({node_of(BoxShape{{-3, -3, 0}, {3, 3, 1}})}), {light_at({0, 0, 10})});
+  const Scene scene =
+      seen(scene_of({node_of(BoxShape{{-3, -3, 0}, {3, 3, 1}})}), {light_at({0, 0, 10})});
   const Model model = compile_scene(scene);
   const SurfaceTree tree = SurfaceTree::build(model);
   const LightHorizons coarse = LightHorizons::of(model);
@@ -115,10 +120,12 @@ TEST_CASE("no texels, no depths") {
 }
 
 TEST_CASE("a lamp that something is close to has no depths") {
-  const Scene scene = seen(scene_of({node_of(SphereShape{{0, 0, 0}, 1}), node_of(BoxShape{{-8, -8, -6}, {8, 8, -5}})}),
-                           {light_at({0, 0, 1.0001}), light_at({0, -9, 9})});
+  const Scene scene = seen(
+      scene_of({node_of(SphereShape{{0, 0, 0}, 1}), node_of(BoxShape{{-8, -8, -6}, {8, 8, -5}})}),
+      {light_at({0, 0, 1.0001}), light_at({0, -9, 9})});
   const Model model = compile_scene(scene);
-  const LightHorizons horizons = with_depths(LightHorizons::of(model), SurfaceTree::build(model), kTexels);
+  const LightHorizons horizons =
+      with_depths(LightHorizons::of(model), SurfaceTree::build(model), kTexels);
   REQUIRE(horizons.depths().size() == 2);
   CHECK(horizons.depths().front().split == 0);
   CHECK(horizons.depths().back().split > 0);

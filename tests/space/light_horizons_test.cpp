@@ -32,7 +32,8 @@ TEST_CASE("nothing lies between a light and its horizon") {
     Scene scene = RandomModel(seed).scene();
     scene.settings.lights.clear();
     // Far ones, near ones, ones inside solids.
-    for (const double spread : {12.0, 4.0, 1.0}) scene.settings.lights.push_back(light_at(dice.point(spread)));
+    for (const double spread : {12.0, 4.0, 1.0})
+      scene.settings.lights.push_back(light_at(dice.point(spread)));
     const Model model = compile_scene(scene);
     const SurfaceTree tree = SurfaceTree::build(model);
     const LightHorizons horizons = LightHorizons::of(model);
@@ -41,7 +42,8 @@ TEST_CASE("nothing lies between a light and its horizon") {
         Vec3 d = dice.unit_vector();
         // Along the axes and the edges between texels and faces too.
         if (dice.one_in(8)) d[static_cast<int>(dice.below(3))] = 0;
-        if (dice.one_in(8)) d = {std::round(d.x * 8) / 8, std::round(d.y * 8) / 8, std::round(d.z * 8) / 8};
+        if (dice.one_in(8))
+          d = {std::round(d.x * 8) / 8, std::round(d.y * 8) / 8, std::round(d.z * 8) / 8};
         if (!(length(d) > 0)) continue;
         d = normalized(d);
         const double horizon = horizons.distance(light, d);
@@ -61,9 +63,9 @@ TEST_CASE("nothing lies between a light and its horizon") {
 }
 
 TEST_CASE("a lamp in a closed room sees as far as the walls") {
-  const CsgNode room = operation(Operation::kDifference,
-                                 {node_of(BoxShape{{-6, -6, -6}, {6, 6, 6}}),
-                                  node_of(BoxShape{{-5, -5, -5}, {5, 5, 5}})});
+  const CsgNode room = operation(
+      Operation::kDifference,
+      {node_of(BoxShape{{-6, -6, -6}, {6, 6, 6}}), node_of(BoxShape{{-5, -5, -5}, {5, 5, 5}})});
   Scene scene = scene_of({room, node_of(SphereShape{{3, 0, 0}, 1})});
   scene.settings.lights = {light_at({0, 0, 0})};
   const LightHorizons horizons = LightHorizons::of(compile_scene(scene));

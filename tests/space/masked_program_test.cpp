@@ -43,7 +43,8 @@ bool tree_member(std::span<const TreeNode> tree, std::uint64_t flags) {
 
 }  // namespace
 
-TEST_CASE("a masked program has the members of its tree, and the same literal shows where they change") {
+TEST_CASE(
+    "a masked program has the members of its tree, and the same literal shows where they change") {
   std::size_t changes = 0, too_large = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
     INFO("seed " << seed);
@@ -61,11 +62,13 @@ TEST_CASE("a masked program has the members of its tree, and the same literal sh
       REQUIRE(operations.size() == first);
       continue;
     }
-    const std::span<const MaskOperation> own = std::span<const MaskOperation>{operations}.subspan(first);
+    const std::span<const MaskOperation> own =
+        std::span<const MaskOperation>{operations}.subspan(first);
     const MaskedProgram program{own, inverted_leaves(tree), leaves};
     const std::uint64_t all = (std::uint64_t{1} << leaves) - 1;
     for (int i = 0; i < 50; ++i) {
-      const std::uint64_t before = dice.below(all + 1), after = before ^ (dice.below(all + 1) & dice.below(all + 1));
+      const std::uint64_t before = dice.below(all + 1),
+                          after = before ^ (dice.below(all + 1) & dice.below(all + 1));
       REQUIRE(program.is_member(before) == tree_member(tree, before));
       REQUIRE(program.is_member(after) == tree_member(tree, after));
       if (program.is_member(before) == program.is_member(after)) continue;

@@ -1,4 +1,5 @@
-// What may stand between surfaces and lights: foreign horizons must never promise a way that something foreign blocks.
+// What may stand between surfaces and lights: foreign horizons must never promise a way that
+// something foreign blocks.
 #include "space/occluders.hpp"
 
 #include <catch2/catch.hpp>
@@ -52,7 +53,8 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
     INFO("seed " << seed);
     Dice dice(seed);
     Scene scene = RandomModel(seed).scene();
-    for (PointLight& light : scene.settings.lights) light.position = dice.point(dice.one_in(2) ? 4.0 : 12.0);
+    for (PointLight& light : scene.settings.lights)
+      light.position = dice.point(dice.one_in(2) ? 4.0 : 12.0);
     const Model model = compile_scene(scene);
     std::vector<bool> held(model.objects.size()), others(model.objects.size());
     for (std::size_t i = 0; i < held.size(); ++i) held[i] = dice.one_in(2);
@@ -67,7 +69,8 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
     for (std::size_t light = 0; light < model.settings.lights.size(); ++light) {
       for (int i = 0; i < 200; ++i) {
         const Vec3 d = dice.unit_vector();
-        const auto hit = tree.first_crossing({model.settings.lights[light].position, d}, 0, Aabb::kInf, scratch);
+        const auto hit =
+            tree.first_crossing({model.settings.lights[light].position, d}, 0, Aabb::kInf, scratch);
         const double distance = foreign.distance(light, d);
         REQUIRE(distance <= (hit ? hit->t : Aabb::kInf));
         promised += distance > 0 ? 1 : 0;
@@ -83,9 +86,11 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
 }
 
 TEST_CASE("a part that a node holds counts as foreign, with the surfaces that it has there") {
-  // The light is within what is taken away, and sees nothing before that ends; the first box alone, held as a part, is nearer.
-  const Model model = lit_from_origin({operation(
-      Operation::kDifference, {node_of(BoxShape{{4, -1, -1}, {9, 1, 1}}), node_of(BoxShape{{-2, -2, -2}, {8, 2, 2}})})});
+  // The light is within what is taken away, and sees nothing before that ends; the first box alone,
+  // held as a part, is nearer.
+  const Model model = lit_from_origin(
+      {operation(Operation::kDifference, {node_of(BoxShape{{4, -1, -1}, {9, 1, 1}}),
+                                          node_of(BoxShape{{-2, -2, -2}, {8, 2, 2}})})});
   const auto distance = [&](const ModelContents& contents) {
     return Occluders::of(model).foreign_horizons(contents, model).distance(0, {1, 0, 0});
   };
@@ -112,7 +117,8 @@ TEST_CASE("occluders are chosen as rays ask for them") {
   CHECK(held == std::vector<bool>{true, true, false, false});
 }
 
-TEST_CASE("occluders that serve most rays by the byte come first, and no more than there is room for") {
+TEST_CASE(
+    "occluders that serve most rays by the byte come first, and no more than there is room for") {
   const Model model = row_of_balls();
   const Occluders occluders = Occluders::of(model);
   const OccluderQuery far_x{0, texel_of({1, 0, 0}), 20}, far_y{0, texel_of({0, 1, 0}), 20};
@@ -164,15 +170,18 @@ TEST_CASE("distances of many texels, as floats, are no longer than what they are
   for (int round = 0; round < 200; ++round) {
     std::vector<float> distances(LightHorizons::kTexels);
     const double reach = dice.between(0.01, 1000);
-    for (float& d : distances) d = static_cast<float>(dice.one_in(9) ? INFINITY : dice.between(0, 1.2 * reach));
+    for (float& d : distances)
+      d = static_cast<float>(dice.one_in(9) ? INFINITY : dice.between(0, 1.2 * reach));
     const LightHorizons horizons({HorizonMap::of(distances, reach)});
     std::array<std::uint32_t, 64> texels;
-    for (std::uint32_t& t : texels) t = static_cast<std::uint32_t>(dice.below(LightHorizons::kTexels));
+    for (std::uint32_t& t : texels)
+      t = static_cast<std::uint32_t>(dice.below(LightHorizons::kTexels));
     std::array<float, 64> found;
     horizons.distances_at(0, texels, found);
     for (std::size_t i = 0; i < texels.size(); ++i) {
       REQUIRE(found[i] <= distances[texels[i]]);
-      REQUIRE(found[i] >= std::min<double>(distances[texels[i]], reach) * (1 - 1e-5) - reach / 60'000);
+      REQUIRE(found[i] >=
+              std::min<double>(distances[texels[i]], reach) * (1 - 1e-5) - reach / 60'000);
     }
     horizons.distances_at(1, texels, found);
     REQUIRE(found == std::array<float, 64>{});

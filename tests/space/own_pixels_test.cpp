@@ -49,14 +49,19 @@ TEST_CASE("what a part beside a region needs is all that its primary rays meet")
     Dice dice(seed);
     const MacroGrid grid = MacroGrid::regular(camera, 2, 2);
     std::vector<std::int64_t> own;
-    for (int i = 0; i < 2; ++i) own.push_back(1 + static_cast<std::int64_t>(dice.below(static_cast<std::size_t>(width - 1))));
+    for (int i = 0; i < 2; ++i)
+      own.push_back(1 + static_cast<std::int64_t>(dice.below(static_cast<std::size_t>(width - 1))));
     const SurfaceTree whole = SurfaceTree::build(model);
     TreeScratch scratch, part_scratch;
     for (std::uint16_t row = 0; row < 2; ++row) {
       for (std::uint16_t column = 0; column < 2; ++column) {
         const RegionIndex region{column, row};
-        const Model slice = extract(model, contents_with_own_pixels(model, grid, only(region, grid), own));
-        more += slice.primitives.size() > restrict_to_share(model, grid, only(region, grid)).primitives.size() ? 1 : 0;
+        const Model slice =
+            extract(model, contents_with_own_pixels(model, grid, only(region, grid), own));
+        more += slice.primitives.size() >
+                        restrict_to_share(model, grid, only(region, grid)).primitives.size()
+                    ? 1
+                    : 0;
         const SurfaceTree tree = SurfaceTree::build(slice);
         for (std::uint32_t y = 0; y < camera.image.height; ++y) {
           for (std::uint32_t x = 0; x < camera.image.width; ++x) {

@@ -1,7 +1,7 @@
 #include "space/rectilinear.hpp"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <limits>
 #include <random>
 

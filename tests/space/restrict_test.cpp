@@ -41,7 +41,8 @@ TEST_CASE("what a share needs of each object is all of it, a part or nothing") {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     INFO("seed " << seed);
     const Model model = compile_scene(RandomModel(seed).scene());
-    const MacroGrid grid = MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 4);
+    const MacroGrid grid =
+        MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 4);
     ModelContents contents = contents_of_share(model, grid, {4, 4, 1, 2});
     const Model slice = extract(model, contents);
     std::size_t part = 0;
@@ -202,14 +203,17 @@ TEST_CASE("space is shared out: a region of many holds few of many small solids"
 TEST_CASE("a node holds the meshes that its region may meet, and no others") {
   const TriangleMesh box = closed(box_polygons({-1, -1, -1}, {1, 1, 1}));
   const auto placed = [&](double x, double y) {
-    return transformed(node_of(MeshShape{box}), compose(translation({x, y, 0}), scaling({0.5, 0.5, 0.5})));
+    return transformed(node_of(MeshShape{box}),
+                       compose(translation({x, y, 0}), scaling({0.5, 0.5, 0.5})));
   };
-  Scene scene = scene_of({placed(-2, 2), placed(2, 2), placed(2, -2), placed(-2, -2), placed(0, 0)});
+  Scene scene =
+      scene_of({placed(-2, 2), placed(2, 2), placed(2, -2), placed(-2, -2), placed(0, 0)});
   scene.settings.image = {64, 64, 1};
   scene.settings.camera.width = 8;
   const Model model = compile_scene(scene);
   REQUIRE(model.meshes.size() == 5);
-  const MacroGrid grid = MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
+  const MacroGrid grid =
+      MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
   for_each_region(grid, [&](RegionIndex r) {
     const Model part = restrict_to_share(model, grid, only(r, grid));
     // Its own, and the one in the middle.

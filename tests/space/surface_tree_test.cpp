@@ -171,7 +171,9 @@ TEST_CASE("a packet finds bit for bit what its rays find alone, with every instr
   CHECK(hits > 50000);
 }
 
-TEST_CASE("a packet finds in a mesh of many triangles what its rays find alone, also behind faces that cancel") {
+TEST_CASE(
+    "a packet finds in a mesh of many triangles what its rays find alone, also behind faces that "
+    "cancel") {
   PolygonMesh polygons = ball_polygons(2, 20, 30);
   // A box and its inside-out twin are nothing, wherever they are.
   for (const Vec3& at : {Vec3{0, 0, 0}, Vec3{1.5, -1, 0.5}, Vec3{-3, -3, -3}}) {

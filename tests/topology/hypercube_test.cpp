@@ -115,13 +115,17 @@ TEST_CASE("links join nodes both ways, one for each bit") {
   CHECK_FALSE(cube->link_between(Rank{0}, Rank{3}));
 }
 
-TEST_CASE("the first bit on the way leads nearer, and past a node that is to be left out unless it is the goal") {
+TEST_CASE(
+    "the first bit on the way leads nearer, and past a node that is to be left out unless it is "
+    "the goal") {
   for_each_cube([](const Hypercube& cube) {
     if (cube.nodes() > 64) return;
     for (Rank from; cube.has(from); ++from.value) {
       for (Rank to; cube.has(to); ++to.value) {
         if (from == to) continue;
-        const auto distance = [&](Rank a) { return std::popcount(cube.label_of(a).value ^ cube.label_of(to).value); };
+        const auto distance = [&](Rank a) {
+          return std::popcount(cube.label_of(a).value ^ cube.label_of(to).value);
+        };
         const std::uint32_t bit = cube.first_bit(from, to);
         CHECK(distance(cube.neighbour(from, bit)) == distance(from) - 1);
         const std::uint32_t other = cube.first_bit(from, to, bit);

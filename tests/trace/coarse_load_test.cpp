@@ -30,8 +30,10 @@ TEST_CASE("a coarse render finds the work where the solids are") {
 }
 
 TEST_CASE("a coarse render tells how many rays descend from a pixel") {
-  // A floor that fills the picture, on which both lights shine: a primary ray and two shadow rays each.
-  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 64, "height": 64, "samples": 2},
+  // A floor that fills the picture, on which both lights shine: a primary ray and two shadow rays
+  // each.
+  ReadResult read =
+      read_scene_text(R"({"graycube": 1, "image": {"width": 64, "height": 64, "samples": 2},
     "camera": {"type": "perspective", "eye": [0,5,0], "look_at": [0,0,0], "up": [0,0,1], "fov": 40},
     "lights": [{"type": "point", "position": [3,9,0], "color": [1,1,1]}, {"type": "point", "position": [-3,9,0], "color": [1,1,1]}],
     "materials": {"m": {}},
@@ -39,7 +41,8 @@ TEST_CASE("a coarse render tells how many rays descend from a pixel") {
   REQUIRE(read.scene);
   const Model model = compile_scene(*read.scene);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  CHECK(coarse_load(Domain(model), MacroGrid::regular(frame, 4, 4), nullptr, Staying{}, 0).rays_per_primary == 3);
+  CHECK(coarse_load(Domain(model), MacroGrid::regular(frame, 4, 4), nullptr, Staying{}, 0)
+            .rays_per_primary == 3);
 }
 
 TEST_CASE("shadow rays traced where they begin are work for the region of their surface") {
@@ -69,8 +72,10 @@ TEST_CASE("shadow rays traced where they begin are work for the region of their 
 }
 
 TEST_CASE("what secondary rays lead to is work for the region of their pixel, where they stay") {
-  // A mirror ball on the left shows a wall beyond the right edge of the picture, whose right half is empty.
-  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64}, "max_depth": 3,
+  // A mirror ball on the left shows a wall beyond the right edge of the picture, whose right half
+  // is empty.
+  ReadResult read =
+      read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64}, "max_depth": 3,
     "camera": {"type": "perspective", "eye": [0,0,0], "look_at": [0,0,9], "up": [0,1,0], "fov": 60},
     "lights": [{"type": "point", "position": [0,20,0], "color": [1,1,1]}],
     "materials": {"mirror": {"reflect": 1}, "m": {}},
@@ -100,12 +105,14 @@ TEST_CASE("what secondary rays lead to is work for the region of their pixel, wh
 TEST_CASE("balanced boundaries are drawn together where the work is") {
   const Model model = compile_scene(corner_scene());
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  const LoadMap load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, Staying{}, 0).map;
+  const LoadMap load =
+      coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, Staying{}, 0).map;
   CHECK(heaviest(load, balanced_cuts(load, 4, 4)) < 0.95 * heaviest(load, even_cuts(load, 4, 4)));
 }
 
 TEST_CASE("a coarse render knows that tori take longer than balls") {
-  // One of either, each in its half of the picture and as wide; no light, so that nothing else is traced.
+  // One of either, each in its half of the picture and as wide; no light, so that nothing else is
+  // traced.
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64},
     "camera": {"type": "orthographic", "eye": [0,0,-9], "look_at": [0,0,0], "up": [0,1,0], "width": 8},
     "lights": [], "materials": {"m": {}},
@@ -126,12 +133,15 @@ namespace {
 Model mirrors_and_lights(int count) {
   std::string lights;
   for (int i = 0; i < count; ++i) {
-    lights += std::string(i == 0 ? "" : ",") + R"({"type": "point", "color": [1,1,1], "position": [)" +
+    lights += std::string(i == 0 ? "" : ",") +
+              R"({"type": "point", "color": [1,1,1], "position": [)" +
               std::to_string(i - count / 2) + ",2,-8]}";
   }
-  ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 96}, "max_depth": 120,
+  ReadResult read =
+      read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 96}, "max_depth": 120,
     "camera": {"type": "perspective", "eye": [0,0,-9], "look_at": [2,1,0], "up": [0,1,0], "fov": 60},
-    "lights": [)" + lights + R"(],
+    "lights": [)" + lights +
+                      R"(],
     "materials": {"mirror": {"reflect": 1}},
     "objects": [{"material": "mirror", "csg": {"type": "box", "min": [-40,-30,3], "max": [40,30,4]}},
                 {"material": "mirror", "csg": {"type": "box", "min": [-40,-30,-12], "max": [40,30,-11]}}]})");
@@ -146,17 +156,22 @@ TEST_CASE("between mirrors the coarse render ends early where secondary rays sta
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
   const LoadMap load =
-      coarse_load(Domain(model), grid, nullptr, {.shadow_rays = true, .secondary_rays = true}, 0).map;
+      coarse_load(Domain(model), grid, nullptr, {.shadow_rays = true, .secondary_rays = true}, 0)
+          .map;
   const double all = total(load);
   CHECK(all > static_cast<double>(kLeastCoarseCrossings));
-  // A pixel takes thousands of rays, and of 1024 that there were without an end each would be traced.
+  // A pixel takes thousands of rays, and of 1024 that there were without an end each would be
+  // traced.
   CHECK(all < 40.0 * static_cast<double>(kLeastCoarseCrossings));
 }
 
-TEST_CASE("among many lights the coarse render ends early, too, where shadow rays are traced where they begin") {
+TEST_CASE(
+    "among many lights the coarse render ends early, too, where shadow rays are traced where they "
+    "begin") {
   const Model model = mirrors_and_lights(64);
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
-  const auto load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr, Staying{.shadow_rays = true}, 0);
+  const auto load = coarse_load(Domain(model), MacroGrid::regular(frame, 16, 16), nullptr,
+                                Staying{.shadow_rays = true}, 0);
   CHECK(load.left_by_light.size() > kLeastCoarseCrossings / 2);
   CHECK(load.left_by_light.size() < 3 * kLeastCoarseCrossings);
 }
@@ -166,7 +181,8 @@ TEST_CASE("between mirrors the coarse render ends early, and has looked everywhe
   const CameraFrame frame = CameraFrame::from(model.settings.camera, model.settings.image);
   const MacroGrid grid = MacroGrid::regular(frame, 16, 16);
   const LoadMap load = coarse_load(Domain(model), grid, nullptr, Staying{}, 0).map;
-  const double crossings = total(coarse_load(Domain(model), grid, nullptr, Staying{}, 1).map) - total(load);
+  const double crossings =
+      total(coarse_load(Domain(model), grid, nullptr, Staying{}, 1).map) - total(load);
   CHECK(crossings > kLeastCoarseCrossings);
   // Rays that wait when the limit is reached come on top; all blocks would take over a million.
   CHECK(crossings < 6 * kLeastCoarseCrossings);

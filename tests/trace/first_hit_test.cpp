@@ -17,9 +17,11 @@ struct Probe {
     ReadResult read = read_scene_text(
         R"({"graycube": 1, "image": {"width": 1, "height": 1, "samples": )" +
         std::to_string(samples) + R"(}, "camera": {"type": "orthographic", "width": 0.1, "eye": )" +
-        eye + R"(, "look_at": )" + eye.substr(0, eye.rfind(',')) + R"(, 100], "up": [0,1,0], "inside": ")" + inside + R"("},
+        eye + R"(, "look_at": )" + eye.substr(0, eye.rfind(',')) +
+        R"(, 100], "up": [0,1,0], "inside": ")" + inside + R"("},
       "lights": [], "materials": {"red": {"color": [0.5,0.25,0.125], "transmit": 1}},
-      "objects": [)" + objects + "]}");
+      "objects": [)" +
+        objects + "]}");
     REQUIRE(read.scene);
     read.scene->settings.aovs = AovSet::all();
     const Domain domain(compile_scene(*read.scene));
@@ -77,8 +79,10 @@ TEST_CASE("where nothing is hit the depth is infinite and the object 0") {
 }
 
 TEST_CASE("a ray that starts within a solid may show where it entered it") {
-  const std::string ball = R"({"material": "red", "csg": {"type": "sphere", "center": [0,0,4], "radius": 2}})";
-  const std::string behind = R"({"material": "red", "csg": {"type": "sphere", "center": [0,0,-9], "radius": 1}})";
+  const std::string ball =
+      R"({"material": "red", "csg": {"type": "sphere", "center": [0,0,4], "radius": 2}})";
+  const std::string behind =
+      R"({"material": "red", "csg": {"type": "sphere", "center": [0,0,-9], "radius": 1}})";
   const Probe exit("[0,0,4]", ball + "," + behind);
   CHECK(exit.depth() == 2.0f);
   const Probe entry("[0,0,4]", behind + "," + ball, 1, "entry");
@@ -86,8 +90,10 @@ TEST_CASE("a ray that starts within a solid may show where it entered it") {
   CHECK(entry.normal() == Vec3{0, 0, -1});
   CHECK(entry.object() == 2);
   // A shell around another solid, both around the start: the inner one was entered last.
-  const Probe two("[0,0,4]", R"({"material": "red", "csg": {"type": "box", "min": [-5,-5,-5], "max": [5,5,5]}},)" + ball,
-                  1, "entry");
+  const Probe two(
+      "[0,0,4]",
+      R"({"material": "red", "csg": {"type": "box", "min": [-5,-5,-5], "max": [5,5,5]}},)" + ball,
+      1, "entry");
   CHECK(two.object() == 2);
   CHECK(Probe("[0,0,-2]", ball, 1, "entry").depth() == 4.0f);
   CHECK(Probe("[0,0,8]", ball, 1, "entry").object() == 0);

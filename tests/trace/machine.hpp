@@ -1,4 +1,5 @@
-// A machine of nodes without wires: domains that share out a grid's macro-regions, and rays handed from one to the other.
+// A machine of nodes without wires: domains that share out a grid's macro-regions, and rays handed
+// from one to the other.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -41,7 +42,8 @@ struct Harvest {
   }
 };
 
-inline Harvest trace_whole(const Model& model, Subdivision subdivision = Subdivision::kSurfaceTree) {
+inline Harvest trace_whole(const Model& model,
+                           Subdivision subdivision = Subdivision::kSurfaceTree) {
   const ImageSize& image = model.settings.image;
   Harvest harvest(image);
   const Domain domain(model, subdivision);
@@ -80,11 +82,15 @@ class Machine {
   struct Knowledge {
     bool has_horizons = false, has_bounds = false;
   };
-  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't hold. With own pixels of theirs, regions
-  /// aren't scattered.
-  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows, Knowledge knows, Dice& dice,
-          std::vector<std::int64_t> own_edges = {})
-      : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows), own_edges_(std::move(own_edges)) {
+  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't
+  /// hold. With own pixels of theirs, regions aren't scattered.
+  Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows,
+          Knowledge knows, Dice& dice, std::vector<std::int64_t> own_edges = {})
+      : image_(model.settings.image),
+        grid_(grid),
+        columns_(columns),
+        rows_(rows),
+        own_edges_(std::move(own_edges)) {
     const Occluders occluders = Occluders::of(model);
     const SurfaceTree whole = SurfaceTree::build(model);
     const ForeignBoundsMaker maker(whole);
@@ -105,7 +111,8 @@ class Machine {
         }
         auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
         if (knows.has_bounds && bounds) {
-          domains_.back()->set_foreign_bounds(std::make_shared<const ForeignBounds>(*std::move(bounds)));
+          domains_.back()->set_foreign_bounds(
+              std::make_shared<const ForeignBounds>(*std::move(bounds)));
         }
         evaluators_.emplace_back(*domains_.back());
       }
@@ -116,8 +123,8 @@ class Machine {
   /// Objects of which nodes hold a part.
   std::size_t parts = 0;
 
-  /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken together,
-  /// as many as come.
+  /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken
+  /// together, as many as come.
   Harvest trace(Dice& dice) {
     Harvest harvest(image_);
     const TilePlan plan(image_, {5, 3}, grid_, own_edges_);

@@ -59,7 +59,9 @@ TEST_CASE("macro-regions give bit for bit the picture of the whole") {
   CHECK(secondary > 20000);
 }
 
-TEST_CASE("scattered macro-regions give the picture of the whole, with light horizons, depths and without") {
+TEST_CASE(
+    "scattered macro-regions give the picture of the whole, with light horizons, depths and "
+    "without") {
   constexpr std::uint64_t kDepthTexels = 40'000;
   std::uint64_t skipped = 0, skipped_with_depth = 0, without = 0, with = 0, with_depth = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
@@ -80,7 +82,8 @@ TEST_CASE("scattered macro-regions give the picture of the whole, with light hor
     const Harvest horizon =
         Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, horizons).trace(dice);
     check_equal(whole, horizon, model.settings.image);
-    const Harvest deep = Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, depths).trace(dice);
+    const Harvest deep =
+        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, depths).trace(dice);
     check_equal(whole, deep, model.settings.image);
     without += forward.handed_over;
     with += horizon.handed_over;

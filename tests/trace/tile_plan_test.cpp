@@ -119,12 +119,15 @@ TEST_CASE("a plan of macro-regions has every pixel in exactly one tile, of its o
   }
 }
 
-TEST_CASE("a plan with own pixels has every pixel in exactly one tile, of one region and one owner") {
+TEST_CASE(
+    "a plan with own pixels has every pixel in exactly one tile, of one region and one owner") {
   std::size_t beside = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     INFO("seed " << seed);
     Dice dice(seed);
-    const auto side = [&](std::size_t most) { return static_cast<std::uint32_t>(1 + dice.below(most)); };
+    const auto side = [&](std::size_t most) {
+      return static_cast<std::uint32_t>(1 + dice.below(most));
+    };
     const std::uint32_t columns = side(6), rows = side(6);
     const ImageSize image{columns + side(60), side(70), 1};
     const TileShape shape{side(20), side(20)};
@@ -133,14 +136,16 @@ TEST_CASE("a plan with own pixels has every pixel in exactly one tile, of one re
     for (std::uint32_t row = 0; row < rows; ++row) {
       for (std::uint32_t column = 1; column < columns; ++column) {
         // Between 1 and the width, one fewer than that apart.
-        own.push_back(column + static_cast<std::int64_t>(dice.below(2)) + (column == 1 ? 0 : own.back() - column + 1));
+        own.push_back(column + static_cast<std::int64_t>(dice.below(2)) +
+                      (column == 1 ? 0 : own.back() - column + 1));
       }
     }
     const TilePlan plan(image, shape, grid, own);
     check_partition(plan, image, shape);
     std::size_t tiles = 0;
     for (std::uint32_t row = 0; row < rows; ++row) {
-      for (std::uint32_t column = 0; column < columns; ++column) tiles += plan.tiles_of({columns, rows, column, row}).size();
+      for (std::uint32_t column = 0; column < columns; ++column)
+        tiles += plan.tiles_of({columns, rows, column, row}).size();
     }
     REQUIRE(tiles == plan.tile_count());
     for (std::uint32_t tile = 0; tile < plan.tile_count(); ++tile) {
