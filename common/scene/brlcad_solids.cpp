@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/aabb.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/limits.hpp"
 
 namespace graycube {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/json_tree.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/scene_error.hpp"
 
 namespace graycube {
 

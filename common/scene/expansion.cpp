@@ -5,7 +5,7 @@
 #include <string>
 
 #include "csg/triangle_mesh.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/limits.hpp"
 #include "scene/spelling.hpp"
 
 namespace graycube {

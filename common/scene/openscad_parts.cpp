@@ -7,13 +7,13 @@
 #include <optional>
 #include <utility>
 
+#include "scene/limits.hpp"
 #include "scene/openscad_flat.hpp"
 #include "scene/openscad_hull.hpp"
 #include "scene/openscad_palette.hpp"
 #include "scene/openscad_primitives.hpp"
 #include "scene/openscad_rounds.hpp"
 #include "scene/openscad_sweep.hpp"
-#include "scene/read_scene.hpp"
 
 namespace graycube {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "geometry/portable_math.hpp"
 #include "scene/flat_solids.hpp"
+#include "scene/limits.hpp"
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_sweep_mesh.hpp"
-#include "scene/read_scene.hpp"
 #include "scene/round_solid.hpp"
 
 namespace graycube {

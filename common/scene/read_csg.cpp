@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/limits.hpp"
 #include "scene/read_leaf.hpp"
 #include "scene/read_transform.hpp"
 #include "scene/spelling.hpp"

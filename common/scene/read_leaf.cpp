@@ -5,7 +5,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/check.hpp"
 #include "scene/flat_solids.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/limits.hpp"
 
 namespace graycube {
 namespace {

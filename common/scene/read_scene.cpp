@@ -10,10 +10,12 @@
 #include "scene/expansion.hpp"
 #include "scene/json_access.hpp"
 #include "scene/json_tree.hpp"
+#include "scene/limits.hpp"
 #include "scene/name_table.hpp"
 #include "scene/read_csg.hpp"
 #include "scene/read_settings.hpp"
 #include "scene/spelling.hpp"
+#include "scene/written_digits.hpp"
 
 namespace graycube {
 namespace {

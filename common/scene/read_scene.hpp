@@ -12,34 +12,11 @@
 #include "scene/mesh_file.hpp"
 #include "scene/padded_text.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_error.hpp"
 
 namespace graycube {
 
 inline constexpr std::uint64_t kMaxSceneBytes = 0xFFFFFFFFull;  // 4 GiB − 1
-/// Levels of a CSG tree, refs expanded.
-inline constexpr std::uint32_t kMaxTreeDepth = 256;
-/// Leaves of all objects, and nodes of any kind, refs expanded.
-inline constexpr std::uint64_t kMaxLeaves = 1ull << 24;
-inline constexpr std::uint64_t kMaxExpandedNodes = 1ull << 25;
-inline constexpr std::uint32_t kMaxMaterials = 1u << 20;
-inline constexpr std::uint32_t kMaxShapes = 1u << 24;
-inline constexpr std::uint32_t kMaxObjects = 1u << 24;
-inline constexpr std::uint32_t kMaxPlanes = 1u << 16;
-/// Points of a prism, and corners of its paths.
-inline constexpr std::uint32_t kMaxPrismPoints = 4096;
-/// Significant digits that a double may need to be told from its neighbours.
-inline constexpr std::uint32_t kMaxDigits = 17;
-/// Further errors are only counted.
-inline constexpr std::size_t kMaxReportedErrors = 100;
-
-struct SceneError {
-  /// RFC 6901; empty for the whole file.
-  std::string pointer;
-  /// What was expected and what was found.
-  std::string message;
-  /// Where that value begins in the text, from 1; 0 when there is no such place.
-  std::uint64_t line = 0, column = 0;
-};
 
 struct ReadResult {
   /// Set exactly when there is no error.

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "scene/read_scene.hpp"
-
 namespace graycube {
 namespace {
 

@@ -7,6 +7,8 @@
 
 namespace graycube {
 
+/// Significant digits that a double may need to be told from its neighbours.
+inline constexpr std::uint32_t kMaxDigits = 17;
 /// Numbers shorter than this are taken for round ones, not for rounded ones: 10 and 0.5 mean
 /// themselves.
 inline constexpr std::uint32_t kLeastWrittenDigits = 6;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "scene/limits.hpp"
 #include "scene/read_scene.hpp"
 #include "scene_text.hpp"
 
