@@ -113,9 +113,9 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
                      const ModelChoice& choice, SceneInput& input) {
   const auto program = OpenscadProcess::find();
   OpenscadOptions how;
-  how.image.width = options.width.value_or(how.image.width);
-  how.image.height = options.height.value_or(how.image.height);
-  how.max_depth = options.max_depth.value_or(how.max_depth);
+  how.frame.image.width = options.width.value_or(how.frame.image.width);
+  how.frame.image.height = options.height.value_or(how.frame.image.height);
+  how.frame.max_depth = options.max_depth.value_or(how.frame.max_depth);
   how.facets = choice.facets;
   how.program = program.get();
   how.folder = fs::absolute(path).parent_path().string();
@@ -157,7 +157,7 @@ void import_mesh(const fs::path& path, const control::JobOptions& options, Scene
     throw bad_scene(path,
                     fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
   }
-  OpenscadOptions how;
+  Frame how;
   how.image.width = options.width.value_or(how.image.width);
   how.image.height = options.height.value_or(how.image.height);
   how.max_depth = options.max_depth.value_or(how.max_depth);

@@ -7,14 +7,14 @@
 
 namespace graycube {
 
-Scene scene_of_mesh(MeshShape mesh, const OpenscadOptions& options) {
+Scene scene_of_mesh(MeshShape mesh, const Frame& frame) {
   Scene scene;
   scene.digits = mesh.digits;
   // A mesh reaches as far as its points do.
   CsgNode hull;
   hull.value = PolyhedronShape{};
-  scene.settings = framed_settings(
-      reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(options)), options);
+  scene.settings =
+      framed_settings(reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(frame)), frame);
   OpenscadPalette palette;
   SceneObject object{"mesh", palette.index_of(ScadColor{}), {}};
   object.csg.value = std::move(mesh);

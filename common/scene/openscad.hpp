@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/frame.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -56,13 +57,7 @@ class OpenscadProgram {
 
 /// What a .csg file doesn't say.
 struct OpenscadOptions {
-  /// Both sides at least 1; the camera is framed for this picture.
-  ImageSize image{512, 512, 1};
-  /// The full horizontal angle, 0 < fov < 180.
-  double fov_degrees = 30;
-  /// Share of the picture's width or height left free on each side, 0 ≤ margin < 0.5.
-  double margin = 0.08;
-  std::uint32_t max_depth = 5;
+  Frame frame{};
   /// Everything round as OpenSCAD would make it of facets.
   bool facets = false;
   /// Evaluates text(), import() and what else needs it; null: they are errors.

@@ -30,9 +30,9 @@ struct Opening {
   double across, upright;
 };
 
-Opening opening(const OpenscadOptions& options) {
-  const double across = tan_degrees(0.5 * options.fov_degrees) * (1 - 2 * options.margin);
-  return {across, across * options.image.height / options.image.width};
+Opening opening(const Frame& frame) {
+  const double across = tan_degrees(0.5 * frame.fov_degrees) * (1 - 2 * frame.margin);
+  return {across, across * frame.image.height / frame.image.width};
 }
 
 double disc_reach(const Vec3& direction, const Vec3& center, const Vec3& axis, double radius) {
@@ -136,9 +136,9 @@ OpenscadView OpenscadView::standard() {
   return {right, cross(right, forward), forward};
 }
 
-ReachDirections reach_directions(const OpenscadOptions& options) {
+ReachDirections reach_directions(const Frame& frame) {
   const OpenscadView view = OpenscadView::standard();
-  const Opening k = opening(options);
+  const Opening k = opening(frame);
   const Vec3 across = k.across * view.forward, upright = k.upright * view.forward;
   return {Vec3{1, 0, 0},     Vec3{-1, 0, 0},    Vec3{0, 1, 0},       Vec3{0, -1, 0},
           Vec3{0, 0, 1},     Vec3{0, 0, -1},    view.right - across, -view.right - across,
@@ -184,8 +184,8 @@ Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine&
   return result;
 }
 
-RenderSettings framed_settings(const Reach& reach, const OpenscadOptions& options) {
-  const ReachDirections directions = reach_directions(options);
+RenderSettings framed_settings(const Reach& reach, const Frame& frame) {
+  const ReachDirections directions = reach_directions(frame);
   const Reach framed = reach.box().is_empty() ? reach_of_unit_cube(directions) : reach;
   const Aabb box = framed.box();
   const Vec3 center = box.center();
@@ -193,20 +193,20 @@ RenderSettings framed_settings(const Reach& reach, const OpenscadOptions& option
   const OpenscadView view = OpenscadView::standard();
 
   // What reaches are kept of intersections only bounds them, and might place the eye inside.
-  Vec3 eye = nearest_eye(view, opening(options), framed);
+  Vec3 eye = nearest_eye(view, opening(frame), framed);
   const double inside = dot(eye - center, view.forward) + kLeastEyeDistance * radius;
   if (inside > 0) eye = eye - inside * view.forward;
 
   RenderSettings settings;
-  settings.image = options.image;
+  settings.image = frame.image;
   settings.camera.projection = Projection::kPerspective;
   settings.camera.eye = eye;
   settings.camera.look_at = eye + dot(center - eye, view.forward) * view.forward;
   settings.camera.up = {0, 0, 1};
-  settings.camera.fov_degrees = options.fov_degrees;
+  settings.camera.fov_degrees = frame.fov_degrees;
   settings.camera.handedness = Handedness::kRight;
   settings.background = kBackground;
-  settings.max_depth = options.max_depth;
+  settings.max_depth = frame.max_depth;
   settings.lights = {
       {light_position(view, center, radius, kKeyDirection), kKeyLight, Falloff::kNone},
       {light_position(view, center, radius, kFillDirection), kFillLight, Falloff::kNone}};

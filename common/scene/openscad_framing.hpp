@@ -8,7 +8,8 @@
 
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
-#include "scene/openscad.hpp"
+#include "scene/frame.hpp"
+#include "scene/scene.hpp"
 
 namespace graycube {
 
@@ -24,7 +25,7 @@ struct OpenscadView {
 /// lower), not unit.
 inline constexpr std::size_t kReachDirections = 10;
 using ReachDirections = std::array<Vec3, kReachDirections>;
-ReachDirections reach_directions(const OpenscadOptions& options);
+ReachDirections reach_directions(const Frame& frame);
 
 /// An upper bound of n · p over a solid, for each direction; −infinity everywhere for the empty
 /// one.
@@ -43,6 +44,6 @@ Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine&
 
 /// Camera, lights, background and the rest for what reaches that far. An empty solid is framed like
 /// the cube [−1, 1]³.
-RenderSettings framed_settings(const Reach& reach, const OpenscadOptions& options);
+RenderSettings framed_settings(const Reach& reach, const Frame& frame);
 
 }  // namespace graycube

@@ -92,7 +92,7 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
   Scene scene;
   scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
   if (report.has_errors()) return scene;
-  scene.settings = framed_settings(reach_of(parts), options);
+  scene.settings = framed_settings(reach_of(parts), options.frame);
   scene.materials = std::move(materials);
   if (parts.empty()) report.warning(0, "the model is empty");
   scene.objects = objects_of(std::move(parts), scene.materials);
@@ -102,11 +102,12 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
 }  // namespace
 
 OpenscadResult read_openscad_csg(std::string_view text, const OpenscadOptions& options) {
-  GRAYCUBE_CHECK(options.image.width > 0 && options.image.height > 0, "picture %u x %u",
-                 options.image.width, options.image.height);
-  GRAYCUBE_CHECK(options.fov_degrees > 0 && options.fov_degrees < 180, "fov %g",
-                 options.fov_degrees);
-  GRAYCUBE_CHECK(options.margin >= 0 && options.margin < 0.5, "margin %g", options.margin);
+  GRAYCUBE_CHECK(options.frame.image.width > 0 && options.frame.image.height > 0, "picture %u x %u",
+                 options.frame.image.width, options.frame.image.height);
+  GRAYCUBE_CHECK(options.frame.fov_degrees > 0 && options.frame.fov_degrees < 180, "fov %g",
+                 options.frame.fov_degrees);
+  GRAYCUBE_CHECK(options.frame.margin >= 0 && options.frame.margin < 0.5, "margin %g",
+                 options.frame.margin);
   OpenscadReport report;
   Scene scene;
   if (text.size() > kMaxOpenscadBytes) {

@@ -351,7 +351,7 @@ class Importer {
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
                              std::uint32_t digits, OpenscadReport& report) {
-  Importer importer(reach_directions(options), options, digits, report);
+  Importer importer(reach_directions(options.frame), options, digits, report);
   OpenscadParts result;
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();

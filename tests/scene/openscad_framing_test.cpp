@@ -58,8 +58,9 @@ TEST_CASE("the view is OpenSCAD's: x to the right, y away, z up, from the front 
 TEST_CASE("a box fills the picture up to the margin, in wide, square and tall pictures") {
   for (const auto& [width, height] :
        {std::pair{640u, 480u}, {512u, 512u}, {200u, 900u}, {1900u, 100u}}) {
-    const Scene scene = scene_of("multmatrix([[1, 0, 0, 100], [0, 1, 0, -50]]) cube([4, 30, 7]);",
-                                 {.image = {width, height, 1}, .fov_degrees = 40, .margin = 0.1});
+    const Scene scene =
+        scene_of("multmatrix([[1, 0, 0, 100], [0, 1, 0, -50]]) cube([4, 30, 7]);",
+                 {.frame = {.image = {width, height, 1}, .fov_degrees = 40, .margin = 0.1}});
     CHECK(scene.settings.camera.fov_degrees == 40);
     CHECK(scene.settings.image == ImageSize{width, height, 1});
     const Aabb box{{100, -50, 0}, {104, -20, 7}};
