@@ -10,7 +10,7 @@
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_flat_sums.hpp"
-#include "scene/openscad_primitives.hpp"
+#include "scene/openscad_matrix.hpp"
 
 namespace graycube {
 namespace {

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "scene/flat_polygon.hpp"
 #include "scene/flat_rounds.hpp"
-#include "scene/openscad_program.hpp"
 #include "scene/rounded_polygon.hpp"
+#include "scene/scad_import.hpp"
 
 namespace graycube {
 
@@ -34,26 +32,6 @@ struct FlatShape {
   RoundedPolygon rounded{};
 
   bool has_curves() const;
-};
-
-/// What all parts of an import share.
-struct ScadImport {
-  const OpenscadOptions& options;
-  OpenscadReport& report;
-  OpenscadDelegate delegate;
-  /// Significant digits of the matrices' numbers.
-  std::uint32_t digits = kOpenscadDigits;
-  /// What was warned of once.
-  std::set<std::string> told;
-
-  void warn_once(int line, const std::string& message) {
-    if (told.insert(message).second) report.warning(line, message);
-  }
-  /// Of a module that gives facets to what is round in it.
-  void warn_of_sides(const std::string& name, int line) {
-    const char* around = options.facets ? "" : "; what is round around it is exact";
-    warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
-  }
 };
 
 /// The figure of a module under a map; nothing where it is empty or wrong, which is reported.

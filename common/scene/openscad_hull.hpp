@@ -1,17 +1,13 @@
-// hull() of solids, by Qhull, whose only home is openscad_hull.cpp.
+// The corners that hull() of solids goes by.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "scene/openscad_flat.hpp"
-#include "scene/openscad_primitives.hpp"
+#include "geometry/affine.hpp"
+#include "scene/openscad_parser.hpp"
+#include "scene/scad_import.hpp"
 
 namespace graycube {
-
-/// The triangles of the convex hull; no faces when the points lie in a plane, or one lies beyond
-/// kMaxOpenscadCoordinate.
-ScadMesh convex_hull(const std::vector<Vec3>& points);
 
 /// The corners of OpenSCAD's facets of everything in a module; false when it holds something whose
 /// corners aren't known without evaluating it, a difference for one.

@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "scene/convex_hull.hpp"
 #include "scene/limits.hpp"
 #include "scene/openscad_flat.hpp"
 #include "scene/openscad_hull.hpp"
+#include "scene/openscad_matrix.hpp"
 #include "scene/openscad_palette.hpp"
 #include "scene/openscad_primitives.hpp"
 #include "scene/openscad_rounds.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/openscad_framing.hpp"
+#include "scene/openscad_options.hpp"
 #include "scene/openscad_parser.hpp"
 
 namespace graycube {

@@ -1,11 +1,9 @@
-// cube(), sphere(), cylinder() and polyhedron(), and the arguments of multmatrix() and color().
+// cube(), sphere(), cylinder() and polyhedron(), and the arguments of color().
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "geometry/affine.hpp"
-#include "scene/flat_polygon.hpp"
 #include "scene/openscad_arguments.hpp"
 #include "scene/openscad_mesh.hpp"
 #include "scene/openscad_palette.hpp"
@@ -30,17 +28,6 @@ bool is_openscad_primitive(const ScadModule& module);
 /// negative radius, not finite); nothing, with an error, when the arguments make no sense here.
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
                                             bool facets = false);
-
-/// The map of a multmatrix(), a rotation where its so many digits can be one's; entries that are
-/// missing are those of the identity, and a fourth row [0, 0, 0, w] divides by w. Nothing with an
-/// error or, for a singular one, a warning.
-std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits,
-                                      OpenscadReport& report);
-
-/// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a
-/// singular one.
-std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits,
-                                   OpenscadReport& report);
 
 /// The colour of a color(); components are clamped to at most 1. Nothing with an error.
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);

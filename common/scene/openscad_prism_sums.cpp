@@ -7,7 +7,7 @@
 
 #include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_flat_sums.hpp"
-#include "scene/openscad_parts.hpp"
+#include "scene/openscad_matrix.hpp"
 #include "scene/openscad_primitives.hpp"
 #include "scene/openscad_sweep.hpp"
 

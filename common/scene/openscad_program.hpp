@@ -11,6 +11,8 @@
 #include <variant>
 
 #include "csg/close_mesh.hpp"
+#include "scene/flat_polygon.hpp"
+#include "scene/openscad_options.hpp"
 #include "scene/openscad_parser.hpp"
 
 namespace graycube {

@@ -4,9 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "scene/openscad.hpp"
+#include "scene/openscad_limits.hpp"
 
 namespace graycube {
+
+/// `line` counts from 1; 0 stands for the whole file.
+struct OpenscadError {
+  int line = 0;
+  std::string message;
+};
 
 /// Keeps the first kMaxOpenscadErrors errors and kMaxOpenscadWarnings warnings, and counts the
 /// rest.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scene/openscad_flat_rounds.hpp"
-#include "scene/openscad_parts.hpp"
+#include "scene/openscad_matrix.hpp"
 #include "scene/openscad_primitives.hpp"
 #include "scene/openscad_sweep.hpp"
 

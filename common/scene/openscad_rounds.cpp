@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/convex_hull.hpp"
 #include "scene/openscad_flat_rounds.hpp"
 #include "scene/openscad_hull.hpp"
+#include "scene/openscad_primitives.hpp"
 #include "scene/openscad_prism_sums.hpp"
 #include "scene/openscad_round_pieces.hpp"
 #include "scene/openscad_sweep.hpp"

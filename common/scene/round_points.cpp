@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/openscad_hull.hpp"
+#include "scene/convex_hull.hpp"
 #include "scene/round_hull.hpp"
 
 namespace graycube {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/openscad_hull.hpp"
+#include "scene/convex_hull.hpp"
 
 namespace graycube {
 namespace {
