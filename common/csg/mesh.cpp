@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "csg/interval.hpp"
 #include "csg/mesh_tree.hpp"
-#include "csg/roots.hpp"
 
 namespace graycube {
 

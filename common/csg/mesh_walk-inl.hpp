@@ -11,8 +11,8 @@
 
 #include <vector>
 
+#include "csg/interval.hpp"
 #include "csg/mesh_walk.hpp"
-#include "csg/roots.hpp"
 #include "geometry/wide_node-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

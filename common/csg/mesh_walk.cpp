@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "csg/roots.hpp"
+#include "csg/interval.hpp"
 #include "geometry/simd.hpp"
 
 #undef HWY_TARGET_INCLUDE
