@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/plain_shapes.hpp"
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube::plain {
 namespace {

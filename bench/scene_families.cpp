@@ -3,7 +3,7 @@
 #include <array>
 
 #include "bench/scene_parts.hpp"
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube::bench {
 namespace {

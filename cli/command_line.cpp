@@ -9,7 +9,7 @@
 
 #include "cli/failure.hpp"
 #include "cli/option_values.hpp"
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <string>
 
+#include "check.hpp"
 #include "cli/failure.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube {
 namespace {

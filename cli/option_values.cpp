@@ -11,8 +11,8 @@
 
 #include "cli/failure.hpp"
 #include "film/aov.hpp"
-#include "scene/spelling.hpp"
 #include "shading/settings.hpp"
+#include "spelling.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {

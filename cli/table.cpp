@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

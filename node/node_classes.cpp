@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "node/node.hpp"
 #include "proto/control.hpp"
 

@@ -1,7 +1,7 @@
 // What a node's brain does with its neighbours' batches.
 #include <algorithm>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "node/node.hpp"
 #include "proto/control.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "proto/batch.hpp"
 #include "proto/batch_layout.hpp"
 #include "proto/bytes.hpp"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 

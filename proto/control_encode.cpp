@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "proto/control.hpp"
 #include "proto/control_fields.hpp"
 #include "proto/control_names.hpp"

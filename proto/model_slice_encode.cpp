@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"

@@ -1,6 +1,6 @@
 #include "proto/picture_rows.hpp"
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "proto/bytes.hpp"
 #include "proto/messages.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "check.hpp"
 #include "csg/close_mesh.hpp"
 #include "csg/half_space.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube {
 namespace {

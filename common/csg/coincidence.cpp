@@ -1,8 +1,8 @@
 #include "csg/coincidence.hpp"
 
+#include "check.hpp"
 #include "csg/plane_unifier.hpp"
 #include "csg/surface_unifier.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube {
 

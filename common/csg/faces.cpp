@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check.hpp"
 #include "csg/box.hpp"
 #include "csg/half_space.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube::csg {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "check.hpp"
 #include "csg/heading.hpp"
 #include "csg/quadric.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube::csg {
 namespace {

@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <exception>
 
+#include "check.hpp"
 #include "film/picture_files.hpp"
 #include "film/whole_file.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube {
 namespace {

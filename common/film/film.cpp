@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

@@ -13,10 +13,10 @@
 #include <system_error>
 #include <vector>
 
+#include "check.hpp"
 #include "film/picture_files.hpp"
 #include "film/transfer.hpp"
 #include "film/whole_file.hpp"
-#include "geometry/check.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

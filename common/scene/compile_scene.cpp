@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check.hpp"
 #include "csg/build_primitive.hpp"
 #include "csg/coincidence.hpp"
 #include "csg/exactness.hpp"
 #include "csg/tree.hpp"
-#include "geometry/check.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
 

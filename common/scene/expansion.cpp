@@ -6,7 +6,7 @@
 
 #include "csg/triangle_mesh.hpp"
 #include "scene/limits.hpp"
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

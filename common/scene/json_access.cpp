@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scene/padded_text.hpp"
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

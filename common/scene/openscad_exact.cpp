@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/openscad.hpp"
 #include "scene/openscad_exact.hpp"
 #include "scene/openscad_framing.hpp"

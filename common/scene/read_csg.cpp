@@ -8,7 +8,7 @@
 #include "scene/limits.hpp"
 #include "scene/read_leaf.hpp"
 #include "scene/read_transform.hpp"
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "check.hpp"
 #include "geometry/affine.hpp"
-#include "geometry/check.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/limits.hpp"
 

@@ -1,7 +1,7 @@
 // The mesh leaf: points and faces, or a file.
 #include "csg/close_mesh.hpp"
 #include "scene/read_leaf.hpp"
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

@@ -14,8 +14,8 @@
 #include "scene/name_table.hpp"
 #include "scene/read_csg.hpp"
 #include "scene/read_settings.hpp"
-#include "scene/spelling.hpp"
-#include "scene/written_digits.hpp"
+#include "spelling.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scene/scene_words.hpp"
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "geometry/portable_math.hpp"
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/scene_words.hpp"
 
 namespace graycube {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

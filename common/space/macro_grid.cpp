@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 

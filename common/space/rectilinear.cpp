@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

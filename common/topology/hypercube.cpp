@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "topology/gray.hpp"
 
 namespace graycube {

@@ -1,6 +1,6 @@
 #include "trace/domain.hpp"
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "trace/tile_plan.hpp"
 
 namespace graycube {

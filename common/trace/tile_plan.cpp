@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "space/own_pixels.hpp"
 
 namespace graycube {

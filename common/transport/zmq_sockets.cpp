@@ -8,7 +8,7 @@
 #include <cstring>
 #include <zmq.hpp>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 
 namespace graycube {
 namespace {

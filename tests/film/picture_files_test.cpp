@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "transport/temporary_folder.hpp"
 
 using namespace graycube;

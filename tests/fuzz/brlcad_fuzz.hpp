@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/brlcad.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"

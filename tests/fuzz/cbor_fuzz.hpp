@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/cbor_writer.hpp"
 #include "scene/json_tree.hpp"
 #include "scene/read_scene.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/json_tree.hpp"
 #include "scene/padded_text.hpp"
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <variant>
 
+#include "check.hpp"
 #include "csg/close_mesh.hpp"
 #include "csg/mesh.hpp"
 #include "csg/mesh_edges.hpp"
-#include "geometry/check.hpp"
 #include "scene/mesh_file.hpp"
 #include "scene/mesh_scene.hpp"
 #include "scene/read_scene.hpp"

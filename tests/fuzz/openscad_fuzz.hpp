@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/openscad.hpp"
 #include "scene/read_scene.hpp"

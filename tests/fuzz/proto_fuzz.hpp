@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "proto/batch.hpp"
 #include "proto/control.hpp"
 #include "proto/model_slice.hpp"

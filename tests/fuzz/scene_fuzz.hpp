@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "geometry/check.hpp"
+#include "check.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"

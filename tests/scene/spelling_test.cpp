@@ -1,4 +1,4 @@
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 #include <catch2/catch.hpp>
 #include <charconv>

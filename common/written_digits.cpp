@@ -1,4 +1,4 @@
-#include "scene/written_digits.hpp"
+#include "written_digits.hpp"
 
 #include <algorithm>
 #include <charconv>

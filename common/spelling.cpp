@@ -1,4 +1,4 @@
-#include "scene/spelling.hpp"
+#include "spelling.hpp"
 
 #include <algorithm>
 #include <utility>
