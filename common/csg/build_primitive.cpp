@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "check.hpp"
-#include "csg/close_mesh.hpp"
 #include "csg/half_space.hpp"
+#include "mesh/close_mesh.hpp"
 
 namespace graycube {
 namespace {

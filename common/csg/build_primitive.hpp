@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "csg/mesh.hpp"
 #include "csg/primitive.hpp"
+#include "mesh/mesh.hpp"
 
 namespace graycube {
 

@@ -5,10 +5,10 @@
 #include "csg/elliptic_cone.hpp"
 #include "csg/elliptic_torus.hpp"
 #include "csg/half_space.hpp"
-#include "csg/mesh.hpp"
 #include "csg/quadric.hpp"
 #include "csg/sphere.hpp"
 #include "csg/torus.hpp"
+#include "mesh/mesh.hpp"
 
 namespace graycube {
 

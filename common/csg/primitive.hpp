@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "csg/mesh.hpp"
-#include "csg/plane.hpp"
-#include "csg/spans.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/ray.hpp"
+#include "geometry/spans.hpp"
+#include "mesh/mesh.hpp"
 
 namespace graycube {
 

@@ -1,8 +1,8 @@
 // What the solvers of the single kinds share: boxes seen in a primitive's own frame.
 #pragma once
 
-#include "csg/interval.hpp"
 #include "csg/primitive.hpp"
+#include "geometry/interval.hpp"
 
 namespace graycube::csg {
 

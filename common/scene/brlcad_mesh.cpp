@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/brlcad_solids.hpp"
 
 namespace graycube {

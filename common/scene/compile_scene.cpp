@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "check.hpp"
+#include "coincidence/coincidence.hpp"
+#include "coincidence/exactness.hpp"
 #include "csg/build_primitive.hpp"
-#include "csg/coincidence.hpp"
-#include "csg/exactness.hpp"
 #include "csg/tree.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "csg/triangle_mesh.hpp"
+#include "mesh/triangle_mesh.hpp"
 #include "scene/limits.hpp"
 #include "spelling.hpp"
 

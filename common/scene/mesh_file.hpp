@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

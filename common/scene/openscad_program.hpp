@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/flat_polygon.hpp"
 #include "scene/openscad_options.hpp"
 #include "scene/openscad_parser.hpp"

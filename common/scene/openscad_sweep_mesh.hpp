@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/flat_polygon.hpp"
 #include "scene/openscad_arguments.hpp"
 

@@ -1,5 +1,5 @@
 // The mesh leaf: points and faces, or a file.
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 #include "scene/read_leaf.hpp"
 #include "written_digits.hpp"
 

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "csg/triangle_mesh.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
+#include "mesh/triangle_mesh.hpp"
 #include "scene/flat_polygon.hpp"
 #include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
@@ -100,7 +100,7 @@ struct PrismShape {
   double height = 0, base = 0;
   friend bool operator==(const PrismShape&, const PrismShape&) = default;
 };
-/// A closed mesh, as closed_mesh (csg/close_mesh.hpp) gives it: every edge balanced, normals
+/// A closed mesh, as closed_mesh (mesh/close_mesh.hpp) gives it: every edge balanced, normals
 /// outward.
 struct MeshShape {
   TriangleMesh mesh;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "csg/mesh_line.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
+#include "mesh/line.hpp"
 #include "scene/flat_solids.hpp"
 
 namespace graycube {

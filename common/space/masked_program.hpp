@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "csg/model.hpp"
-#include "csg/spans.hpp"
+#include "geometry/spans.hpp"
 
 namespace graycube::crossings {
 

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "csg/mesh_walk-inl.hpp"
+#include "mesh/walk-inl.hpp"
 #include "space/packet_culling-inl.hpp"
 #include "space/packet_nodes-inl.hpp"
 

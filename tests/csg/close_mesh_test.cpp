@@ -1,11 +1,11 @@
 // From polygons to closed meshes.
-#include "csg/close_mesh.hpp"
+#include "mesh/close_mesh.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "csg/cut_face.hpp"
 #include "csg/mesh_samples.hpp"
+#include "mesh/cut_face.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

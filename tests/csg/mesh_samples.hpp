@@ -7,8 +7,8 @@
 #include <string>
 #include <variant>
 
-#include "csg/close_mesh.hpp"
 #include "geometry/portable_math.hpp"
+#include "mesh/close_mesh.hpp"
 
 namespace graycube::testing {
 

@@ -1,12 +1,12 @@
 // Meshes as solids.
-#include "csg/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "csg/dice.hpp"
-#include "csg/mesh_line.hpp"
 #include "csg/mesh_samples.hpp"
 #include "csg/one_primitive.hpp"
+#include "mesh/line.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

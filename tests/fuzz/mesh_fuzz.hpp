@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "check.hpp"
-#include "csg/close_mesh.hpp"
-#include "csg/mesh.hpp"
-#include "csg/mesh_edges.hpp"
+#include "mesh/close_mesh.hpp"
+#include "mesh/edges.hpp"
+#include "mesh/mesh.hpp"
 #include "scene/mesh_file.hpp"
 #include "scene/mesh_scene.hpp"
 #include "scene/read_scene.hpp"

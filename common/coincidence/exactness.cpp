@@ -1,0 +1,90 @@
+#include "coincidence/exactness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace graycube {
+namespace {
+
+/// Entries that stand alone in their row scale, and are off by a share of themselves. Those of a
+/// rotation come from sines: they are off by a share of the largest.
+Affine magnitude_of(const Affine& map) {
+  Affine r;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& row = map.m[i];
+    const double most = std::max(std::fabs(row[0]), std::max(std::fabs(row[1]), std::fabs(row[2])));
+    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = row[j] == 0 ? 0.0 : most;
+    r.m[i][3] = std::fabs(row[3]);
+  }
+  return r;
+}
+
+/// A similarity's inverse is its transposed, but for a factor: cheaper, and near enough to measure
+/// by.
+std::optional<Affine> inverse_of(const Affine& map) {
+  constexpr double kNearEnough = 1e-3;
+  const Vec3 x = map.row(0), y = map.row(1), z = map.row(2);
+  const double square = dot(x, x);
+  const auto is_near = [&](double a, double b) { return std::fabs(a - b) <= kNearEnough * square; };
+  if (!is_near(dot(y, y), square) || !is_near(dot(z, z), square) || !is_near(dot(x, y), 0) ||
+      !is_near(dot(y, z), 0) || !is_near(dot(z, x), 0)) {
+    return map.inverse();
+  }
+  Affine r;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = map.m[j][i] / square;
+  }
+  return r;
+}
+
+/// By how much more a normal may turn than the map's entries are off, as a share: normals go by the
+/// inverse transposed, and the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
+double turn_of(const MeasuredMap& map) {
+  const auto inverse = inverse_of(map.map);
+  if (!inverse) return 1;
+  double most = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& row = map.magnitude.m[k];
+      sum += std::fabs(inverse->m[i][k]) * (row[0] + row[1] + row[2]);
+    }
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+bool keeps_directions(const Affine& map) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (i != j && map.m[i][j] != 0) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+double share_of_digits(std::uint32_t digits) {
+  constexpr std::array<double, kDoubleDigits + 1> kHalfUnits{
+      0,    5e-1,  5e-2,  5e-3,  5e-4,  5e-5,  5e-6,  5e-7,  5e-8,
+      5e-9, 5e-10, 5e-11, 5e-12, 5e-13, 5e-14, 5e-15, 5e-16, 5e-17};
+  return std::max(kRoundedShare, kHalfUnits[std::min(digits, kDoubleDigits)]);
+}
+
+MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
+  return {compose(then.map, first), compose(then.magnitude, magnitude_of(first))};
+}
+
+Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share) {
+  Exactness e;
+  const Vec3 position = share * map.magnitude.point(reach);
+  e.along = {static_cast<float>(position.x), static_cast<float>(position.y),
+             static_cast<float>(position.z)};
+  e.direction = static_cast<float>(share * turn * (keeps_directions(map.map) ? 1 : turn_of(map)));
+  return e;
+}
+
+}  // namespace graycube

@@ -1,0 +1,137 @@
+#include "coincidence/faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check.hpp"
+#include "csg/box.hpp"
+#include "csg/half_space.hpp"
+
+namespace graycube::csg {
+namespace {
+
+bool is_upper(std::uint32_t slot) { return slot % 2 == 1; }
+int axis_of(std::uint32_t slot) { return static_cast<int>(slot / 2); }
+
+/// The lower (normal backwards) or the upper of the two planes across `normal`.
+Plane side_of(const Vec3& normal, double lower, double upper, std::uint32_t slot) {
+  return is_upper(slot) ? Plane{normal, upper} : Plane{-normal, -lower};
+}
+
+Vec3 world_axis(int axis) {
+  Vec3 e;
+  e[axis] = 1;
+  return e;
+}
+
+bool is_world_axis(const Vec3& n) {
+  return (std::fabs(n.x) == 1) + (std::fabs(n.y) == 1) + (std::fabs(n.z) == 1) == 1 &&
+         (n.x == 0) + (n.y == 0) + (n.z == 0) == 2;
+}
+
+void set_row(Affine& map, int row, const Vec3& v) {
+  map.m[static_cast<std::size_t>(row)] = {v.x + 0.0, v.y + 0.0, v.z + 0.0, 0};
+}
+
+/// Of a parallelepiped with normals along the world's axes.
+void become_box(Primitive& p) {
+  Vec3 lo, hi;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3 n = p.to_local.row(a);
+    for (int w = 0; w < 3; ++w) {
+      if (n[w] == 0) continue;
+      const auto i = static_cast<std::size_t>(a);
+      lo[w] = (n[w] > 0 ? p.v[i] : -p.v[i + 3]) + 0.0;
+      hi[w] = (n[w] > 0 ? p.v[i + 3] : -p.v[i]) + 0.0;
+    }
+  }
+  p.kind = PrimitiveKind::kBox;
+  p.to_local = {};
+  p.v = {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
+}
+
+}  // namespace
+
+Face face_of(const Model& model, std::uint32_t primitive, std::uint32_t slot) {
+  const Primitive& p = model.primitives[primitive];
+  const auto axis = static_cast<std::size_t>(axis_of(slot));
+  switch (p.kind) {
+    case PrimitiveKind::kBox:
+      return {side_of(world_axis(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive, slot};
+    case PrimitiveKind::kParallelepiped:
+      return {side_of(p.to_local.row(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive,
+              slot};
+    case PrimitiveKind::kCylinder:
+    case PrimitiveKind::kCone:
+    case PrimitiveKind::kEllipticCone:
+      return {side_of({p.v[0], p.v[1], p.v[2]}, p.v[3], p.v[4], slot), primitive, slot};
+    case PrimitiveKind::kHalfSpace: return {half_space_plane(p), primitive, slot};
+    default: return {faces_of(p, model.planes)[slot], primitive, slot};
+  }
+}
+
+void set_face(Model& model, const Face& face) {
+  Primitive& p = model.primitives[face.primitive];
+  const auto axis = static_cast<std::size_t>(axis_of(face.slot));
+  const Vec3 normal = is_upper(face.slot) ? face.plane.normal : -face.plane.normal;
+  const double offset = (is_upper(face.slot) ? face.plane.offset : -face.plane.offset) + 0.0;
+  switch (p.kind) {
+    case PrimitiveKind::kBox: p.v[is_upper(face.slot) ? axis + 3 : axis] = offset; return;
+    case PrimitiveKind::kParallelepiped:
+      set_row(p.to_local, axis_of(face.slot), normal);
+      p.v[is_upper(face.slot) ? axis + 3 : axis] = offset;
+      return;
+    case PrimitiveKind::kCylinder:
+    case PrimitiveKind::kCone:
+    case PrimitiveKind::kEllipticCone:
+      for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = normal[i] + 0.0;
+      p.v[is_upper(face.slot) ? 4 : 3] = offset;
+      return;
+    case PrimitiveKind::kHalfSpace:
+      for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = face.plane.normal[i] + 0.0;
+      p.v[3] = face.plane.offset + 0.0;
+      return;
+    default: {
+      const Vec3& n = face.plane.normal;
+      model.planes[p.first_plane + face.slot] = {{n.x + 0.0, n.y + 0.0, n.z + 0.0},
+                                                 face.plane.offset + 0.0};
+    }
+  }
+}
+
+Vec3 anchor_of(const Primitive& p, const Plane& plane) {
+  if (!p.bounds.is_finite()) return plane.offset * plane.normal;
+  const Vec3 middle = p.bounds.center();
+  return middle + (plane.offset - dot(plane.normal, middle)) * plane.normal;
+}
+
+double direction_tolerance(const Primitive& p, const Vec3& normal, const Exactness& exactness) {
+  const bool has_planes = p.kind == PrimitiveKind::kPolyhedron || p.kind == PrimitiveKind::kQuadric;
+  if (!has_planes || !p.bounds.is_finite()) return exactness.direction;
+  const Vec3 n{std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
+  const int along = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
+  const Vec3 size = p.bounds.hi - p.bounds.lo;
+  const double across = std::min(size[(along + 1) % 3], size[(along + 2) % 3]);
+  return exactness.direction + (across > 0 ? std::min(exactness.distance() / across, 1.0) : 0.0);
+}
+
+void settle_faces(Model& model, std::uint32_t primitive, double moved) {
+  Primitive& p = model.primitives[primitive];
+  if (p.kind == PrimitiveKind::kParallelepiped && is_world_axis(p.to_local.row(0)) &&
+      is_world_axis(p.to_local.row(1)) && is_world_axis(p.to_local.row(2))) {
+    become_box(p);
+  }
+  if (p.kind == PrimitiveKind::kBox) {
+    p.bounds = {box_lo(p), box_hi(p)};
+  } else if (p.kind == PrimitiveKind::kPolyhedron) {
+    p.bounds = polyhedron_bounds(faces_of(p, model.planes));
+  } else if (p.kind == PrimitiveKind::kHalfSpace) {
+    p.bounds = half_space_bounds(half_space_plane(p));
+  } else {
+    // Where a face meets others at a small angle its edge moves farther than the face.
+    constexpr double kFarther = 8;
+    p.bounds = p.bounds.grown(kFarther * moved);
+  }
+}
+
+}  // namespace graycube::csg

@@ -1,0 +1,193 @@
+#include "coincidence/plane_unifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coincidence/faces.hpp"
+
+namespace graycube::csg {
+
+void PlaneUnifier::count(std::uint32_t primitive) {
+  const Primitive& p = model_.primitives[primitive];
+  std::size_t faces = face_count(p);
+  if (p.kind == PrimitiveKind::kMesh) {
+    mesh_faces_.emplace_back(model_, primitive, exactness_[primitive]);
+    faces = model_.meshes[p.mesh].surface().triangles.size();
+  }
+  count_ += faces;
+  distances_ += static_cast<double>(faces) * exactness_[primitive].distance();
+  directions_ += static_cast<double>(faces) * double{exactness_[primitive].direction};
+}
+
+void PlaneUnifier::begin_marking(double reach) {
+  reach_ = reach;
+  const double count = static_cast<double>(std::max<std::size_t>(count_, 1));
+  candidates_.emplace(number_tolerance(distances_ / count, directions_ / count, reach), count_);
+}
+
+/// Calls visit(heading, the offsets of its faces along its normal).
+template <typename Visit>
+void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit) const {
+  using Offsets = std::array<double, 2>;
+  const Primitive& p = model_.primitives[primitive];
+  if (p.kind == PrimitiveKind::kMesh) {
+    mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t triangle, const MeshFace& f) {
+      visit(Heading{f.plane.normal, f.direction_tolerance, primitive, triangle, 1},
+            Offsets{f.plane.offset, 0});
+    });
+    return;
+  }
+  const std::uint32_t count = face_count(p), step = has_opposite_faces(p) ? 2 : 1;
+  for (std::uint32_t slot = 0; slot < count; slot += step) {
+    const Vec3 normal = heading_of(model_, p, slot);
+    const Exactness& exact = exactness_[primitive];
+    const double tolerance =
+        p.plane_count > 0 ? direction_tolerance(p, normal, exact) : double{exact.direction};
+    visit(Heading{normal, tolerance, primitive, slot, step},
+          Offsets{offset_of(model_, p, slot), step == 2 ? offset_of(model_, p, slot + 1) : 0});
+  }
+}
+
+double PlaneUnifier::number_tolerance(double distance, double direction, double reach) {
+  return 2 * distance + 8 * reach * direction;
+}
+
+/// A number of a plane, whichever way its normal looks, that differs for nearly all planes that
+/// differ.
+Measured PlaneUnifier::plane_number(const Heading& heading, double offset) const {
+  const double along = dot(kGenericDirection, heading.normal);
+  const double reach = larger(reach_, std::fabs(offset));
+  return {along * (offset + reach_ * along),
+          number_tolerance(exactness_[heading.primitive].distance(), heading.tolerance, reach)};
+}
+
+void PlaneUnifier::mark(std::uint32_t primitive) {
+  for_each_heading(primitive, [&](const Heading& h, const std::array<double, 2>& offsets) {
+    for (std::uint32_t k = 0; k < h.count; ++k) candidates_->mark(plane_number(h, offsets[k]));
+  });
+}
+
+void PlaneUnifier::collect(std::uint32_t primitive) {
+  for_each_heading(primitive, [&](const Heading& h, const std::array<double, 2>& offsets) {
+    bool is_candidate = candidates_->may_meet(plane_number(h, offsets[0]));
+    if (h.count == 2)
+      is_candidate = is_candidate || candidates_->may_meet(plane_number(h, offsets[1]));
+    if (!is_candidate) return;
+    const int axis = world_axis_of(h);
+    if (axis == 3) return others_.push_back(h);
+    add_levels(h, world_axis(axis), 0, along_[static_cast<std::size_t>(axis)]);
+  });
+}
+
+void PlaneUnifier::unify() {
+  for (int a = 0; a < 3; ++a)
+    unify_offsets(world_axis(a), std::move(along_[static_cast<std::size_t>(a)]));
+  unify_directions();
+  settle();
+}
+
+void PlaneUnifier::unify_directions() {
+  std::vector<Extent> items(others_.size());
+  for (std::uint32_t i = 0; i < others_.size(); ++i) items[i].item = i;
+  const auto measure = [&](std::uint32_t i, int which) {
+    return direction_number(others_[i], which);
+  };
+  for_each_cluster(std::move(items), kDirectionNumbers, measure,
+                   [&](std::span<const Extent> cluster) {
+                     const Heading* best = &others_[cluster.front().item];
+                     for (const Extent& e : cluster) {
+                       if (is_better_direction(others_[e.item], *best)) best = &others_[e.item];
+                     }
+                     const Vec3 direction = turned_first(best->normal);
+                     std::vector<Level> group;
+                     for (const Extent& e : cluster)
+                       add_levels(others_[e.item], direction, best->tolerance, group);
+                     unify_offsets(direction, std::move(group));
+                   });
+}
+
+/// The heading's faces along a direction that its own can't be told from.
+void PlaneUnifier::add_levels(const Heading& heading, const Vec3& direction,
+                              double direction_tolerance, std::vector<Level>& group) const {
+  for (std::uint32_t i = 0; i < heading.count; ++i) {
+    group.push_back(level_of(heading.primitive, heading.slot + i, direction, direction_tolerance));
+  }
+}
+
+Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction,
+                             double direction_tolerance) const {
+  const Primitive& p = model_.primitives[primitive];
+  Plane plane;
+  Vec3 anchor;
+  if (p.kind == PrimitiveKind::kMesh) {
+    const MeshFace f = mesh_faces_[place_of_mesh(primitive)].face(slot);
+    plane = f.plane;
+    anchor = f.middle;
+  } else {
+    plane = face_of(model_, primitive, slot).plane;
+    anchor = anchor_of(p, plane);
+  }
+  Level level;
+  level.primitive = primitive;
+  level.slot = slot;
+  level.is_backward = dot(direction, plane.normal) < 0;
+  level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
+  level.has_direction = level.own.normal == direction;
+  // Otherwise it is turned about its middle.
+  level.offset = level.has_direction ? level.own.offset : dot(direction, anchor);
+  const Vec3 position = exactness_[primitive].position();
+  // What faces in one plane but far apart come to, seen along a direction that is a little off.
+  const double beside = length(anchor - level.offset * direction);
+  level.tolerance = std::fabs(direction.x) * position.x + std::fabs(direction.y) * position.y +
+                    std::fabs(direction.z) * position.z + direction_tolerance * beside;
+  return level;
+}
+
+/// Of faces whose normals are one direction, or its opposite.
+void PlaneUnifier::unify_offsets(const Vec3& direction, std::vector<Level> group) {
+  const Planes planes(std::move(group));
+  // Where no planes coincide, or all that do are equal already, normals that differ in their last
+  // places may go on doing so. Otherwise all get the same, and opposite faces go on having one
+  // normal.
+  if (!planes.has_unequal()) return;
+  planes.for_each([&](std::span<const Level> plane, double offset) {
+    const bool is_shared_plane = is_shared(plane);
+    for (const Level& f : plane) set(f, direction, offset, is_shared_plane);
+  });
+}
+
+void PlaneUnifier::set(const Level& level, const Vec3& direction, double offset,
+                       bool is_shared_plane) {
+  const Primitive& p = model_.primitives[level.primitive];
+  const Plane plane{level.is_backward ? -direction : direction,
+                    level.is_backward ? -offset : offset};
+  if (p.kind == PrimitiveKind::kMesh) {
+    if (is_shared_plane) mesh_faces_[place_of_mesh(level.primitive)].set(level.slot, plane);
+    return;
+  }
+  if (level.has_direction && level.offset == offset) return;
+  set_face(model_, {plane, level.primitive, level.slot});
+  const bool is_turned = !level.has_direction && p.bounds.is_finite();
+  const double turned =
+      is_turned ? length(p.bounds.hi - p.bounds.lo) * exactness_[level.primitive].direction : 0.0;
+  changed_.emplace_back(level.primitive, std::fabs(level.offset - offset) + turned);
+}
+
+void PlaneUnifier::settle() {
+  std::sort(changed_.begin(), changed_.end());
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    // The last of a primitive's faces has moved most.
+    if (i + 1 < changed_.size() && changed_[i + 1].first == changed_[i].first) continue;
+    settle_faces(model_, changed_[i].first, changed_[i].second);
+  }
+  for (MeshFaces& faces : mesh_faces_) faces.settle(model_);
+}
+
+std::size_t PlaneUnifier::place_of_mesh(std::uint32_t primitive) const {
+  const auto at =
+      std::lower_bound(mesh_faces_.begin(), mesh_faces_.end(), primitive,
+                       [](const MeshFaces& m, std::uint32_t p) { return m.primitive() < p; });
+  return static_cast<std::size_t>(at - mesh_faces_.begin());
+}
+
+}  // namespace graycube::csg

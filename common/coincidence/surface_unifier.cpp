@@ -1,0 +1,144 @@
+#include "coincidence/surface_unifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "coincidence/clusters.hpp"
+
+namespace graycube::csg {
+namespace {
+
+void copy_rows(const Affine& from, int count, Affine& to) {
+  for (int i = 0; i < count; ++i)
+    to.m[static_cast<std::size_t>(i)] = from.m[static_cast<std::size_t>(i)];
+}
+
+/// The cone's half that the other is on, too.
+bool is_on_same_nappe(const Primitive& cone, const Primitive& other) {
+  const auto to_world = other.to_local.inverse();
+  if (!to_world) return false;
+  const Vec3 inside = cone.to_local.point(to_world->point({0, 0, 0}));
+  return 1 + cone.v[5] * inside.z > 0;
+}
+
+void divide_row(Affine& map, std::size_t row, double by) {
+  for (double& x : map.m[row]) x /= by;
+}
+
+/// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a
+/// cylinder what they are, up to `tolerance` in the world.
+void simplify(Primitive& p, double tolerance) {
+  // In the frame, across the axis.
+  const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
+  if (p.kind == PrimitiveKind::kCone && std::fabs(p.v[5]) <= local) {
+    p.kind = PrimitiveKind::kCylinder;
+    p.v[5] = 0;
+  }
+  if (p.kind == PrimitiveKind::kEllipticTorus) {
+    const double minor = 1 / std::sqrt(larger(p.v[0], p.v[2]));
+    const double off = 2 * local / (minor * minor * minor);
+    if (std::fabs(p.v[0] - p.v[2]) <= off && std::fabs(p.v[1]) <= off) {
+      p.kind = PrimitiveKind::kTorus;
+      p.v = {minor, 0, 0, 0, 0, 0};
+    }
+  }
+  if (p.kind == PrimitiveKind::kQuadric && p.v[0] > 0 && p.v[1] == 0 && p.v[2] == 0 && p.v[3] < 0) {
+    divide_row(p.to_local, 0, std::sqrt(-p.v[3]));
+    divide_row(p.to_local, 1, std::sqrt(-p.v[3] / p.v[0]));
+    p.v = {1, 0, 0, -1, 0, 0};
+  }
+}
+
+/// Gives the primitive the other's surface; its caps and faces stay its own.
+void take_surface(const Primitive& from, Primitive& p) {
+  switch (family_of(p)) {
+    case SurfaceFamily::kBall:
+    case SurfaceFamily::kTorus:
+    case SurfaceFamily::kEllipticTorus:
+      p.kind = from.kind;
+      p.v = from.v;
+      p.to_local = from.to_local;
+      p.bounds = from.bounds;
+      return;
+    case SurfaceFamily::kCylinder: copy_rows(from.to_local, 2, p.to_local); return;
+    case SurfaceFamily::kCone:
+      if (!is_on_same_nappe(from, p)) return;
+      [[fallthrough]];
+    case SurfaceFamily::kEllipticCone:
+      p.to_local = from.to_local;
+      p.v[5] = from.v[5];
+      return;
+    case SurfaceFamily::kQuadric:
+      p.to_local = from.to_local;
+      std::copy(from.v.begin(), from.v.begin() + 4, p.v.begin());
+      return;
+    case SurfaceFamily::kNone: return;
+  }
+}
+
+}  // namespace
+
+void SurfaceUnifier::count(std::uint32_t primitive) {
+  Primitive& p = model_.primitives[primitive];
+  simplify(p, exactness_[primitive].distance());
+  if (family_of(p) == SurfaceFamily::kNone) return;
+  ++count_;
+  distances_ += exactness_[primitive].distance();
+}
+
+void SurfaceUnifier::begin_marking() {
+  candidates_.emplace(4 * distances_ / static_cast<double>(std::max<std::size_t>(count_, 1)),
+                      count_);
+}
+
+void SurfaceUnifier::mark(std::uint32_t primitive) {
+  const Primitive& p = model_.primitives[primitive];
+  if (family_of(p) != SurfaceFamily::kNone)
+    candidates_->mark(surface_number(p, exactness_[primitive], 0));
+}
+
+void SurfaceUnifier::collect(std::uint32_t primitive) {
+  const Primitive& p = model_.primitives[primitive];
+  const SurfaceFamily family = family_of(p);
+  if (family == SurfaceFamily::kNone ||
+      !candidates_->may_meet(surface_number(p, exactness_[primitive], 0)))
+    return;
+  families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
+}
+
+void SurfaceUnifier::unify() {
+  const auto measure = [&](std::uint32_t i, int which) {
+    return surface_number(model_.primitives[i], exactness_[i], which);
+  };
+  const auto unify = [&](std::span<const Extent> cluster) { unify_cluster(cluster); };
+  for (std::size_t f = 0; f < families_.size(); ++f) {
+    for_each_cluster(std::move(families_[f]), number_count(static_cast<SurfaceFamily>(f)), measure,
+                     unify);
+  }
+}
+
+/// Simpler kinds first, then what is known best; the rest is a choice among bits.
+bool SurfaceUnifier::is_better(std::uint32_t a, std::uint32_t b) const {
+  const Primitive &p = model_.primitives[a], &q = model_.primitives[b];
+  if (p.kind != q.kind) return p.kind < q.kind;
+  const double x = exactness_[a].distance(), y = exactness_[b].distance();
+  return std::tie(x, p.to_local.m, p.v) < std::tie(y, q.to_local.m, q.v);
+}
+
+void SurfaceUnifier::unify_cluster(std::span<const Extent> cluster) {
+  std::uint32_t best = cluster.front().item;
+  for (const Extent& e : cluster) {
+    if (is_better(e.item, best)) best = e.item;
+  }
+  const Primitive from = model_.primitives[best];
+  for (const Extent& e : cluster) {
+    Primitive& p = model_.primitives[e.item];
+    const Primitive before = p;
+    take_surface(from, p);
+    if (p == before || p.bounds != before.bounds) continue;
+    p.bounds = p.bounds.grown(2 * exactness_[e.item].distance());
+  }
+}
+
+}  // namespace graycube::csg

@@ -1,0 +1,121 @@
+#include "mesh/cut_face.hpp"
+
+#include <cmath>
+
+namespace graycube {
+namespace {
+
+struct Flat {
+  double x, y;
+};
+
+/// Twice the signed area of a triangle in the plane.
+double turn(const Flat& a, const Flat& b, const Flat& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The face's corners, seen along an axis from the side from which it turns counterclockwise.
+std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
+  Vec3 normal;  // Newell's
+  const Vec3 middle = points[face.front()];
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Vec3 a = points[face[i]] - middle;
+    const Vec3 b = points[face[(i + 1) % face.size()]] - middle;
+    normal = normal + cross(a, b);
+  }
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (std::fabs(normal[a]) > std::fabs(normal[axis])) axis = a;
+  }
+  const bool is_above = normal[axis] >= 0;
+  const int u = (axis + (is_above ? 1 : 2)) % 3, v = (axis + (is_above ? 2 : 1)) % 3;
+  std::vector<Flat> flat;
+  flat.reserve(face.size());
+  for (const std::uint32_t i : face) flat.push_back({points[i][u], points[i][v]});
+  return flat;
+}
+
+/// Every corner turns left, and all together once around.
+bool is_convex(std::span<const Flat> flat) {
+  const std::size_t n = flat.size();
+  std::size_t reversals = 0;
+  bool rose = flat[0].x > flat[n - 1].x;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Flat& a = flat[i];
+    const Flat& b = flat[(i + 1) % n];
+    if (!(turn(a, b, flat[(i + 2) % n]) > 0)) return false;
+    const bool rises = b.x > a.x;
+    if (rises != rose) ++reversals;
+    rose = rises;
+  }
+  return reversals <= 2;
+}
+
+/// Cuts ears off a ring of corners (Meisters 1975).
+class EarCutter {
+ public:
+  explicit EarCutter(std::span<const Flat> flat) : flat_(flat), ring_(flat.size()) {
+    for (std::uint32_t i = 0; i < ring_.size(); ++i) ring_[i] = i;
+  }
+
+  template <typename Emit>
+  void run(Emit&& emit) {
+    std::size_t at = 0;
+    while (ring_.size() > 3) {
+      const std::size_t n = ring_.size();
+      std::size_t tried = 0;
+      while (tried < n && !is_ear((at + tried) % n)) ++tried;
+      // A face without ears is bent or crosses itself: any cut is as good.
+      const std::size_t ear = (at + tried) % n;
+      emit(corner(ear, n - 1), corner(ear, 0), corner(ear, 1));
+      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
+      // Past the neighbour, so that no fan of slivers grows about one corner.
+      at = (ear + 1) % ring_.size();
+    }
+    emit(ring_[0], ring_[1], ring_[2]);
+  }
+
+ private:
+  std::uint32_t corner(std::size_t i, std::size_t offset) const {
+    return ring_[(i + offset) % ring_.size()];
+  }
+
+  bool is_ear(std::size_t i) const {
+    const std::uint32_t ia = corner(i, ring_.size() - 1), ib = ring_[i], ic = corner(i, 1);
+    const Flat &a = flat_[ia], &b = flat_[ib], &c = flat_[ic];
+    if (!(turn(a, b, c) > 0)) return false;
+    for (const std::uint32_t j : ring_) {
+      if (j == ia || j == ib || j == ic) continue;
+      const Flat& p = flat_[j];
+      const bool is_corner =
+          (p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y);
+      if (!is_corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
+        return false;
+    }
+    return true;
+  }
+
+  std::span<const Flat> flat_;
+  std::vector<std::uint32_t> ring_;
+};
+
+}  // namespace
+
+void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
+              std::vector<Triangle>& triangles) {
+  if (face.size() == 3) {
+    triangles.push_back({face[0], face[1], face[2]});
+    return;
+  }
+  const std::vector<Flat> flat = flattened(points, face);
+  if (is_convex(flat)) {
+    for (std::size_t i = 2; i < face.size(); ++i)
+      triangles.push_back({face[0], face[i - 1], face[i]});
+    return;
+  }
+  EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    triangles.push_back({face[a], face[b], face[c]});
+  });
+}
+
+}  // namespace graycube

@@ -1,0 +1,47 @@
+// The edges of a triangle mesh: who uses them, and which way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_mesh.hpp"
+
+namespace graycube {
+
+struct MeshEdge {
+  std::uint32_t from, to;
+};
+
+/// Every edge with how often it is used from its lower to its higher point, and back. Points are
+/// below 2³¹.
+class MeshEdges {
+ public:
+  struct Uses {
+    std::uint32_t forward = 0, backward = 0;
+  };
+
+  explicit MeshEdges(std::span<const Triangle> triangles);
+
+  std::size_t count() const { return count_; }
+  /// Edges that are not used as often one way as the other.
+  std::size_t unbalanced_count() const { return unbalanced_count_; }
+  /// Seen from the edge's own direction.
+  Uses uses(const MeshEdge& e) const;
+  /// The first unbalanced one in the order of the triangles.
+  std::optional<MeshEdge> first_unbalanced(std::span<const Triangle> triangles) const;
+
+ private:
+  /// Sorted: lower point, higher point, and 1 when the triangle goes from the higher to the lower.
+  std::vector<std::uint64_t> records_;
+  std::size_t count_ = 0, unbalanced_count_ = 0;
+};
+
+/// Turns triangles over so that neighbours at edges of exactly two triangles agree, starting from
+/// what the majority of each connected part says. The edge at which that can't be done (a one-sided
+/// surface), if there is one.
+std::optional<MeshEdge> agree_on_orientation(std::span<Triangle> triangles);
+
+}  // namespace graycube
