@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "space/jagged.hpp"
-#include "space/rectilinear.hpp"
+#include "regions/jagged.hpp"
+#include "regions/rectilinear.hpp"
 #include "trace/coarse_load.hpp"
 
 namespace graycube {

@@ -7,10 +7,10 @@
 
 #include "frontal/whole_scene.hpp"
 #include "proto/messages.hpp"
-#include "space/light_horizons.hpp"
-#include "space/macro_grid.hpp"
+#include "regions/macro_grid.hpp"
 #include "topology/hypercube.hpp"
 #include "trace/coarse_load.hpp"
+#include "visibility/light_horizons.hpp"
 
 namespace graycube {
 

@@ -9,10 +9,10 @@
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/tile_shape.hpp"
+#include "regions/macro_grid.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
-#include "space/light_depths.hpp"
-#include "space/macro_grid.hpp"
+#include "visibility/light_depths.hpp"
 
 namespace graycube {
 namespace {

@@ -7,9 +7,9 @@
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
-#include "space/foreign_bounds.hpp"
-#include "space/own_pixels.hpp"
-#include "space/restrict.hpp"
+#include "regions/own_pixels.hpp"
+#include "regions/restrict.hpp"
+#include "visibility/foreign_bounds.hpp"
 
 namespace graycube {
 namespace {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "crossings/surface_tree.hpp"
 #include "frontal/partition.hpp"
-#include "space/occluders.hpp"
-#include "space/surface_tree.hpp"
 #include "transport/message.hpp"
+#include "visibility/occluders.hpp"
 
 namespace graycube {
 

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "regions/macro_grid.hpp"
 #include "shading/settings.hpp"
-#include "space/macro_grid.hpp"
 #include "trace/contribution.hpp"
 #include "trace/ray_task.hpp"
 

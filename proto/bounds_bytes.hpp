@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "space/foreign_bounds.hpp"
+#include "visibility/foreign_bounds.hpp"
 
 namespace graycube {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "space/light_depths.hpp"
-#include "space/light_horizons.hpp"
+#include "visibility/light_depths.hpp"
+#include "visibility/light_horizons.hpp"
 
 namespace graycube {
 

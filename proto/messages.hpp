@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "space/macro_grid.hpp"
+#include "regions/macro_grid.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {

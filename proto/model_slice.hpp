@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "csg/model.hpp"
-#include "space/restrict.hpp"
+#include "regions/restrict.hpp"
 
 namespace graycube {
 

@@ -4,7 +4,7 @@
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
-#include "space/kept_trees.hpp"
+#include "regions/kept_trees.hpp"
 
 namespace graycube {
 namespace {

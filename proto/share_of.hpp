@@ -1,7 +1,7 @@
 // Which macro-regions a node holds: the same answer in the frontal and in every node.
 #pragma once
 
-#include "space/macro_grid.hpp"
+#include "regions/macro_grid.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {

@@ -1,9 +1,9 @@
 // Where the work of a picture lies, from tracing a few of its pixels.
 #pragma once
 
-#include "space/light_horizons.hpp"
-#include "space/rectilinear.hpp"
+#include "regions/rectilinear.hpp"
 #include "trace/domain.hpp"
+#include "visibility/light_horizons.hpp"
 
 namespace graycube {
 

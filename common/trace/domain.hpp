@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "crossings/bsp.hpp"
+#include "crossings/ray_packet.hpp"
+#include "crossings/surface_tree.hpp"
+#include "crossings/walk.hpp"
 #include "csg/model.hpp"
-#include "space/bsp.hpp"
-#include "space/camera.hpp"
-#include "space/foreign_bounds.hpp"
-#include "space/light_horizons.hpp"
-#include "space/macro_grid.hpp"
-#include "space/ray_packet.hpp"
-#include "space/surface_tree.hpp"
-#include "space/walk.hpp"
+#include "regions/camera.hpp"
+#include "regions/macro_grid.hpp"
 #include "trace/ray_task.hpp"
+#include "visibility/foreign_bounds.hpp"
+#include "visibility/light_horizons.hpp"
 
 namespace graycube {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "space/ray_packet.hpp"
+#include "crossings/ray_packet.hpp"
 
 namespace graycube {
 

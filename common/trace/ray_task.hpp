@@ -9,8 +9,8 @@
 
 #include "geometry/ray.hpp"
 #include "geometry/vec.hpp"
+#include "regions/macro_grid.hpp"
 #include "shading/settings.hpp"
-#include "space/macro_grid.hpp"
 
 namespace graycube {
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "shading/phong.hpp"
-#include "space/cube_texels.hpp"
 #include "trace/first_hit.hpp"
 #include "trace/step.hpp"
+#include "visibility/cube_texels.hpp"
 
 namespace graycube {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "check.hpp"
-#include "space/own_pixels.hpp"
+#include "regions/own_pixels.hpp"
 
 namespace graycube {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "space/macro_grid.hpp"
+#include "regions/macro_grid.hpp"
 
 namespace graycube {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "space/mailbox.hpp"
+#include "crossings/mailbox.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {

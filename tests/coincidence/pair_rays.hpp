@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coincidence/pair_maker.hpp"
-#include "space/surface_tree.hpp"
+#include "crossings/surface_tree.hpp"
 
 namespace graycube::testing {
 

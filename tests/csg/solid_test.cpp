@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "crossings/walk.hpp"
 #include "csg/one_primitive.hpp"
 #include "csg/random_rays.hpp"
 #include "csg/whole_tree.hpp"
-#include "space/walk.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -6,10 +6,10 @@
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
+#include "regions/own_pixels.hpp"
+#include "regions/restrict.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/read_scene.hpp"
-#include "space/own_pixels.hpp"
-#include "space/restrict.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -8,7 +8,7 @@
 #include "proto/bounds_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
-#include "space/restrict.hpp"
+#include "regions/restrict.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

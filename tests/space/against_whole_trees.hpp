@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "crossings/bsp.hpp"
+#include "crossings/crossings.hpp"
 #include "csg/random_model.hpp"
 #include "csg/random_rays.hpp"
 #include "csg/whole_tree.hpp"
-#include "space/bsp.hpp"
-#include "space/crossings.hpp"
 
 namespace graycube::testing {
 

@@ -1,6 +1,6 @@
 // The subdivision itself: its regions share out space, their programs are the objects there, and
 // neighbour links lead where the walk must go on.
-#include "space/bsp.hpp"
+#include "crossings/bsp.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "space/camera.hpp"
+#include "regions/camera.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,13 +1,13 @@
 // Where what a node does not hold may be: bounds must never say that a way is free which something
 // foreign crosses.
-#include "space/foreign_bounds.hpp"
+#include "visibility/foreign_bounds.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "csg/random_model.hpp"
 #include "geometry/simd.hpp"
-#include "space/camera.hpp"
-#include "space/macro_grid.hpp"
+#include "regions/camera.hpp"
+#include "regions/macro_grid.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

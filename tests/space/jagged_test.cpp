@@ -1,4 +1,4 @@
-#include "space/jagged.hpp"
+#include "regions/jagged.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // What depths promise, light or darkness, must be what brute force finds.
-#include "space/light_depths.hpp"
+#include "visibility/light_depths.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

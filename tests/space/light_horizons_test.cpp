@@ -1,11 +1,11 @@
 // A horizon must never promise light where brute force finds something in the way.
-#include "space/light_horizons.hpp"
+#include "visibility/light_horizons.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
-#include "space/surface_tree.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

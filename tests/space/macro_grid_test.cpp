@@ -1,4 +1,4 @@
-#include "space/macro_grid.hpp"
+#include "regions/macro_grid.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,12 +1,12 @@
 // Programs as operations on bits against the trees that they come from.
-#include "space/masked_program.hpp"
+#include "crossings/masked_program.hpp"
 
 #include <catch2/catch.hpp>
 #include <span>
 #include <vector>
 
+#include "crossings/crossings.hpp"
 #include "csg/dice.hpp"
-#include "space/crossings.hpp"
 
 using namespace graycube;
 using namespace graycube::crossings;

@@ -1,15 +1,15 @@
 // What may stand between surfaces and lights: foreign horizons must never promise a way that
 // something foreign blocks.
-#include "space/occluders.hpp"
+#include "visibility/occluders.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
 #include "geometry/simd.hpp"
-#include "space/cube_map.hpp"
-#include "space/cube_texels.hpp"
-#include "space/surface_tree.hpp"
+#include "visibility/cube_map.hpp"
+#include "visibility/cube_texels.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

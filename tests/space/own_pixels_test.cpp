@@ -1,9 +1,9 @@
-#include "space/own_pixels.hpp"
+#include "regions/own_pixels.hpp"
 
 #include <catch2/catch.hpp>
 
+#include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
-#include "space/surface_tree.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -1,4 +1,4 @@
-#include "space/rectilinear.hpp"
+#include "regions/rectilinear.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // The part of a model that a macro-region needs: it must look the same from inside the region.
-#include "space/restrict.hpp"
+#include "regions/restrict.hpp"
 
 #include <catch2/catch.hpp>
 #include <vector>

@@ -1,5 +1,5 @@
 // The hierarchy over surfaces against the whole trees: bit for bit.
-#include "space/surface_tree.hpp"
+#include "crossings/surface_tree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The walk through the leaf regions against the whole trees: bit for bit.
-#include "space/walk.hpp"
+#include "crossings/walk.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

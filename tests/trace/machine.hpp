@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "csg/random_model.hpp"
-#include "space/foreign_bounds.hpp"
-#include "space/occluders.hpp"
-#include "space/own_pixels.hpp"
-#include "space/restrict.hpp"
+#include "regions/own_pixels.hpp"
+#include "regions/restrict.hpp"
 #include "trace/step.hpp"
 #include "trace/tile_plan.hpp"
+#include "visibility/foreign_bounds.hpp"
+#include "visibility/occluders.hpp"
 
 namespace graycube::testing {
 

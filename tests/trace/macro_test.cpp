@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "space/light_depths.hpp"
 #include "trace/machine.hpp"
 #include "trace/render_serial.hpp"
+#include "visibility/light_depths.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -6,7 +6,7 @@
 
 #include "csg/dice.hpp"
 #include "csg/random_model.hpp"
-#include "space/own_pixels.hpp"
+#include "regions/own_pixels.hpp"
 
 using namespace graycube;
 using graycube::testing::Dice;

@@ -1,0 +1,52 @@
+// The planes between macro-regions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "crossings/ray_packet.hpp"
+#include "geometry/vec.hpp"
+
+namespace graycube {
+
+/// Boundary f(q) = normal · q − offset, with q relative to the eye and |normal| = 1. Relative to
+/// the eye, so that f is exactly 0 at the origin of every primary ray in perspective, where offset
+/// is 0.
+struct BoundaryPlane {
+  Vec3 normal;
+  double offset = 0;
+  /// Rays whose |normal · direction| is not above it count as parallel to the plane.
+  double flat = 0;
+
+  double at(const Vec3& q) const { return dot(normal, q) - offset; }
+};
+
+/// One bounding half-space of a column or row, and where it leads.
+struct RegionSide {
+  BoundaryPlane plane;
+  bool far = false;  // the half-space is f ≥ 0, else f < 0
+  /// Three columns only: from column 0 the root leads to column 1 in front of the eye and to column
+  /// 2 behind it; which, boundary 2 tells.
+  bool forks = false;
+  std::uint16_t next = 0;
+};
+
+/// Sides of a column and of a row.
+inline constexpr std::size_t kMostSides = 4;
+
+/// Where rays pass the first of the sides.
+struct FirstPassages {
+  /// The parameter; infinite when never.
+  alignas(64) std::array<double, RayPacket::kSize> t;
+  /// The number of the side among those given.
+  alignas(64) std::array<double, RayPacket::kSize> side;
+};
+
+/// Of rays that have reached t0: as MacroGrid::exit, bit for bit, for each ray of the packet. At
+/// most kMostSides; at equal t the first of them.
+void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye,
+                         const RayPacket& packet, FirstPassages& first);
+
+}  // namespace graycube

@@ -1,0 +1,227 @@
+#include "visibility/foreign_bounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <span>
+
+#include "geometry/culling_ray.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr float kFloatInf = std::numeric_limits<float>::infinity();
+/// About so many of a node's branches are items.
+constexpr std::size_t kBoxesPerNode = 5;
+
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+
+  static constexpr FloatBox nothing() {
+    return {{kFloatInf, kFloatInf, kFloatInf}, {-kFloatInf, -kFloatInf, -kFloatInf}};
+  }
+  void include(const FloatBox& o) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = std::min(lo[a], o.lo[a]);
+      hi[a] = std::max(hi[a], o.hi[a]);
+    }
+  }
+};
+
+FloatBox box_around(const Aabb& box) {
+  FloatBox around = FloatBox::nothing();
+  for (std::size_t a = 0; a < 3; ++a) {
+    around.lo[a] = float_below(box.lo[static_cast<int>(a)]);
+    around.hi[a] = float_above(box.hi[static_cast<int>(a)]);
+  }
+  return around;
+}
+
+/// What goes into one place of a node.
+struct Branch {
+  FloatBox box;
+  std::uint32_t child;
+};
+
+/// The branches of a node.
+struct Branches {
+  std::size_t count = 0;
+  // Left as it is until it is used: there are many.
+  std::array<Branch, WideNode::kWidth> list;
+
+  void add(const Branch& b) { list[count++] = b; }
+  FloatBox box() const {
+    FloatBox all = FloatBox::nothing();
+    for (std::size_t i = 0; i < count; ++i) all.include(list[i].box);
+    return all;
+  }
+};
+
+/// Takes what is held out of a tree, from the leaves up.
+class Pruning {
+ public:
+  /// `items`: by node, those below it. Up to `most_together` share a box.
+  Pruning(const SurfaceTree& tree, std::span<const std::uint32_t> items,
+          const ModelContents& contents, std::size_t most_together)
+      : tree_(tree),
+        items_(items),
+        contents_(contents),
+        most_together_(most_together),
+        is_part_(tree.model().objects.size()) {
+    for (const ModelContents::Part& part : contents.parts) is_part_[part.object] = true;
+  }
+
+  std::vector<WideNode> run() {
+    if (!tree_.nodes().empty()) {
+      const Branches root = branches_of(tree_.nodes().front());
+      if (root.count > 0) add_node(root);
+    }
+    // They were made children first.
+    std::reverse(nodes_.begin(), nodes_.end());
+    for (WideNode& node : nodes_) {
+      for (std::uint32_t& child : node.child) {
+        if ((child & WideNode::kItemFlag) == 0)
+          child = static_cast<std::uint32_t>(nodes_.size()) - 1 - child;
+      }
+    }
+    return std::move(nodes_);
+  }
+
+ private:
+  Branches branches_of(const WideNode& node) {
+    std::array<Branches, WideNode::kWidth> below;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
+      Branches& b = below[count];
+      b.count = 0;
+      if (is_item(node, i)) {
+        if (is_foreign(node, i)) b.add(item_branch(node, i));
+      } else if (items_[node.child[i]] > most_together_) {
+        b = branches_of(tree_.nodes()[node.child[i]]);
+      } else if (auto together = all_together(node, i)) {
+        b.add(*together);
+      }
+      if (b.count > 0) ++count;
+    }
+    // What has few branches needs no node of its own, as long as there is room here for it and for
+    // all others.
+    Branches all;
+    std::size_t others = count;
+    for (std::size_t size = 1; size <= WideNode::kWidth; ++size) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (below[i].count != size) continue;
+        --others;
+        if (all.count + size + others <= WideNode::kWidth) {
+          for (std::size_t k = 0; k < size; ++k) all.add(below[i].list[k]);
+        } else {
+          all.add(add_node(below[i]));
+        }
+      }
+    }
+    return all;
+  }
+
+  static bool is_item(const WideNode& node, std::size_t place) {
+    return (node.child[place] & WideNode::kItemFlag) != 0;
+  }
+  std::uint32_t object_of(const WideNode& node, std::size_t place) const {
+    return tree_.items()[node.child[place] & ~WideNode::kItemFlag].object;
+  }
+  bool is_foreign(const WideNode& node, std::size_t place) const {
+    return !contents_.is_whole[object_of(node, place)];
+  }
+
+  Branch item_branch(const WideNode& node, std::size_t place) const {
+    const std::uint32_t object = object_of(node, place);
+    if (!is_part_[object]) return place_branch(node, place);
+    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)),
+            WideNode::kItemFlag};
+  }
+
+  static Branch place_branch(const WideNode& node, std::size_t place) {
+    Branch b{FloatBox::nothing(), WideNode::kItemFlag};
+    for (std::size_t a = 0; a < 3; ++a) {
+      b.box.lo[a] = node.planes[0][a][place];
+      b.box.hi[a] = node.planes[1][a][place];
+    }
+    return b;
+  }
+
+  /// All that is foreign below a node, in one box, which may be larger; nothing where nothing is.
+  std::optional<Branch> all_together(const WideNode& parent, std::size_t place) const {
+    Branch all = place_branch(parent, place);
+    return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all)
+                                                                          : std::nullopt;
+  }
+  /// Whether there is something; of what is held in part, the box comes to include all.
+  bool add_foreign_below(const WideNode& node, FloatBox& box) const {
+    bool any = false;
+    for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
+      if (!is_item(node, i)) {
+        any = add_foreign_below(tree_.nodes()[node.child[i]], box) || any;
+      } else if (is_foreign(node, i)) {
+        any = true;
+        if (is_part_[object_of(node, i)]) box.include(item_branch(node, i).box);
+      }
+      // What is left can't change the box.
+      if (any && contents_.parts.empty()) return true;
+    }
+    return any;
+  }
+
+  Branch add_node(const Branches& branches) {
+    WideNode& node = nodes_.emplace_back();
+    for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+      const bool is_used = i < branches.count;
+      const FloatBox box = is_used ? branches.list[i].box : FloatBox::nothing();
+      for (std::size_t a = 0; a < 3; ++a) {
+        node.planes[0][a][i] = box.lo[a];
+        node.planes[1][a][i] = box.hi[a];
+      }
+      node.child[i] = is_used ? branches.list[i].child : WideNode::kItemFlag;
+    }
+    return {branches.box(), static_cast<std::uint32_t>(nodes_.size() - 1)};
+  }
+
+  const SurfaceTree& tree_;
+  std::span<const std::uint32_t> items_;
+  const ModelContents& contents_;
+  std::size_t most_together_;
+  std::vector<bool> is_part_;
+  std::vector<WideNode> nodes_;
+};
+
+}  // namespace
+
+ForeignBoundsMaker::ForeignBoundsMaker(const SurfaceTree& whole)
+    : tree_(whole), items_(whole.nodes().size()) {
+  // Children come behind their parents.
+  for (std::size_t n = items_.size(); n-- > 0;) {
+    const WideNode& node = whole.nodes()[n];
+    for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
+      items_[n] += (node.child[i] & WideNode::kItemFlag) != 0 ? 1 : items_[node.child[i]];
+    }
+  }
+}
+
+std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& contents,
+                                                        std::size_t most_bytes) const {
+  for (const std::uint32_t item : tree_.unbounded_items()) {
+    if (!contents.is_whole[tree_.items()[item].object]) return std::nullopt;
+  }
+  const std::size_t most_nodes = std::max<std::size_t>(1, most_bytes / sizeof(WideNode));
+  const auto foreign = static_cast<std::size_t>(
+      std::count_if(tree_.items().begin(), tree_.items().end(),
+                    [&](const SurfaceItem& i) { return !contents.is_whole[i.object]; }));
+  for (std::size_t together = std::bit_ceil(foreign / (kBoxesPerNode * most_nodes) + 1);;
+       together *= 2) {
+    std::vector<WideNode> nodes = Pruning(tree_, items_, contents, together).run();
+    if (nodes.size() <= most_nodes) return ForeignBounds(std::move(nodes));
+  }
+}
+
+}  // namespace graycube
