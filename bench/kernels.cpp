@@ -13,12 +13,12 @@
 #include "bench/dice.hpp"
 #include "bench/scene_families.hpp"
 #include "csg/build_primitive.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "geometry/portable_math.hpp"
 #include "mesh/close_mesh.hpp"
 #include "proto/batch.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 #include "trace/domain.hpp"
 
 namespace graycube::bench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
 
 namespace graycube::bench {
 namespace {

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "bench/scene_families.hpp"
-#include "scene/write_pov.hpp"
-#include "scene/write_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/pov/write_pov.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"
-#include "scene/cbor_writer.hpp"
-#include "scene/mesh_file.hpp"
-#include "scene/padded_text.hpp"
-#include "scene/write_pov.hpp"
-#include "scene/write_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/json/cbor_writer.hpp"
+#include "formats/json/padded_text.hpp"
+#include "formats/mesh/mesh_file.hpp"
+#include "formats/pov/write_pov.hpp"
 
 namespace graycube {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/failure.hpp"
-#include "scene/openscad.hpp"
+#include "formats/openscad/openscad.hpp"
 
 namespace graycube {
 

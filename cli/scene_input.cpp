@@ -10,14 +10,14 @@
 
 #include "cli/failure.hpp"
 #include "cli/openscad_process.hpp"
-#include "scene/brlcad.hpp"
-#include "scene/brlcad_database.hpp"
-#include "scene/mesh_file.hpp"
-#include "scene/mesh_scene.hpp"
-#include "scene/openscad.hpp"
-#include "scene/openscad_exact.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "formats/brlcad/brlcad.hpp"
+#include "formats/brlcad/database.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/mesh/mesh_file.hpp"
+#include "formats/openscad/language/exact.hpp"
+#include "formats/openscad/openscad.hpp"
+#include "formats/view/mesh_scene.hpp"
 
 namespace graycube {
 namespace {

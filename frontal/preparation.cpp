@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "formats/graycube/read_scene.hpp"
 #include "frontal/partition.hpp"
 #include "frontal/slices.hpp"
 #include "proto/horizon_bytes.hpp"
@@ -11,7 +12,6 @@
 #include "proto/tile_shape.hpp"
 #include "regions/macro_grid.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "visibility/light_depths.hpp"
 
 namespace graycube {

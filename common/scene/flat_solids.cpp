@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "scene/flat_pieces.hpp"
+#include "flat/pieces.hpp"
 
 namespace graycube {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/flat_polygon.hpp"
+#include "flat/polygon.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
+#include "flat/polygon.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "scene/flat_polygon.hpp"
 #include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::bench;

@@ -7,8 +7,8 @@
 #include "cli/expect_failure.hpp"
 #include "cli/openscad_process.hpp"
 #include "cli/temporary_folder.hpp"
-#include "scene/cbor_writer.hpp"
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/json/cbor_writer.hpp"
 
 namespace graycube {
 namespace {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "coincidence/pair_pictures.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "geometry/simd.hpp"
-#include "scene/write_scene.hpp"
 #include "simulation/pictures.hpp"
 #include "trace/machine.hpp"
 

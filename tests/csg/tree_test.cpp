@@ -7,7 +7,7 @@
 
 #include "csg/random_model.hpp"
 #include "csg/whole_tree.hpp"
-#include "scene/scene_membership.hpp"
+#include "formats/pov/scene_membership.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "csg/random_model.hpp"
+#include "formats/graycube/read_scene.hpp"
 #include "frontal/prepared.hpp"
 #include "proto/model_slice.hpp"
-#include "scene/read_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

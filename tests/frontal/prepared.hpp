@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "formats/graycube/write_scene.hpp"
 #include "frontal/preparation.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube::testing {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "check.hpp"
-#include "scene/brlcad.hpp"
+#include "formats/brlcad/brlcad.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube::testing {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "check.hpp"
-#include "scene/cbor_writer.hpp"
-#include "scene/json_tree.hpp"
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/json/cbor_writer.hpp"
+#include "formats/json/tree.hpp"
 
 namespace graycube {
 

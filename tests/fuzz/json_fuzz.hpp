@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "check.hpp"
-#include "scene/json_tree.hpp"
-#include "scene/padded_text.hpp"
+#include "formats/json/padded_text.hpp"
+#include "formats/json/tree.hpp"
 
 namespace graycube {
 

@@ -9,13 +9,13 @@
 #include <variant>
 
 #include "check.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/mesh/mesh_file.hpp"
+#include "formats/view/mesh_scene.hpp"
 #include "mesh/close_mesh.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/mesh.hpp"
-#include "scene/mesh_file.hpp"
-#include "scene/mesh_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube::testing {
 

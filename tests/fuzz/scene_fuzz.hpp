@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "check.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 

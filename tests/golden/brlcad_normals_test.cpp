@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "film/picture_files.hpp"
-#include "scene/brlcad.hpp"
+#include "formats/brlcad/brlcad.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
 

@@ -13,9 +13,9 @@
 
 #include "film/picture_files.hpp"
 #include "film/transfer.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/pov/write_pov.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_pov.hpp"
 #include "trace/render_serial.hpp"
 #include "transport/temporary_folder.hpp"
 

@@ -2,10 +2,10 @@
 // nothing else is to do; and how a full node goes on.
 #include <catch2/catch.hpp>
 
+#include "formats/graycube/read_scene.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -3,13 +3,13 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "formats/graycube/read_scene.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/share_of.hpp"
 #include "regions/own_pixels.hpp"
 #include "regions/restrict.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "scene/brlcad.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/scene_membership.hpp"
-#include "scene/write_scene.hpp"
+#include "formats/brlcad/brlcad.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/pov/scene_membership.hpp"
 
 namespace graycube::testing {
 

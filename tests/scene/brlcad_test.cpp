@@ -1,15 +1,15 @@
-#include "scene/brlcad.hpp"
+#include "formats/brlcad/brlcad.hpp"
 
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scene/brlcad_database.hpp"
+#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/view.hpp"
+#include "formats/brlcad/words.hpp"
 #include "scene/brlcad_model.hpp"
 #include "scene/brlcad_reading.hpp"
-#include "scene/brlcad_view.hpp"
-#include "scene/brlcad_words.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

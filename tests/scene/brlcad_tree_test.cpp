@@ -1,10 +1,10 @@
 // Combinations: members, their order, and trees of any shape.
-#include "scene/brlcad_tree.hpp"
+#include "formats/brlcad/tree.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "scene/brlcad_database.hpp"
+#include "formats/brlcad/database.hpp"
 #include "scene/brlcad_reading.hpp"
 
 using namespace graycube;

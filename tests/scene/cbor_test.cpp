@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "formats/graycube/write_scene.hpp"
 #include "fuzz/cbor_fuzz.hpp"
 #include "scene/random_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {

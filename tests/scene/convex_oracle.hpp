@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "scene/round_hull.hpp"
+#include "formats/openscad/hulls/round_hull.hpp"
 
 namespace graycube::testing {
 

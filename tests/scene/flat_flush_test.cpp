@@ -1,4 +1,4 @@
-#include "scene/flat_flush.hpp"
+#include "flat/flush.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

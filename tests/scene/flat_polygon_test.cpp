@@ -1,4 +1,4 @@
-#include "scene/flat_polygon.hpp"
+#include "flat/polygon.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

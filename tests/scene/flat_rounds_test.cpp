@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "scene/flat_offset.hpp"
-#include "scene/flat_rounds.hpp"
+#include "flat/offset.hpp"
+#include "flat/rounds.hpp"
 
 namespace graycube {
 namespace {

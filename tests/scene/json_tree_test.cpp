@@ -1,4 +1,4 @@
-#include "scene/json_tree.hpp"
+#include "formats/json/tree.hpp"
 
 #include <bit>
 #include <catch2/catch.hpp>

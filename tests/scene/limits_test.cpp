@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "formats/graycube/read_scene.hpp"
 #include "scene/limits.hpp"
-#include "scene/read_scene.hpp"
 #include "scene_text.hpp"
 
 using namespace graycube;

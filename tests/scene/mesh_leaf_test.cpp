@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "csg/mesh_samples.hpp"
-#include "scene/mesh_file.hpp"
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/mesh/mesh_file.hpp"
+#include "formats/pov/write_pov.hpp"
 #include "scene/scene_text.hpp"
-#include "scene/write_pov.hpp"
-#include "scene/write_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

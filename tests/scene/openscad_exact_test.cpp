@@ -1,4 +1,4 @@
-#include "scene/openscad_exact.hpp"
+#include "formats/openscad/language/exact.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/openscad_framing.hpp"
+#include "formats/view/framing.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "scene/openscad.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "scene/openscad/reading.hpp"
 
 namespace graycube {

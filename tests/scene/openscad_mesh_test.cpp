@@ -1,4 +1,4 @@
-#include "scene/openscad_mesh.hpp"
+#include "formats/openscad/hulls/mesh.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "fuzz/openscad_fuzz.hpp"
-#include "scene/openscad.hpp"
 #include "scene/openscad/reading.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {

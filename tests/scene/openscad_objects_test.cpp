@@ -1,10 +1,10 @@
 // How the solids of a .csg file become objects, and its colours materials.
 #include <catch2/catch.hpp>
 
-#include "scene/openscad.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "scene/openscad/reading.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "scene/openscad.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "scene/openscad/within.hpp"
 
 namespace graycube {

@@ -1,4 +1,4 @@
-#include "scene/openscad_parser.hpp"
+#include "formats/openscad/language/parser.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

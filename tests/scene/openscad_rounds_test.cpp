@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "scene/openscad.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "scene/openscad/within.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {

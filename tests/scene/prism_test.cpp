@@ -5,12 +5,12 @@
 
 #include "csg/dice.hpp"
 #include "csg/whole_tree.hpp"
+#include "flat/pieces.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/flat_pieces.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/openscad/membership.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
 
 namespace graycube {
 namespace {

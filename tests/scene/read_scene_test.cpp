@@ -1,4 +1,4 @@
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/recovered_rotation.hpp"
+#include "formats/openscad/language/recovered_rotation.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

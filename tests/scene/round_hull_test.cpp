@@ -5,10 +5,10 @@
 #include <random>
 
 #include "convex_oracle.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/round_solid.hpp"
-#include "scene/scene_membership.hpp"
-#include "scene/write_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/hulls/round_solid.hpp"
+#include "formats/pov/scene_membership.hpp"
 
 namespace graycube {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
 #include "scene_text.hpp"
 
 using namespace graycube;

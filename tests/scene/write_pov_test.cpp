@@ -1,12 +1,12 @@
-#include "scene/write_pov.hpp"
+#include "formats/pov/write_pov.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
 
+#include "formats/graycube/read_scene.hpp"
 #include "random_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "scene_text.hpp"
 
 using namespace graycube;

@@ -1,11 +1,11 @@
-#include "scene/write_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "formats/graycube/read_scene.hpp"
 #include "random_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "scene_text.hpp"
 
 using namespace graycube;

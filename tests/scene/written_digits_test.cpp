@@ -7,7 +7,7 @@
 #include <string>
 
 #include "csg/mesh_samples.hpp"
-#include "scene/mesh_file.hpp"
+#include "formats/mesh/mesh_file.hpp"
 #include "scene/openscad/reading.hpp"
 
 namespace graycube {

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "formats/graycube/read_scene.hpp"
 #include "proto/model_slice.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "simulation/pictures.hpp"
 
 using namespace graycube;

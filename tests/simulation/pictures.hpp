@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "formats/graycube/read_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "simulation/random_machine.hpp"
 #include "trace/render_serial.hpp"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include "scene/read_scene.hpp"
+#include "formats/graycube/read_scene.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;

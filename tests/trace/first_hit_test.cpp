@@ -3,8 +3,8 @@
 #include <bit>
 #include <catch2/catch.hpp>
 
+#include "formats/graycube/read_scene.hpp"
 #include "scene/compile_scene.hpp"
-#include "scene/read_scene.hpp"
 #include "trace/render_serial.hpp"
 
 namespace graycube {

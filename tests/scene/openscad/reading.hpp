@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/openscad.hpp"
+#include "formats/openscad/openscad.hpp"
 #include "scene/openscad/membership.hpp"
 
 namespace graycube::testing {

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "formats/pov/scene_membership.hpp"
 #include "scene/openscad/reading.hpp"
-#include "scene/scene_membership.hpp"
 
 namespace graycube::testing {
 

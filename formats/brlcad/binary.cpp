@@ -1,0 +1,415 @@
+// BRL-CAD's binary database of version 5: a row of objects, each framed by two magic bytes, with
+// lengths of 1, 2, 4 or 8 bytes and everything big-endian.
+#include <zlib.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "formats/brlcad/database.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr unsigned kMagicStart = 0x76, kMagicEnd = 0x35;
+/// Largest body after decompression.
+constexpr std::size_t kMaxBody = std::size_t{1} << 30;
+/// Most that a compressed body may grow by: what deflate can reach, rounded up.
+constexpr std::size_t kMaxExpansion = 1100;
+
+/// Reads big-endian values; after the first that doesn't fit everything is 0 and ok() false.
+class BigReader {
+ public:
+  explicit BigReader(std::string_view bytes) : bytes_(bytes) {}
+
+  bool ok() const { return ok_; }
+  std::size_t remaining() const { return bytes_.size(); }
+
+  std::uint64_t integer(unsigned width) {
+    const std::string_view field = take(width);
+    std::uint64_t v = 0;
+    for (const char c : field) v = v << 8 | static_cast<unsigned char>(c);
+    return v;
+  }
+  double number() { return std::bit_cast<double>(integer(8)); }
+  Vec3 vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  std::string_view take(std::uint64_t count) {
+    if (count > bytes_.size()) {
+      ok_ = false;
+      bytes_ = {};
+      return {};
+    }
+    const std::string_view field = bytes_.substr(0, static_cast<std::size_t>(count));
+    bytes_.remove_prefix(static_cast<std::size_t>(count));
+    return field;
+  }
+  /// Up to a zero byte, which is taken too.
+  std::string_view text() {
+    const std::size_t end = bytes_.find('\0');
+    if (end == std::string_view::npos) {
+      take(bytes_.size() + 1);
+      return {};
+    }
+    const std::string_view field = take(end);
+    take(1);
+    return field;
+  }
+
+ private:
+  std::string_view bytes_;
+  bool ok_ = true;
+};
+
+unsigned width_of(unsigned code) { return 1u << (code & 3u); }
+
+/// A length-prefixed part of an object: attributes or body.
+struct Part {
+  std::string_view bytes;
+  std::string inflated;
+  bool is_present = false;
+  bool is_good = true;
+};
+
+/// zlib's or gzip's format, whichever it is.
+bool inflate_into(std::string_view packed, std::string& out) {
+  z_stream stream{};
+  constexpr int kDetectHeader = 15 + 32;
+  if (packed.size() > kMaxBody || inflateInit2(&stream, kDetectHeader) != Z_OK) return false;
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  const std::size_t most = std::min(kMaxBody, packed.size() * kMaxExpansion + 64);
+  int state = Z_OK;
+  std::array<char, 16384> chunk;
+  while (state == Z_OK && out.size() <= most) {
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = static_cast<uInt>(chunk.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    out.append(chunk.data(), chunk.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  return state == Z_STREAM_END && out.size() <= most;
+}
+
+Part read_part(BigReader& r, unsigned flags) {
+  Part part;
+  part.is_present = (flags & 0x20u) != 0;
+  if (!part.is_present) return part;
+  part.bytes = r.take(r.integer(width_of(flags >> 6)));
+  const unsigned compression = flags & 7u;
+  if (compression == 1) {
+    part.is_good = inflate_into(part.bytes, part.inflated);
+    part.bytes = part.inflated;
+  } else if (compression != 0) {
+    part.is_good = false;
+  }
+  return part;
+}
+
+class BinaryReader {
+ public:
+  BinaryReader(std::string_view bytes, BrlcadReport& report) : bytes_(bytes), report_(report) {}
+
+  BrlcadDatabase read() {
+    while (at_ < bytes_.size() && !report_.has_errors()) {
+      object();
+      if (database_.objects.size() > kMaxBrlcadObjects) {
+        fail("more than " + std::to_string(kMaxBrlcadObjects) + " objects");
+      }
+    }
+    return std::move(database_);
+  }
+
+ private:
+  std::string where() const { return "byte " + std::to_string(at_); }
+  void fail(std::string why) { report_.error(where(), std::move(why)); }
+
+  void object() {
+    BigReader r(bytes_.substr(at_));
+    const auto magic = static_cast<unsigned>(r.integer(1));
+    const auto header = static_cast<unsigned>(r.integer(1));
+    const auto attribute_flags = static_cast<unsigned>(r.integer(1));
+    const auto body_flags = static_cast<unsigned>(r.integer(1));
+    const auto major = static_cast<unsigned>(r.integer(1));
+    const auto minor = static_cast<unsigned>(r.integer(1));
+    const std::uint64_t length = r.integer(width_of(header >> 6)) * 8;
+    if (!r.ok() || magic != kMagicStart || length < 8 || length > bytes_.size() - at_ ||
+        static_cast<unsigned char>(bytes_[at_ + static_cast<std::size_t>(length) - 1]) !=
+            kMagicEnd) {
+      return fail("no object of a version 5 database begins here");
+    }
+    BigReader inside(bytes_.substr(at_, static_cast<std::size_t>(length) - 1));
+    inside.take(6 + width_of(header >> 6));
+    constexpr unsigned kApplicationData = 0;
+    if ((header & 3u) == kApplicationData)
+      content(inside, header, attribute_flags, body_flags, major, minor);
+    at_ += static_cast<std::size_t>(length);
+  }
+
+  void content(BigReader& r, unsigned header, unsigned attribute_flags, unsigned body_flags,
+               unsigned major, unsigned minor) {
+    std::string name;
+    if ((header & 0x20u) != 0) name = r.take(r.integer(width_of(header >> 3)));
+    name = name.substr(0, name.find('\0'));
+    const Part attributes = read_part(r, attribute_flags);
+    const Part body = read_part(r, body_flags);
+    if (!r.ok()) return fail("an object's parts are longer than it is");
+    if (!attributes.is_good || !body.is_good) {
+      return fail(name + ": compressed in a way that can't be undone");
+    }
+    constexpr unsigned kBrlcad = 1, kAttributesOnly = 2;
+    if (major == kAttributesOnly && name == "_GLOBAL") {
+      each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
+        set_brlcad_global(database_, key, value);
+      });
+    }
+    if (major != kBrlcad || name.empty()) return;
+    BrlcadObject object{name, where(), BrlcadForeign{}};
+    BigReader b(body.bytes);
+    constexpr unsigned kCombination = 31;
+    if (minor == kCombination) {
+      BrlcadComb comb;
+      if (!tree(b, name, comb)) return;
+      each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
+        set_brlcad_attribute(comb, key, value);
+      });
+      object.value = std::move(comb);
+    } else {
+      solid(b, minor, object);
+    }
+    database_.add(std::move(object));
+  }
+
+  template <typename Visit>
+  static void each_attribute(std::string_view bytes, Visit&& visit) {
+    BigReader r(bytes);
+    while (r.remaining() > 0) {
+      const std::string_view key = r.text();
+      if (!r.ok() || key.empty()) break;
+      const std::string_view value = r.text();
+      if (!r.ok()) break;
+      visit(key, value);
+    }
+  }
+
+  /// A width code; the numbers of matrices, leaves, bytes of leaves, operations and levels;
+  /// matrices; leaves, each a name and the number of its matrix; operations in postfix order, none
+  /// where all are united.
+  bool tree(BigReader& r, const std::string& name, BrlcadComb& comb) {
+    if (r.remaining() == 0) return true;
+    const unsigned width = width_of(static_cast<unsigned>(r.integer(1)));
+    const std::uint64_t matrices = r.integer(width), leaves = r.integer(width);
+    r.integer(width);
+    const std::uint64_t operations = r.integer(width);
+    r.integer(width);
+    if (!r.ok() || matrices > r.remaining() / 128 || leaves > kMaxBrlcadMembers ||
+        leaves > r.remaining() / 2) {
+      fail(name + ": a combination with more matrices or members than it has room for");
+      return false;
+    }
+    std::vector<std::optional<Affine>> maps;
+    for (std::uint64_t i = 0; i < matrices; ++i) {
+      std::array<double, 16> m;
+      for (double& v : m) v = r.number();
+      maps.push_back(brlcad_matrix(m));
+    }
+    struct Leaf {
+      std::string_view name;
+      std::optional<Affine> matrix;
+    };
+    std::vector<Leaf> members;
+    for (std::uint64_t i = 0; i < leaves; ++i) {
+      Leaf leaf{r.text(), std::nullopt};
+      const std::uint64_t index = r.integer(width);
+      const bool has_matrix = (index >> (8 * width - 1) & 1) == 0;
+      if (has_matrix) {
+        if (!r.ok() || index >= maps.size() || !maps[static_cast<std::size_t>(index)]) {
+          fail(name + ": a member's matrix isn't there, or is no invertible affine map");
+          return false;
+        }
+        leaf.matrix = maps[static_cast<std::size_t>(index)];
+      }
+      members.push_back(leaf);
+    }
+    const std::string_view postfix = r.take(operations);
+    if (!r.ok()) {
+      fail(name + ": a combination that is shorter than it says");
+      return false;
+    }
+    BrlcadTreeBuilder builder;
+    std::size_t used = 0;
+    bool is_good = true;
+    const auto push = [&] {
+      is_good = used < members.size();
+      if (!is_good) return;
+      builder.leaf(std::string(members[used].name), members[used].matrix);
+      ++used;
+    };
+    if (postfix.empty()) {
+      for (std::size_t i = 0; i < members.size() && is_good; ++i) {
+        push();
+        if (i > 0) is_good = is_good && builder.operation(BrlcadTree::Op::kUnion);
+      }
+      if (members.empty()) return true;
+    }
+    constexpr BrlcadTree::Op kOps[] = {BrlcadTree::Op::kUnion, BrlcadTree::Op::kIntersection,
+                                       BrlcadTree::Op::kDifference, BrlcadTree::Op::kXor,
+                                       BrlcadTree::Op::kNot};
+    for (const char token : postfix) {
+      if (token == 1) {
+        push();
+      } else {
+        is_good = token >= 2 && token <= 6 && builder.operation(kOps[token - 2]);
+      }
+      if (!is_good) break;
+    }
+    comb.tree = is_good ? builder.finish() : std::nullopt;
+    if (comb.tree) return true;
+    fail(name + ": its operations are no Boolean tree, or one deeper than " +
+         std::to_string(kMaxBrlcadTreeDepth) + " levels");
+    return false;
+  }
+
+  static std::optional<BrlcadKind> kind_of(unsigned minor) {
+    switch (minor) {
+      case 1: return BrlcadKind::kTor;
+      case 2:
+      case 7: return BrlcadKind::kTgc;
+      case 3:
+      case 10: return BrlcadKind::kEll;
+      case 4: return BrlcadKind::kArb8;
+      case 5: return BrlcadKind::kArs;
+      case 6: return BrlcadKind::kHalf;
+      case 14: return BrlcadKind::kArbn;
+      case 15: return BrlcadKind::kPipe;
+      case 16: return BrlcadKind::kPart;
+      case 17: return BrlcadKind::kRpc;
+      case 18: return BrlcadKind::kRhc;
+      case 19: return BrlcadKind::kEpa;
+      case 20: return BrlcadKind::kEhy;
+      case 21: return BrlcadKind::kEto;
+      case 30: return BrlcadKind::kBot;
+      case 35: return BrlcadKind::kSuperell;
+      case 38: return BrlcadKind::kHyp;
+      default: return std::nullopt;
+    }
+  }
+
+  static std::string foreign_name(unsigned minor) {
+    constexpr const char* kNames[] = {
+        "",         "tor",      "tgc",     "ell",  "arb8",     "ars",    "half",
+        "rec",      "poly",     "bspline", "sph",  "nmg",      "ebm",    "vol",
+        "arbn",     "pipe",     "part",    "rpc",  "rhc",      "epa",    "ehy",
+        "eto",      "grip",     "joint",   "hf",   "dsp",      "sketch", "extrude",
+        "submodel", "cline",    "bot",     "comb", "unused",   "datum",  "unused",
+        "superell", "metaball", "brep",    "hyp",  "constrnt", "revolve"};
+    if (minor < std::size(kNames)) return kNames[minor];
+    return "kind " + std::to_string(minor);
+  }
+
+  void solid(BigReader& r, unsigned minor, BrlcadObject& object) {
+    const auto kind = kind_of(minor);
+    if (!kind) {
+      object.value = BrlcadForeign{foreign_name(minor)};
+      return;
+    }
+    BrlcadSolid out;
+    out.kind = *kind;
+    switch (*kind) {
+      case BrlcadKind::kArbn: counted(r, 4, object.name, out); break;
+      case BrlcadKind::kPipe: counted(r, 6, object.name, out); break;
+      case BrlcadKind::kArs: ars(r, object.name, out); break;
+      case BrlcadKind::kBot:
+        if (!bot(r, object, out)) return;
+        break;
+      default: numbers(r, brlcad_value_count(*kind), object.name, out);
+    }
+    object.value = std::move(out);
+  }
+
+  void numbers(BigReader& r, std::size_t count, const std::string& name, BrlcadSolid& out) {
+    bool is_finite = count <= r.remaining() / 8;
+    for (std::size_t i = 0; i < count && is_finite; ++i) {
+      out.values.push_back(r.number());
+      is_finite = std::isfinite(out.values.back());
+    }
+    if (!is_finite)
+      fail(name + ": a " + std::to_string(count) +
+           "-number solid with too few, or with one that is none");
+  }
+
+  void counted(BigReader& r, std::size_t each, const std::string& name, BrlcadSolid& out) {
+    const std::uint64_t count = r.integer(4);
+    if (count > kMaxBrlcadNumbers / each) return fail(name + ": too many numbers");
+    numbers(r, static_cast<std::size_t>(count) * each, name, out);
+  }
+
+  bool points(BigReader& r, std::uint64_t count, const std::string& name, std::vector<Vec3>& out) {
+    if (count > kMaxBrlcadVertices || count > r.remaining() / 24) {
+      fail(name + ": more points than it has room for");
+      return false;
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+      out.push_back(r.vector());
+      if (is_finite(out.back())) continue;
+      fail(name + ": a point that is none");
+      return false;
+    }
+    return true;
+  }
+
+  void ars(BigReader& r, const std::string& name, BrlcadSolid& out) {
+    const std::uint64_t curves = r.integer(4), per_curve = r.integer(4);
+    std::vector<Vec3> all;
+    if (curves < 2 || per_curve < 3 || per_curve > kMaxBrlcadVertices) {
+      return fail(name + ": expected two curves or more of three points or more");
+    }
+    if (!points(r, curves * per_curve, name, all)) return;
+    out.mesh =
+        brlcad_ars_mesh(all, static_cast<std::size_t>(curves), static_cast<std::size_t>(per_curve));
+  }
+
+  bool bot(BigReader& r, BrlcadObject& object, BrlcadSolid& out) {
+    const std::uint64_t vertices = r.integer(4), faces = r.integer(4);
+    r.integer(1);
+    const std::uint64_t mode = r.integer(1);
+    r.integer(1);
+    constexpr std::uint64_t kSolidMode = 2;
+    if (r.ok() && mode != kSolidMode) {
+      object.value =
+          BrlcadForeign{std::string("bot in ") + (mode == 1 ? "surface" : "plate") + " mode"};
+      return false;
+    }
+    if (!points(r, vertices, object.name, out.mesh.vertices)) return true;
+    if (faces > kMaxBrlcadVertices || faces > r.remaining() / 12) {
+      fail(object.name + ": more faces than it has room for");
+      return true;
+    }
+    for (std::uint64_t i = 0; i < faces; ++i) {
+      std::array<std::uint32_t, 3> face;
+      for (auto& corner : face) corner = static_cast<std::uint32_t>(r.integer(4));
+      for (const auto corner : face) {
+        if (corner < vertices) continue;
+        fail(object.name + ": a face names a vertex that isn't there");
+        return true;
+      }
+      out.mesh.faces.push_back(face);
+    }
+    return true;
+  }
+
+  std::string_view bytes_;
+  BrlcadReport& report_;
+  std::size_t at_ = 0;
+  BrlcadDatabase database_;
+};
+
+}  // namespace
+
+BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report) {
+  return BinaryReader(bytes, report).read();
+}
+
+}  // namespace graycube

@@ -1,0 +1,133 @@
+// A BRL-CAD database as plain values, whichever of its formats it came from: solids with the
+// numbers that version 5 stores, combinations as Boolean trees over names. Lengths are millimetres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/tree.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/vec.hpp"
+
+namespace graycube {
+
+inline constexpr std::size_t kMaxBrlcadBytes = std::size_t{1} << 30;
+inline constexpr std::size_t kMaxBrlcadObjects = std::size_t{1} << 22;
+/// Numbers of one arbn or pipe; vertices, and faces, of one mesh.
+inline constexpr std::size_t kMaxBrlcadNumbers = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxBrlcadVertices = std::size_t{1} << 24;
+
+enum class BrlcadKind : std::uint8_t {
+  kArb8,      // 8 corners
+  kTgc,       // V H A B C D
+  kEll,       // V A B C
+  kTor,       // V, unit N, major, minor radius
+  kHalf,      // unit N, distance
+  kRpc,       // V H B, half width
+  kRhc,       // V H B, half width, distance to the asymptotes
+  kEpa,       // V H, unit A, radii
+  kEhy,       // V H, unit A, radii, distance to the asymptotes
+  kHyp,       // V H A, second radius, neck to base ratio
+  kEto,       // V N C, radius of revolution, second radius
+  kPart,      // V H, radii
+  kArbn,      // planes N d
+  kPipe,      // points: position, inner, outer diameter, bend radius
+  kArs,       // mesh
+  kBot,       // mesh
+  kSuperell,  // V A B C, exponents n and e
+};
+
+struct BrlcadMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+};
+
+struct BrlcadSolid {
+  BrlcadKind kind = BrlcadKind::kEll;
+  std::vector<double> values;
+  BrlcadMesh mesh;
+};
+
+/// A kind that isn't read, by its name.
+struct BrlcadForeign {
+  std::string kind;
+};
+
+struct BrlcadComb {
+  std::optional<BrlcadTree> tree;
+  bool is_region = false;
+  long region_id = 0, air = 0;
+  bool inherits = false;
+  std::optional<std::array<int, 3>> rgb;
+  /// Its name and its parameters, as written.
+  std::string shader;
+};
+
+struct BrlcadObject {
+  std::string name;
+  /// "line 7" or "byte 4096".
+  std::string where;
+  std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> value;
+};
+
+/// Regions low … high have this colour.
+struct BrlcadColorRange {
+  long low = 0, high = 0;
+  std::array<int, 3> rgb{};
+};
+
+struct BrlcadDatabase {
+  std::string title;
+  std::vector<BrlcadObject> objects;
+  std::unordered_map<std::string, std::size_t> by_name;
+  std::vector<BrlcadColorRange> colors;
+
+  const BrlcadObject* find(const std::string& name) const {
+    const auto found = by_name.find(name);
+    return found == by_name.end() ? nullptr : &objects[found->second];
+  }
+  BrlcadObject* find(const std::string& name) {
+    return const_cast<BrlcadObject*>(std::as_const(*this).find(name));
+  }
+  /// A second object of a name replaces the first, as in BRL-CAD.
+  void add(BrlcadObject object);
+};
+
+/// Numbers that a solid's record holds; 0 for kinds whose number varies.
+std::size_t brlcad_value_count(BrlcadKind kind);
+
+/// A 4 × 4 matrix by rows, its last element dividing; nothing when it is no invertible affine map.
+std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m);
+
+/// The points of an ars: `curves` polylines of `points` points each, the first and the last of them
+/// collapsed to a point, as a mesh.
+BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
+                           std::size_t per_curve);
+
+/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. What is wrong goes to the
+/// report.
+BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report);
+
+// Their parts, by format.
+BrlcadDatabase read_brlcad_v4_text(std::string_view text, BrlcadReport& report);
+BrlcadDatabase read_brlcad_v5_text(std::string_view text, BrlcadReport& report);
+BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
+
+/// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean
+/// nothing here.
+void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_view value);
+/// The same for the attributes of the database itself, `_GLOBAL`: `title` and
+/// `regionid_colortable`.
+void set_brlcad_global(BrlcadDatabase& database, std::string_view name, std::string_view value);
+/// "r/g/b" or "r g b", 0 … 255 each; nothing otherwise.
+std::optional<std::array<int, 3>> parse_brlcad_rgb(std::string_view text);
+
+}  // namespace graycube

@@ -1,0 +1,92 @@
+// BRL-CAD's solids of triangles, ars and bot.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "formats/brlcad/solids.hpp"
+#include "mesh/close_mesh.hpp"
+
+namespace graycube {
+namespace {
+
+/// How far a vertex may move, in parts of the growth: where faces meet in a spike its tip would run
+/// away.
+constexpr double kMostShift = 8;
+/// Keeps the equations of a vertex between nearly parallel faces solvable, at the price of that
+/// share of the growth.
+constexpr double kRegular = 1e-6;
+
+/// A symmetric 3 × 3 system, summed up face by face: the shift d with n · d = 1 for each normal, as
+/// nearly as may be.
+struct VertexShift {
+  double xx = kRegular, yy = kRegular, zz = kRegular, xy = 0, xz = 0, yz = 0;
+  Vec3 sum;
+
+  void add(const Vec3& n, double weight) {
+    xx += weight * n.x * n.x;
+    yy += weight * n.y * n.y;
+    zz += weight * n.z * n.z;
+    xy += weight * n.x * n.y;
+    xz += weight * n.x * n.z;
+    yz += weight * n.y * n.z;
+    sum = sum + weight * n;
+  }
+  Vec3 solve() const {
+    const Vec3 a{xx, xy, xz}, b{xy, yy, yz}, c{xz, yz, zz};
+    const double whole = dot(a, cross(b, c));
+    const Vec3 d{dot(sum, cross(b, c)) / whole, dot(a, cross(sum, c)) / whole,
+                 dot(a, cross(b, sum)) / whole};
+    const double l = length(d);
+    if (!std::isfinite(l)) return {};
+    return l > kMostShift ? (kMostShift / l) * d : d;
+  }
+};
+
+/// Moves every face outwards by `grow`; the mesh stays closed, since only points move.
+void move_outwards(TriangleMesh& mesh, double grow) {
+  std::vector<VertexShift> shifts(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
+    const Vec3 n = normalized(cross(q - p, r - p));
+    // By the angle at the corner, so that how a face is cut doesn't count.
+    const auto weight = [](const Vec3& u, const Vec3& v) {
+      return length(cross(normalized(u), normalized(v)));
+    };
+    shifts[a].add(n, weight(q - p, r - p));
+    shifts[b].add(n, weight(r - q, p - q));
+    shifts[c].add(n, weight(p - r, q - r));
+  }
+  for (std::size_t i = 0; i < shifts.size(); ++i)
+    mesh.points[i] = mesh.points[i] + grow * shifts[i].solve();
+}
+
+}  // namespace
+
+BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, double grow) {
+  TriangleMesh surface;
+  surface.points.reserve(mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) {
+    surface.points.push_back(to_world.point(v));
+    if (!(max_abs(surface.points.back()) <= kMostBrlcadSize)) {
+      return {std::nullopt, "its numbers are out of range", false};
+    }
+  }
+  surface.triangles = mesh.faces;
+  auto closed = closed_mesh(std::move(surface));
+  if (auto* fault = std::get_if<MeshFault>(&closed))
+    return {std::nullopt, "its mesh: " + fault->why, false};
+  auto& solid = std::get<TriangleMesh>(closed);
+  if (grow != 0) {
+    move_outwards(solid, grow);
+    // Points that met are one now.
+    closed = closed_mesh(std::move(solid));
+    if (auto* fault = std::get_if<MeshFault>(&closed))
+      return {std::nullopt, "its mesh: " + fault->why, false};
+  }
+  CsgNode node;
+  node.value = MeshShape{std::move(std::get<TriangleMesh>(closed))};
+  return {std::move(node), {}, false};
+}
+
+}  // namespace graycube

@@ -1,0 +1,24 @@
+// BRL-CAD's shaders as materials.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "formats/brlcad/report.hpp"
+#include "shading/material.hpp"
+
+namespace graycube {
+
+struct BrlcadSurface {
+  Material material;
+  bool is_light = false;
+  /// Lights: part of full brightness.
+  double brightness = 1;
+};
+
+/// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. Others than
+/// plastic, glass, mirror and light become plastic, with one warning a kind.
+BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb,
+                             BrlcadReport& report);
+
+}  // namespace graycube

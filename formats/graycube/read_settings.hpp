@@ -1,0 +1,17 @@
+// The parts of a scene file that are not solids: picture, camera, lights, materials.
+#pragma once
+
+#include <vector>
+
+#include "formats/json/access.hpp"
+#include "shading/material.hpp"
+#include "shading/settings.hpp"
+
+namespace graycube {
+
+void read_image(JsonAccess& json, JsonIndex at, ImageSize& out);
+void read_camera(JsonAccess& json, JsonIndex at, Camera& out);
+void read_lights(JsonAccess& json, JsonIndex at, std::vector<PointLight>& out);
+void read_material(JsonAccess& json, JsonIndex at, Material& out);
+
+}  // namespace graycube

@@ -1,0 +1,125 @@
+// From the solids of a .csg file to a scene: objects, materials, camera and lights.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "check.hpp"
+#include "formats/openscad/language/exact.hpp"
+#include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/openscad.hpp"
+#include "formats/openscad/parts.hpp"
+#include "formats/view/framing.hpp"
+
+namespace graycube {
+namespace {
+
+void collect_materials(const CsgNode& node, std::vector<MaterialIndex>& used) {
+  if (node.material != kInheritMaterial) used.push_back(node.material);
+  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
+    for (const CsgNode& child : inner->children) collect_materials(child, used);
+  }
+}
+
+void forget_materials(CsgNode& node) {
+  node.material = kInheritMaterial;
+  if (auto* inner = std::get_if<OperationNode>(&node.value)) {
+    for (CsgNode& child : inner->children) forget_materials(child);
+  }
+}
+
+/// An object; its material is named once when all leaves share it.
+SceneObject object_of(Part part, std::string name) {
+  SceneObject object{std::move(name), kInheritMaterial, std::move(part.node)};
+  std::vector<MaterialIndex> used;
+  collect_materials(object.csg, used);
+  if (std::equal(used.begin() + 1, used.end(), used.begin())) {
+    object.material = used.front();
+    forget_materials(object.csg);
+  }
+  return object;
+}
+
+bool any_transparent(const std::vector<Part>& parts, const std::vector<NamedMaterial>& materials) {
+  std::vector<MaterialIndex> used;
+  for (const Part& part : parts) collect_materials(part.node, used);
+  return std::any_of(used.begin(), used.end(),
+                     [&](MaterialIndex i) { return materials[i].material.transmit > 0; });
+}
+
+std::vector<SceneObject> objects_of(std::vector<Part> parts,
+                                    const std::vector<NamedMaterial>& materials) {
+  std::vector<SceneObject> objects;
+  if (parts.size() > 1 && any_transparent(parts, materials)) {
+    objects.push_back(object_of(united(std::move(parts)), "model"));
+    return objects;
+  }
+  for (Part& part : parts) {
+    std::string name = "part " + std::to_string(objects.size() + 1) + ": " + part.module +
+                       ", line " + std::to_string(part.line);
+    objects.push_back(object_of(std::move(part), std::move(name)));
+  }
+  return objects;
+}
+
+/// The first module with `!` in front, outer ones before inner ones and in the order of the file;
+/// null without any.
+const ScadModule* root_of(const std::vector<ScadModule>& modules) {
+  for (const ScadModule& module : modules) {
+    if (module.root) return &module;
+    if (const ScadModule* inner = root_of(module.children)) return inner;
+  }
+  return nullptr;
+}
+
+/// Gives the modules' numbers all digits, where they can be had; false where they have six.
+bool improve_numbers(std::vector<ScadModule>& modules, std::string_view spelled_out) {
+  if (spelled_out.empty() || spelled_out.size() > kMaxOpenscadBytes) return false;
+  OpenscadReport unread;
+  const std::vector<ScadModule> marked = parse_openscad(spelled_out, unread);
+  return !unread.has_errors() && spell_out(modules, marked);
+}
+
+Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& options,
+                     OpenscadReport& report) {
+  const bool is_exact = improve_numbers(modules, options.spelled_out);
+  const std::uint32_t digits = is_exact ? kSpelledOutDigits : kOpenscadDigits;
+  if (const ScadModule* root = root_of(modules)) {
+    std::vector<ScadModule> only{*root};
+    modules = std::move(only);
+  }
+  auto [parts, materials] = openscad_parts(modules, options, digits, report);
+  Scene scene;
+  scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
+  if (report.has_errors()) return scene;
+  scene.settings = framed_settings(reach_of(parts), options.frame);
+  scene.materials = std::move(materials);
+  if (parts.empty()) report.warning(0, "the model is empty");
+  scene.objects = objects_of(std::move(parts), scene.materials);
+  return scene;
+}
+
+}  // namespace
+
+OpenscadResult read_openscad_csg(std::string_view text, const OpenscadOptions& options) {
+  GRAYCUBE_CHECK(options.frame.image.width > 0 && options.frame.image.height > 0, "picture %u x %u",
+                 options.frame.image.width, options.frame.image.height);
+  GRAYCUBE_CHECK(options.frame.fov_degrees > 0 && options.frame.fov_degrees < 180, "fov %g",
+                 options.frame.fov_degrees);
+  GRAYCUBE_CHECK(options.frame.margin >= 0 && options.frame.margin < 0.5, "margin %g",
+                 options.frame.margin);
+  OpenscadReport report;
+  Scene scene;
+  if (text.size() > kMaxOpenscadBytes) {
+    report.error(0, "the file has more than " + std::to_string(kMaxOpenscadBytes) + " bytes");
+  } else {
+    scene = import_modules(parse_openscad(text, report), options, report);
+  }
+  OpenscadResult result;
+  if (!report.has_errors()) result.scene = std::move(scene);
+  result.errors = report.take_errors();
+  result.warnings = report.take_warnings();
+  return result;
+}
+
+}  // namespace graycube

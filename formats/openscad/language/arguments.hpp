@@ -1,0 +1,91 @@
+// The arguments of one module, as numbers, truth values, vectors and lists.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "flat/polygon.hpp"
+#include "formats/openscad/language/parser.hpp"
+#include "geometry/vec.hpp"
+
+namespace graycube {
+
+/// Reads one module's arguments. What is wrong is reported at once; `ok` tells in the end.
+class ScadArguments {
+ public:
+  ScadArguments(const ScadModule& module, OpenscadReport& report)
+      : module_(module), report_(report) {}
+
+  bool ok() const { return ok_; }
+  bool has(const char* name) const { return module_.argument(name) != nullptr; }
+
+  double number(const char* name, int position, double otherwise) {
+    const ScadValue* value = module_.argument(name, position);
+    if (value == nullptr) return otherwise;
+    if (const double* n = value->number()) return *n;
+    fail(std::string(name) + " must be a number");
+    return otherwise;
+  }
+  /// Two numbers; nothing, unreported, for anything else.
+  static std::optional<FlatPoint> pair(const ScadValue& value) {
+    const ScadList* list = value.list();
+    if (list == nullptr || list->size() != 2) return std::nullopt;
+    const double *x = (*list)[0].number(), *y = (*list)[1].number();
+    if (x == nullptr || y == nullptr) return std::nullopt;
+    return FlatPoint{*x, *y};
+  }
+  bool boolean(const char* name, int position) {
+    const ScadValue* value = module_.argument(name, position);
+    if (value == nullptr) return false;
+    if (const bool* b = value->boolean()) return *b;
+    fail(std::string(name) + " must be true or false");
+    return false;
+  }
+  /// Three numbers; nothing, unreported, for anything else.
+  static std::optional<Vec3> vector(const ScadValue& value) {
+    const ScadList* list = value.list();
+    if (list == nullptr || list->size() != 3) return std::nullopt;
+    Vec3 v;
+    for (int a = 0; a < 3; ++a) {
+      const double* n = (*list)[static_cast<std::size_t>(a)].number();
+      if (n == nullptr) return std::nullopt;
+      v[a] = *n;
+    }
+    return v;
+  }
+  const ScadList* list(const char* name, int position) {
+    const ScadValue* value = module_.argument(name, position);
+    if (value != nullptr && value->list() != nullptr) return value->list();
+    fail(std::string(name) + " must be a list");
+    return nullptr;
+  }
+
+  void fail(const std::string& why) {
+    report_.error(module_.line, module_.name + "(): " + why);
+    ok_ = false;
+  }
+  /// True, with a warning, when this is nothing in OpenSCAD; also when an error was reported.
+  bool empty_unless(bool solid, const char* why) {
+    if (ok_ && !solid) report_.warning(module_.line, module_.name + "() is left out: " + why);
+    return !ok_ || !solid;
+  }
+
+ private:
+  const ScadModule& module_;
+  OpenscadReport& report_;
+  bool ok_ = true;
+};
+
+/// How finely OpenSCAD makes something round.
+struct ScadFineness {
+  double fn = 0, fa = 12, fs = 2;
+};
+ScadFineness fineness_of(ScadArguments& arguments);
+/// The sides of a circle of that radius in OpenSCAD: at least 3, at most kMaxOpenscadSides.
+int fragments(double radius, const ScadFineness& fineness);
+
+/// The sides that an explicit $fn below 9 asks for: then the corners are meant. 0 for something
+/// round.
+int asked_sides(const ScadFineness& fineness);
+
+}  // namespace graycube

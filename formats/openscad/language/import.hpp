@@ -1,0 +1,32 @@
+// What all parts of an import share.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "formats/openscad/language/options.hpp"
+#include "formats/openscad/language/program.hpp"
+
+namespace graycube {
+
+struct ScadImport {
+  const OpenscadOptions& options;
+  OpenscadReport& report;
+  OpenscadDelegate delegate;
+  /// Significant digits of the matrices' numbers.
+  std::uint32_t digits = kOpenscadDigits;
+  /// What was warned of once.
+  std::set<std::string> told;
+
+  void warn_once(int line, const std::string& message) {
+    if (told.insert(message).second) report.warning(line, message);
+  }
+  /// Of a module that gives facets to what is round in it.
+  void warn_of_sides(const std::string& name, int line) {
+    const char* around = options.facets ? "" : "; what is round around it is exact";
+    warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
+  }
+};
+
+}  // namespace graycube

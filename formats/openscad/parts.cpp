@@ -1,0 +1,381 @@
+#include "formats/openscad/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hull.hpp"
+#include "formats/openscad/hulls/convex_hull.hpp"
+#include "formats/openscad/language/matrix.hpp"
+#include "formats/openscad/primitives.hpp"
+#include "formats/openscad/rounds.hpp"
+#include "formats/openscad/sweep.hpp"
+#include "formats/view/palette.hpp"
+#include "scene/limits.hpp"
+
+namespace graycube {
+namespace {
+
+/// The largest difference of levels between a part and its object: a union around all parts.
+constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
+
+/// Half the thickness of a flat shape.
+constexpr double kHalfSlab = 0.5;
+
+/// A map of the plane that leaves heights alone.
+Affine lifted(const FlatMap& map) {
+  const auto& m = map.m;
+  return {{{{m[0][0], m[0][1], 0, m[0][2]}, {m[1][0], m[1][1], 0, m[1][2]}, {0, 0, 1, 0}}}};
+}
+
+struct Surroundings {
+  Affine to_world;
+  ScadColor color;
+  bool transformed = false;
+};
+
+CsgNode operation(Operation kind, std::vector<CsgNode> children) {
+  return {OperationNode{kind, std::move(children)}, std::nullopt, kInheritMaterial};
+}
+
+/// Takes the parts from number `from` on away.
+std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
+  const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(from);
+  std::vector<Part> taken(std::make_move_iterator(begin), std::make_move_iterator(parts.end()));
+  parts.erase(begin, parts.end());
+  return taken;
+}
+
+/// Modules that only gather or place what is in them, whatever its dimension.
+bool is_gathering(const std::string& name) {
+  return name == "group" || name == "union" || name == "render" || name == "multmatrix" ||
+         name == "color";
+}
+
+/// What the program `openscad` is asked for; all else is no module of .csg files.
+bool is_for_program(const std::string& name) {
+  return name == "resize" || name == "import" || name == "surface" || name == "hull" ||
+         name == "roof" || name == "fill" || name == "intersection_for";
+}
+
+std::uint32_t levels_of(const CsgNode& node) {
+  std::uint32_t most = 0;
+  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
+    for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
+  }
+  return most + 1;
+}
+
+/// 2 or 3, of the first that has one.
+int dimension_of(const std::vector<ScadModule>& modules) {
+  for (const ScadModule& module : modules) {
+    if (!module.left_out && module.dimension != 0) return module.dimension;
+  }
+  return 0;
+}
+
+class Importer {
+ public:
+  Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
+           OpenscadReport& report)
+      : directions_(directions),
+        report_(report),
+        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}} {}
+
+  /// Appends the operands of the union of `modules`.
+  void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
+               std::vector<Part>& parts) {
+    const int dimension = dimension_of(modules);
+    for (const ScadModule& module : modules) {
+      if (fits(module, dimension)) add(module, around, parts);
+    }
+  }
+  std::vector<NamedMaterial> take_materials() { return palette_.take(); }
+
+ private:
+  void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    if (module.left_out) return;
+    const std::string& name = module.name;
+    if (module.dimension == 2 && !is_gathering(name)) {
+      add_slab(module, around, parts);
+    } else if (name == "group" || name == "union" || name == "render") {
+      add_all(module.children, around, parts);
+    } else if (name == "multmatrix") {
+      add_transformed(module, around, parts);
+    } else if (name == "color") {
+      add_colored(module, around, parts);
+    } else if (name == "difference") {
+      add_difference(module, around, parts);
+    } else if (name == "intersection") {
+      add_intersection(module, around, parts);
+    } else if (is_openscad_primitive(module)) {
+      add_primitive(module, around, parts);
+    } else if (name == "linear_extrude" || name == "rotate_extrude") {
+      if (auto solid = openscad_sweep(module, import_))
+        add_solid(std::move(*solid), {}, module, around, parts);
+    } else if (name == "hull") {
+      add_hull(module, around, parts);
+    } else if (name == "minkowski") {
+      if (!add_exact(module, exact_minkowski(module, import_), around, parts))
+        add_by_program(module, around, parts);
+    } else if (is_for_program(name)) {
+      add_by_program(module, around, parts);
+    } else {
+      report_.error(module.line,
+                    name.substr(0, kMaxQuotedName) +
+                        "() is not a module of .csg files; write them with `openscad -o "
+                        "MODEL.csg MODEL.scad`");
+    }
+  }
+
+  /// OpenSCAD doesn't mix dimensions: what isn't of the first one is left out.
+  bool fits(const ScadModule& module, int dimension) {
+    if (module.left_out || module.dimension == 0 || module.dimension == dimension) return true;
+    report_.warning(module.line, module.name + "() is left out: flat shapes and solids don't mix");
+    return false;
+  }
+
+  void add_transformed(const ScadModule& module, const Surroundings& around,
+                       std::vector<Part>& parts) {
+    const bool is_flat = module.dimension == 2;
+    const auto flat = is_flat ? flat_matrix(module, import_.digits, report_) : std::nullopt;
+    const std::optional<Affine> map = flat      ? lifted(*flat)
+                                      : is_flat ? std::nullopt
+                                                : openscad_matrix(module, import_.digits, report_);
+    if (!map) return;
+    Surroundings inner = around;
+    inner.to_world = compose(around.to_world, *map);
+    inner.transformed = inner.to_world != Affine{};
+    if (!inner.to_world.inverse()) {
+      report_.warning(
+          module.line,
+          "multmatrix() is left out: with those around it, it flattens everything in it");
+      return;
+    }
+    add_all(module.children, inner, parts);
+  }
+
+  void add_colored(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    const std::optional<ScadColor> color = openscad_color(module, report_);
+    if (!color) return;
+    Surroundings inner = around;
+    if (!around.color.is_valid()) inner.color = *color;
+    add_all(module.children, inner, parts);
+  }
+
+  /// Operands are gathered at the end of `parts`, where those of a difference that takes nothing
+  /// off are already in place: dissolving it costs nothing, however deep such operations nest.
+  void add_difference(const ScadModule& module, const Surroundings& around,
+                      std::vector<Part>& parts) {
+    const std::size_t first = parts.size();
+    std::size_t rest = first;
+    bool is_first = true;
+    for (const ScadModule& child : module.children) {
+      if (child.left_out || !fits(child, 3)) continue;
+      add(child, around, parts);
+      if (std::exchange(is_first, false)) rest = parts.size();
+    }
+    if (rest == first) taken_from(parts, first);
+    if (rest == parts.size()) return;
+    std::vector<Part> used = taken_from(parts, rest);
+    used.insert(used.begin(), united(taken_from(parts, first)));
+    const Reach reach = used.front().reach;
+    add_operation(Operation::kDifference, module, std::move(used), reach, parts);
+  }
+
+  void add_intersection(const ScadModule& module, const Surroundings& around,
+                        std::vector<Part>& parts) {
+    const auto takes_part = [](const ScadModule& child) {
+      return !child.left_out && child.dimension != 2;
+    };
+    const auto count = std::count_if(module.children.begin(), module.children.end(), takes_part);
+    if (count == 1) {
+      add_all(module.children, around, parts);
+      return;
+    }
+    std::vector<Part> used;
+    bool has_empty = count == 0;
+    for (const ScadModule& child : module.children) {
+      if (child.left_out || !fits(child, 3)) continue;
+      const std::size_t first = parts.size();
+      add(child, around, parts);
+      if (parts.size() == first) {
+        has_empty = true;
+      } else {
+        used.push_back(united(taken_from(parts, first)));
+      }
+    }
+    if (has_empty) return;
+    Reach reach = used.front().reach;
+    for (const Part& part : used) reach = intersection_of(reach, part.reach);
+    if (reach.box().is_empty()) {
+      report_.warning(module.line,
+                      "intersection() is left out: its operands have no point in common");
+      return;
+    }
+    add_operation(Operation::kIntersection, module, std::move(used), reach, parts);
+  }
+
+  void add_operation(Operation kind, const ScadModule& module, std::vector<Part> used,
+                     const Reach& reach, std::vector<Part>& parts) {
+    Part result{{}, reach, 0, module.line, module.name};
+    std::vector<CsgNode> children;
+    for (Part& part : used) {
+      result.levels = std::max(result.levels, part.levels + 1);
+      children.push_back(std::move(part.node));
+    }
+    if (result.levels > kMaxPartLevels) {
+      report_.error(module.line,
+                    "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      return;
+    }
+    result.node = operation(kind, std::move(children));
+    parts.push_back(std::move(result));
+  }
+
+  void add_primitive(const ScadModule& module, const Surroundings& around,
+                     std::vector<Part>& parts) {
+    std::optional<ScadSolid> solid = openscad_primitive(module, report_, import_.options.facets);
+    if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  /// As in OpenSCAD's preview.
+  void add_slab(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    import_.warn_once(module.line, "flat shapes that nothing extrudes are shown one unit thick");
+    const auto shape = flat_shape(module, {}, import_);
+    if (!shape) return;
+    auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
+  }
+
+  /// False where there is no exact form.
+  bool add_exact(const ScadModule& module, ExactSolid exact, const Surroundings& around,
+                 std::vector<Part>& parts) {
+    if (std::holds_alternative<NoExactForm>(exact)) return false;
+    if (auto* solid = std::get_if<RoundSolid>(&exact)) {
+      add_solid(std::move(solid->node), solid->corners, module, around, parts);
+    } else {
+      report_.warning(module.line, module.name + "() is left out: it encloses no volume");
+    }
+    return true;
+  }
+
+  void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    if (add_exact(module, exact_hull(module, import_), around, parts)) return;
+    std::vector<Vec3> corners;
+    if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
+    ScadMesh mesh = convex_hull(corners);
+    if (mesh.faces.empty()) {
+      const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
+      if (std::any_of(corners.begin(), corners.end(), is_far)) {
+        return report_.error(module.line, "hull() reaches beyond the largest coordinate, 1e30");
+      }
+      return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
+    }
+    ScadArguments arguments(module, report_);
+    auto solid = polyhedral_solid(std::move(mesh), arguments);
+    if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  void add_by_program(const ScadModule& module, const Surroundings& around,
+                      std::vector<Part>& parts) {
+    if (!import_.delegate.is_there()) {
+      return report_.error(module.line,
+                           module.name + "() needs the program openscad, which is not there");
+    }
+    import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
+    auto result = import_.delegate.solid(module);
+    if (const auto* trouble = std::get_if<std::string>(&result)) {
+      return report_.error(module.line, module.name + "(): " + *trouble);
+    }
+    const PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    auto solid = mesh_leaf(mesh, module, report_);
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
+  }
+
+  /// `corners` are those of all polyhedra in it, in the module's coordinates.
+  void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module,
+                 const Surroundings& around, std::vector<Part>& parts) {
+    Reach reach = reach_of(solid, corners, around.to_world, directions_);
+    if (solid.transform || std::holds_alternative<OperationNode>(solid.value)) {
+      const CsgNode all_corners{PolyhedronShape{}, std::nullopt, kInheritMaterial};
+      reach = union_of(reach_of(solid, {}, around.to_world, directions_),
+                       reach_of(all_corners, corners, around.to_world, directions_));
+    }
+    const Aabb box = reach.box();
+    if (!(std::max(max_abs(box.lo), max_abs(box.hi)) <= kMaxOpenscadCoordinate)) {
+      report_.error(module.line, module.name + "() reaches beyond the largest coordinate, 1e30");
+      return;
+    }
+    const Vec3 extent = box.hi - box.lo;
+    if (std::min(extent.x, std::min(extent.y, extent.z)) < 1 / kMaxOpenscadCoordinate) {
+      report_.warning(module.line, module.name + "() is left out: it is too thin to be seen");
+      return;
+    }
+    const std::uint32_t levels = levels_of(solid);
+    if (levels > kMaxPartLevels) {
+      return report_.error(module.line,
+                           "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+    }
+    place(solid, around);
+    solid.material = palette_.index_of(around.color);
+    parts.push_back({std::move(solid), reach, levels, module.line, module.name});
+  }
+
+  /// Spheres under rotations stay spheres.
+  static void place(CsgNode& leaf, const Surroundings& around) {
+    if (!around.transformed) return;
+    auto* sphere = std::get_if<SphereShape>(&leaf.value);
+    const std::optional<double> scale =
+        sphere != nullptr ? around.to_world.similarity_scale() : std::nullopt;
+    if (scale) {
+      *sphere = {around.to_world.point(sphere->center), *scale * sphere->radius};
+    } else if (leaf.transform) {
+      leaf.transform = compose(around.to_world, *leaf.transform);
+    } else {
+      leaf.transform = around.to_world;
+    }
+  }
+
+  static constexpr std::size_t kMaxQuotedName = 40;
+
+  ReachDirections directions_;
+  OpenscadReport& report_;
+  ScadImport import_;
+  OpenscadPalette palette_;
+};
+
+}  // namespace
+
+OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
+                             std::uint32_t digits, OpenscadReport& report) {
+  Importer importer(reach_directions(options.frame), options, digits, report);
+  OpenscadParts result;
+  importer.add_all(modules, {}, result.parts);
+  result.materials = importer.take_materials();
+  return result;
+}
+
+Reach reach_of(const std::vector<Part>& parts) {
+  Reach reach = Reach::nothing();
+  for (const Part& part : parts) reach = union_of(reach, part.reach);
+  return reach;
+}
+
+Part united(std::vector<Part> parts) {
+  if (parts.size() == 1) return std::move(parts.front());
+  Part result{{}, reach_of(parts), 0, parts.front().line, "union"};
+  std::vector<CsgNode> children;
+  for (Part& part : parts) {
+    result.levels = std::max(result.levels, part.levels + 1);
+    children.push_back(std::move(part.node));
+  }
+  result.node = operation(Operation::kUnion, std::move(children));
+  return result;
+}
+
+}  // namespace graycube

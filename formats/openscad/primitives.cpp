@@ -1,0 +1,190 @@
+#include "formats/openscad/primitives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "formats/openscad/hulls/mesh.hpp"
+#include "geometry/aabb.hpp"
+
+namespace graycube {
+namespace {
+
+/// Convex meshes of more faces are not looked at whether they are polyhedra.
+constexpr std::size_t kMaxTestedFaces = 4 * kMaxPolyhedronFaces;
+
+bool positive(double v) { return std::isfinite(v) && v > 0; }
+
+ScadSolid round_solid(decltype(CsgNode::value) shape) {
+  return {CsgNode{std::move(shape), std::nullopt, kInheritMaterial}, {}};
+}
+
+/// The sides of something round that is made of facets; 0 where it stays round.
+int sides_of(ScadArguments& arguments, double radius, bool facets) {
+  const ScadFineness fineness = fineness_of(arguments);
+  const int asked = asked_sides(fineness);
+  return asked > 0 || !facets ? asked : fragments(radius, fineness);
+}
+
+std::optional<ScadSolid> cube(const ScadModule& module, ScadArguments& arguments) {
+  Vec3 size{1, 1, 1};
+  if (const ScadValue* value = module.argument("size", 0)) {
+    const double* edge = value->number();
+    const std::optional<Vec3> vector = ScadArguments::vector(*value);
+    if (edge != nullptr) size = {*edge, *edge, *edge};
+    if (vector) size = *vector;
+    if (edge == nullptr && !vector) arguments.fail("size must be a number or three numbers");
+  }
+  const bool center = arguments.boolean("center", 1);
+  if (arguments.empty_unless(positive(size.x) && positive(size.y) && positive(size.z),
+                             "its size is not positive")) {
+    return std::nullopt;
+  }
+  const BoxShape box = center ? BoxShape{-0.5 * size, 0.5 * size} : BoxShape{{}, size};
+  ScadSolid solid = round_solid(box);
+  for (int i = 0; i < 8; ++i) solid.corners.push_back(Aabb{box.min, box.max}.corner(i));
+  return solid;
+}
+
+std::optional<ScadSolid> sphere(ScadArguments& arguments, bool facets) {
+  const double r =
+      arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
+  const int sides = sides_of(arguments, r, facets);
+  if (arguments.empty_unless(positive(r), "its radius is not positive")) return std::nullopt;
+  if (std::size_t(sides) * std::size_t(sides) / 2 > kMaxOpenscadFacets) {
+    arguments.fail("more than " + std::to_string(kMaxOpenscadFacets) + " facets");
+    return std::nullopt;
+  }
+  if (sides > 0) return polyhedral_solid(faceted_sphere(r, sides), arguments);
+  return round_solid(SphereShape{{}, r});
+}
+
+std::optional<ScadSolid> cylinder(ScadArguments& arguments, bool facets) {
+  const double h = arguments.number("h", 0, 1);
+  double r1 = arguments.number("r", -1, 0.5 * arguments.number("d", -1, 2));
+  double r2 = r1;
+  r1 = arguments.number("r1", 1, arguments.has("d1") ? 0.5 * arguments.number("d1", -1, 2) : r1);
+  r2 = arguments.number("r2", 2, arguments.has("d2") ? 0.5 * arguments.number("d2", -1, 2) : r2);
+  const bool center = arguments.boolean("center", 3);
+  const int sides = sides_of(arguments, std::max(r1, r2), facets);
+  if (arguments.empty_unless(positive(h), "its height is not positive")) return std::nullopt;
+  const bool radii = (r1 == 0 || positive(r1)) && (r2 == 0 || positive(r2)) && r1 + r2 > 0;
+  if (arguments.empty_unless(radii, "its radii are not positive")) return std::nullopt;
+  const double low = center ? -0.5 * h : 0, high = center ? 0.5 * h : h;
+  if (sides > 0) return polyhedral_solid(faceted_cylinder(low, high, r1, r2, sides), arguments);
+  if (r1 == r2) return round_solid(CylinderShape{{0, 0, low}, {0, 0, high}, r1});
+  return round_solid(ConeShape{{0, 0, low}, r1, {0, 0, high}, r2});
+}
+
+bool read_points(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
+  if (list.size() > kMaxOpenscadPoints) {
+    arguments.fail("more than " + std::to_string(kMaxOpenscadPoints) + " points");
+    return false;
+  }
+  for (const ScadValue& value : list) {
+    const std::optional<Vec3> point = ScadArguments::vector(value);
+    if (!point || !(max_abs(*point) <= kMaxOpenscadCoordinate) || !is_finite(*point)) {
+      arguments.fail("point " + std::to_string(mesh.points.size()) +
+                     " is not three numbers of sensible size");
+      return false;
+    }
+    mesh.points.push_back(*point);
+  }
+  return true;
+}
+
+bool read_faces(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
+  if (list.size() > kMaxOpenscadFaces) {
+    arguments.fail("more than " + std::to_string(kMaxOpenscadFaces) + " faces");
+    return false;
+  }
+  for (const ScadValue& value : list) {
+    const ScadList* corners = value.list();
+    std::vector<std::uint32_t> face;
+    bool ok = corners != nullptr && corners->size() <= kMaxOpenscadPoints;
+    for (std::size_t i = 0; ok && i < corners->size(); ++i) {
+      const double* index = (*corners)[i].number();
+      ok = index != nullptr && *index >= 0 && *index < static_cast<double>(mesh.points.size()) &&
+           *index == std::floor(*index);
+      if (ok) face.push_back(static_cast<std::uint32_t>(*index));
+    }
+    if (!ok) {
+      arguments.fail("face " + std::to_string(mesh.faces.size()) +
+                     " is not a list of numbers of points");
+      return false;
+    }
+    mesh.faces.push_back(std::move(face));
+  }
+  return true;
+}
+
+std::optional<ScadSolid> polyhedron(ScadArguments& arguments) {
+  const ScadList* points = arguments.list("points", 0);
+  const ScadList* faces = arguments.list("faces", 1);
+  ScadMesh mesh;
+  if (points == nullptr || faces == nullptr || !read_points(*points, mesh, arguments) ||
+      !read_faces(*faces, mesh, arguments)) {
+    return std::nullopt;
+  }
+  return polyhedral_solid(std::move(mesh), arguments);
+}
+
+}  // namespace
+
+std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments) {
+  if (mesh.faces.size() <= kMaxTestedFaces) {
+    ConvexPlanes convex = convex_planes(mesh);
+    if (convex.problem.empty() && convex.planes.size() <= kMaxPolyhedronFaces) {
+      if (arguments.empty_unless(!convex.flat, "it encloses no volume")) return std::nullopt;
+      CsgNode leaf{PolyhedronShape{std::move(convex.planes)}, std::nullopt, kInheritMaterial};
+      return ScadSolid{std::move(leaf), std::move(mesh.points)};
+    }
+  }
+  auto closed = closed_mesh(polygons_of(mesh));
+  if (auto* fault = std::get_if<MeshFault>(&closed)) {
+    arguments.fail("its faces enclose no solid: " + fault->why);
+    return std::nullopt;
+  }
+  CsgNode leaf{MeshShape{std::get<TriangleMesh>(std::move(closed))}, std::nullopt,
+               kInheritMaterial};
+  return ScadSolid{std::move(leaf), std::move(mesh.points)};
+}
+
+bool is_openscad_primitive(const ScadModule& module) {
+  return module.name == "cube" || module.name == "sphere" || module.name == "cylinder" ||
+         module.name == "polyhedron";
+}
+
+std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
+                                            bool facets) {
+  ScadArguments arguments(module, report);
+  if (module.name == "cube") return cube(module, arguments);
+  if (module.name == "sphere") return sphere(arguments, facets);
+  if (module.name == "cylinder") return cylinder(arguments, facets);
+  return polyhedron(arguments);
+}
+
+std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {
+  ScadArguments arguments(module, report);
+  ScadColor color;
+  if (const ScadValue* value = module.argument("c", 0)) {
+    const ScadList* list = value->list();
+    if (list == nullptr || list->size() < 3 || list->size() > 4) {
+      arguments.fail("the colour must be three or four numbers");
+      return std::nullopt;
+    }
+    color.rgba[3] = 1;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const double* component = (*list)[i].number();
+      if (component == nullptr) arguments.fail("the colour must be three or four numbers");
+      // Negated so that a NaN leaves the component open.
+      if (component != nullptr) color.rgba[i] = !(*component >= 0) ? -1 : std::min(*component, 1.0);
+    }
+  }
+  color.rgba[3] = std::min(arguments.number("alpha", 1, color.rgba[3]), 1.0);
+  if (!arguments.ok()) return std::nullopt;
+  return color;
+}
+
+}  // namespace graycube

@@ -1,0 +1,51 @@
+// What the modules of a .csg file are as balls, discs and points, each under a map of its own.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hulls/round_hull.hpp"
+
+namespace graycube {
+
+struct RoundItem {
+  enum class Kind : std::uint8_t { kPoint, kBall, kDisc };
+  Kind kind = Kind::kPoint;
+  /// Before the map; discs are level there. A point's radius is 0.
+  RoundPoint round;
+  Affine map;
+};
+/// A convex solid: the hull of its items.
+using RoundPiece = std::vector<RoundItem>;
+
+/// Whether solids have to be convex, or only their hulls count.
+enum class PieceUse : std::uint8_t { kHull, kConvex };
+
+/// Convex solids that a Minkowski sum is made of at most, and sums of their items before hidden
+/// ones are left out.
+inline constexpr std::size_t kMaxSumPieces = 64;
+inline constexpr std::size_t kMaxSumItems = std::size_t{1} << 14;
+
+/// Appends the pieces whose union, or hull, is the module's. False when it isn't known as such, or
+/// beyond the limits.
+bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadImport& import,
+                std::vector<RoundPiece>& pieces);
+
+/// The items as seen from a frame without translation, in which balls are balls and discs level
+/// discs.
+struct FramedPiece {
+  Affine frame;
+  /// As many as there are items, in their order.
+  std::vector<RoundPoint> points;
+  bool has_balls = false, has_discs = false;
+};
+/// The frame is the identity or the linear part of the first map of something round; nothing where
+/// neither is one.
+std::optional<FramedPiece> framed(const RoundPiece& items);
+
+/// The Minkowski sum of convex solids; nothing where one has balls and the other discs, or no frame
+/// suits both.
+std::optional<RoundPiece> sum_of(const RoundPiece& a, const RoundPiece& b);
+
+}  // namespace graycube

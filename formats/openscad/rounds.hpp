@@ -1,0 +1,25 @@
+// hull() and minkowski() of solids with what is round exact.
+#pragma once
+
+#include <variant>
+
+#include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hulls/round_solid.hpp"
+
+namespace graycube {
+
+/// What became of a module: no exact form; nothing that has volume; a solid.
+struct NoExactForm {};
+struct EmptySolid {};
+using ExactSolid = std::variant<NoExactForm, EmptySolid, RoundSolid>;
+
+/// The hull of everything in a module that holds something round. No exact form: with nothing round
+/// in it, with balls and discs together that have no common axis, under maps that make them unlike,
+/// and beyond the limits of round_hull.hpp. Where there is none, nothing is reported.
+ExactSolid exact_hull(const ScadModule& module, ScadImport& import);
+
+/// The Minkowski sum, when each operand is a union of convex solids, or all are upright prisms of
+/// flat shapes whose sum is exact, perhaps with a ball. Reports as above.
+ExactSolid exact_minkowski(const ScadModule& module, ScadImport& import);
+
+}  // namespace graycube

@@ -1,0 +1,377 @@
+#include "formats/openscad/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "formats/openscad/flat/rounds.hpp"
+#include "formats/openscad/hulls/round_solid.hpp"
+#include "formats/openscad/language/arguments.hpp"
+#include "formats/openscad/sweep_mesh.hpp"
+#include "geometry/portable_math.hpp"
+#include "scene/flat_solids.hpp"
+#include "scene/limits.hpp"
+
+namespace graycube {
+namespace {
+
+using Kind = FlatShape::Kind;
+
+/// How far what is subtracted reaches beyond the ends, in heights.
+constexpr double kReachBeyond = 0.25;
+
+CsgNode leaf(decltype(CsgNode::value) value) {
+  return {std::move(value), std::nullopt, kInheritMaterial};
+}
+
+CsgNode operation(Operation kind, std::vector<CsgNode> children) {
+  if (children.size() == 1) return std::move(children.front());
+  return leaf(OperationNode{kind, std::move(children)});
+}
+
+Operation operation_of(Kind kind) {
+  return kind == Kind::kUnion          ? Operation::kUnion
+         : kind == Kind::kIntersection ? Operation::kIntersection
+                                       : Operation::kDifference;
+}
+
+/// The operation above figures, done above their solids: `solid_of(child, is_first)`.
+template <typename SolidOf>
+std::optional<CsgNode> operated(const FlatShape& shape, const SolidOf& solid_of) {
+  std::vector<CsgNode> children;
+  for (std::size_t i = 0; i < shape.children.size(); ++i) {
+    auto child = solid_of(shape.children[i], i == 0);
+    if (child) {
+      children.push_back(std::move(*child));
+    } else if (shape.kind == Kind::kIntersection || (shape.kind == Kind::kDifference && i == 0)) {
+      return std::nullopt;
+    }
+  }
+  if (children.empty()) return std::nullopt;
+  return operation(operation_of(shape.kind), std::move(children));
+}
+
+FlatPoint center_of(const FlatMap& map) { return {map.m[0][2], map.m[1][2]}; }
+
+CsgNode extruded_disk(const FlatMap& map, double low, double high) {
+  const FlatPoint c = center_of(map);
+  if (const auto radius = similarity_scale(map)) {
+    return leaf(CylinderShape{{c.x, c.y, low}, {c.x, c.y, high}, *radius});
+  }
+  CsgNode node = leaf(CylinderShape{{0, 0, low}, {0, 0, high}, 1});
+  const auto& m = map.m;
+  node.transform = Affine{{{{m[0][0], m[0][1], 0, c.x}, {m[1][0], m[1][1], 0, c.y}, {0, 0, 1, 0}}}};
+  return node;
+}
+
+/// One prism for each connected part, so that none has more corners than a scene file may give it.
+std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, double high,
+                                        ScadImport& import, int line) {
+  std::vector<CsgNode> prisms;
+  for (FlatRegion& region : regions_of(loops)) {
+    FlatLoops part = std::move(region.holes);
+    part.insert(part.begin(), std::move(region.outline));
+    std::size_t corners = 0;
+    for (const FlatLoop& loop : part) corners += loop.size();
+    if (!crossings_are_few(std::span(&part, 1))) {
+      import.report.error(line, "the outline crosses itself too often");
+      return std::nullopt;
+    }
+    if (corners > kMaxPrismPoints) {
+      import.report.error(line,
+                          "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
+      return std::nullopt;
+    }
+    // Slivers that rounding leaves are no loss.
+    if (prism_of(part, low, high)) prisms.push_back(leaf(prism_shape(part, low, high)));
+  }
+  if (prisms.empty()) return std::nullopt;
+  return operation(Operation::kUnion, std::move(prisms));
+}
+
+/// An ellipse with semi-axes (outward, upward) and, across it, `across`.
+struct Ellipse {
+  double outward, upward, across;
+};
+Ellipse ellipse_of(const FlatMap& map) {
+  const double a = map.m[0][0], b = map.m[0][1], c = map.m[1][0], d = map.m[1][1];
+  // M Mᵀ = [p q; q s]; its larger eigenvalue is the square of the longer semi-axis.
+  const double p = a * a + b * b, q = a * c + b * d, s = c * c + d * d;
+  const double root = std::sqrt(0.25 * (p - s) * (p - s) + q * q);
+  const double most = 0.5 * (p + s) + root, least = std::fabs(a * d - b * c) / std::sqrt(most);
+  FlatPoint axis = p > s ? FlatPoint{most - s, q} : FlatPoint{q, most - p};
+  const double l = std::sqrt(axis.x * axis.x + axis.y * axis.y);
+  if (!(l > 0)) axis = {1, 0};
+  const double scale = std::sqrt(most) / (l > 0 ? l : 1);
+  return {scale * axis.x, scale * axis.y, least};
+}
+
+/// A disk turned about the y axis, which becomes z; nothing when it is no torus and no sphere.
+std::optional<CsgNode> turned_disk(const FlatMap& map) {
+  const FlatPoint c = center_of(map);
+  const auto radius = similarity_scale(map);
+  if (radius) {
+    if (std::fabs(c.x) <= 1e-12 * *radius) return leaf(SphereShape{{0, 0, c.y}, *radius});
+    if (*radius < c.x) return leaf(TorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, *radius});
+    return std::nullopt;
+  }
+  const Ellipse e = ellipse_of(map);
+  const double long2 = e.outward * e.outward + e.upward * e.upward;
+  const double reach2 = e.outward * e.outward + e.across * e.across * e.upward * e.upward / long2;
+  if (!(std::sqrt(reach2) < c.x)) return std::nullopt;
+  return leaf(EllipticTorusShape{{0, 0, c.y}, {0, 0, 1}, c.x, e.outward, e.upward, e.across});
+}
+
+bool has_turned_form(const FlatShape& shape) {
+  if (shape.kind == Kind::kDisk) return turned_disk(shape.disk).has_value();
+  return std::all_of(shape.children.begin(), shape.children.end(), has_turned_form);
+}
+
+std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, int line) {
+  if (shape.kind == Kind::kPolygon) return turned(shape.loops);
+  // Disks that others are tangent to get facets together with these.
+  if (shape.kind != Kind::kDisk && (shape.facets.empty() || has_turned_form(shape))) {
+    return operated(
+        shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
+  }
+  if (shape.kind == Kind::kDisk) {
+    if (auto solid = turned_disk(shape.disk)) return solid;
+  }
+  import.warn_once(line, "rotate_extrude() takes circles that reach the axis by OpenSCAD's sides");
+  const auto loops = polygon_of(shape, import, line);
+  return loops ? turned(*loops) : std::nullopt;
+}
+
+/// What lies from `from` to `to` degrees about z, less than 360 apart.
+CsgNode wedge(double from, double to) {
+  std::vector<CsgNode> sides;
+  // Left of the half-plane at `from`, right of that at `to`.
+  sides.push_back(leaf(HalfSpaceShape{{sin_degrees(from), -cos_degrees(from), 0}, 0}));
+  sides.push_back(leaf(HalfSpaceShape{{-sin_degrees(to), cos_degrees(to), 0}, 0}));
+  return operation(to - from <= 180 ? Operation::kIntersection : Operation::kUnion,
+                   std::move(sides));
+}
+
+std::optional<FlatShape> figure_of(const ScadModule& module, ScadImport& import) {
+  return flat_union(module.children, {}, import, module.line);
+}
+
+std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& import) {
+  ScadArguments arguments(module, import.report);
+  LinearSweep sweep;
+  const double height = arguments.number("height", 0, 100);
+  const bool center = arguments.boolean("center", -1);
+  sweep.twist = arguments.number("twist", -1, 0);
+  if (arguments.has("slices")) {
+    sweep.slices = static_cast<int>(
+        std::clamp(arguments.number("slices", -1, 1), 1.0, double{kMaxOpenscadSides}));
+  }
+  sweep.fineness = fineness_of(arguments);
+  if (const ScadValue* value = module.argument("scale")) {
+    const double* both = value->number();
+    const auto pair = ScadArguments::pair(*value);
+    if (both != nullptr) sweep.scale = {*both, *both};
+    if (pair) sweep.scale = *pair;
+    if (both == nullptr && !pair) arguments.fail("scale must be a number or two numbers");
+  }
+  sweep.scale = {std::max(sweep.scale.x, 0.0), std::max(sweep.scale.y, 0.0)};
+  const double biggest = std::max({std::fabs(sweep.twist), sweep.scale.x, sweep.scale.y});
+  if (arguments.ok() && !(biggest <= kMaxOpenscadCoordinate))
+    arguments.fail("twist and scale must be finite");
+  if (arguments.empty_unless(std::isfinite(height) && height > 0, "its height is not positive"))
+    return std::nullopt;
+  sweep.low = center ? -0.5 * height : 0;
+  sweep.high = center ? 0.5 * height : height;
+  return sweep;
+}
+
+/// What is convex and shrinks evenly is the hull of its two ends: a cone for a circle.
+std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep) {
+  if (sweep.scale.x != sweep.scale.y) return std::nullopt;
+  std::vector<RoundPoint> ends;
+  for (const FlatDisk& d : disks_of_convex(shape)) {
+    ends.push_back({{d.center.x, d.center.y, sweep.low}, d.radius});
+    ends.push_back({{sweep.scale.x * d.center.x, sweep.scale.x * d.center.y, sweep.high},
+                    sweep.scale.x * d.radius});
+  }
+  if (ends.empty()) return std::nullopt;
+  bool is_too_large = false;
+  auto solid = round_solid(RoundKind::kDiscs, std::move(ends), is_too_large);
+  if (!solid) return std::nullopt;
+  return std::move(solid->node);
+}
+
+std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions,
+                                       const ScadModule& module, ScadImport& import) {
+  std::vector<CsgNode> parts;
+  for (const SweptRegion& region : regions) {
+    auto whole = mesh_leaf(region.whole, module, import.report);
+    if (!whole) continue;
+    std::vector<CsgNode> children;
+    children.push_back(std::move(*whole));
+    for (const PolygonMesh& hole : region.holes) {
+      if (auto inner = mesh_leaf(hole, module, import.report))
+        children.push_back(std::move(*inner));
+    }
+    parts.push_back(operation(Operation::kDifference, std::move(children)));
+  }
+  if (parts.empty()) return std::nullopt;
+  return operation(Operation::kUnion, std::move(parts));
+}
+
+/// Reports a mesh of too many facets.
+bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
+                   ScadImport& import) {
+  std::size_t corners = 0, most = 0;
+  for (const FlatLoop& loop : loops) {
+    corners += loop.size();
+    most = std::max(most, loop.size());
+  }
+  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets &&
+      most <= kMaxFaceCorners)
+    return true;
+  import.report.error(module.line, module.name + "(): more than " +
+                                       std::to_string(kMaxOpenscadFacets) +
+                                       " facets, or an outline of more than " +
+                                       std::to_string(kMaxFaceCorners) + " corners");
+  return false;
+}
+
+std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
+  const auto sweep = linear_sweep(module, import);
+  const auto shape = sweep ? figure_of(module, import) : std::nullopt;
+  if (!shape) return std::nullopt;
+  if (sweep->is_straight()) return extruded(*shape, sweep->low, sweep->high, import, module.line);
+  if (sweep->twist == 0 && shape->has_curves()) {
+    if (auto cone = tapered(*shape, *sweep)) return cone;
+  }
+  if (shape->has_curves())
+    import.warn_once(module.line,
+                     "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
+  const auto loops = polygon_of(*shape, import, module.line);
+  if (!loops || !is_mesh_small(*loops, slices_of(*loops, *sweep), module, import))
+    return std::nullopt;
+  return mesh_of_regions(swept(*loops, *sweep), module, import);
+}
+
+std::optional<TurnSweep> turn_sweep(const ScadModule& module, ScadImport& import,
+                                    const FlatLoops& loops) {
+  ScadArguments arguments(module, import.report);
+  TurnSweep sweep;
+  sweep.angle = arguments.number("angle", -1, 360);
+  sweep.fineness = fineness_of(arguments);
+  if (!(sweep.angle > -360 && sweep.angle <= 360)) sweep.angle = 360;
+  const auto [lo, hi] = flat_bounds(loops);
+  const bool one_side =
+      !(hi.x > 0 && lo.x < 0) || std::min(hi.x, -lo.x) <= 1e-9 * std::max(hi.x, -lo.x);
+  if (arguments.empty_unless(one_side, "its figure lies on both sides of the axis"))
+    return std::nullopt;
+  if (arguments.empty_unless(sweep.angle != 0, "its angle is 0")) return std::nullopt;
+  sweep.mirrored = hi.x < -lo.x;
+  return sweep;
+}
+
+std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
+  auto shape = figure_of(module, import);
+  const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
+  const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
+  if (!sweep) return std::nullopt;
+  // Few sides, when asked for, are meant.
+  if (import.options.facets || asked_sides(sweep->fineness) > 0) {
+    if (!is_mesh_small(*loops, steps_of(*loops, *sweep), module, import)) return std::nullopt;
+    return mesh_of_regions(turned_mesh(*loops, *sweep), module, import);
+  }
+  if (sweep->mirrored) {
+    const FlatMap mirror{{{{-1, 0, 0}, {0, 1, 0}}}};
+    shape = flat_union(module.children, mirror, import, module.line);
+    if (!shape) return std::nullopt;
+  }
+  auto solid = turned_shape(*shape, import, module.line);
+  if (!solid || sweep->angle == 360) return solid;
+  const double start = sweep->mirrored ? 180 : 0;
+  std::vector<CsgNode> both;
+  both.push_back(std::move(*solid));
+  both.push_back(wedge(start + std::min(sweep->angle, 0.0), start + std::max(sweep->angle, 0.0)));
+  return operation(Operation::kIntersection, std::move(both));
+}
+
+}  // namespace
+
+std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import,
+                                int line) {
+  if (shape.kind == Kind::kPolygon) return extruded_polygon(shape.loops, low, high, import, line);
+  if (shape.kind == Kind::kDisk) return extruded_disk(shape.disk, low, high);
+  const double margin = shape.kind == Kind::kUnion ? 0 : kReachBeyond * (high - low);
+  return operated(shape, [&](const FlatShape& child, bool is_first) {
+    const double more = is_first ? 0 : margin;
+    return extruded(child, low - more, high + more, import, line);
+  });
+}
+
+std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module,
+                                 OpenscadReport& report) {
+  if (mesh.face_ends.empty()) return std::nullopt;
+  auto closed = closed_mesh(mesh);
+  if (auto* fault = std::get_if<MeshFault>(&closed)) {
+    report.error(module.line, module.name + "(): its faces enclose no solid: " + fault->why);
+    return std::nullopt;
+  }
+  return leaf(MeshShape{std::get<TriangleMesh>(std::move(closed)), mesh.digits});
+}
+
+std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import) {
+  return module.name == "linear_extrude" ? linear(module, import) : rotated(module, import);
+}
+
+bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep) {
+  const auto along = linear_sweep(module, import);
+  if (along && along->twist != 0) return false;
+  auto shape = along ? figure_of(module, import) : std::nullopt;
+  if (shape) sweep = PlainSweep{*std::move(shape), along->low, along->high, along->scale};
+  return true;
+}
+
+std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& import) {
+  auto shape = figure_of(module, import);
+  const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
+  const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
+  if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0)
+    return std::nullopt;
+  return shape;
+}
+
+std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,
+                                        int line) {
+  ExactFlat hull = hull_of_disks(profile);
+  if (!hull.shape) return std::nullopt;
+  FlatShape& shape = *hull.shape;
+  const auto is_mirror_image = [](const FlatShape& s) {
+    return s.kind == Kind::kDisk && center_of(s.disk).x < 0;
+  };
+  std::erase_if(shape.children, is_mirror_image);
+  if (!has_turned_form(shape)) return std::nullopt;
+  return turned_shape(shape, import, line);
+}
+
+bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec3>& corners) {
+  const bool is_linear = module.name == "linear_extrude";
+  const auto along = is_linear ? linear_sweep(module, import) : std::nullopt;
+  if (is_linear && !along) return false;
+  const auto shape = figure_of(module, import);
+  const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
+  if (!loops) return false;
+  std::vector<SweptRegion> regions;
+  if (along) {
+    if (!is_mesh_small(*loops, slices_of(*loops, *along), module, import)) return false;
+    regions = swept(*loops, *along);
+  } else if (const auto around = turn_sweep(module, import, *loops)) {
+    if (!is_mesh_small(*loops, steps_of(*loops, *around), module, import)) return false;
+    regions = turned_mesh(*loops, *around);
+  }
+  for (const SweptRegion& region : regions) {
+    corners.insert(corners.end(), region.whole.points.begin(), region.whole.points.end());
+  }
+  return true;
+}
+
+}  // namespace graycube

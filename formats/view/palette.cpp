@@ -1,0 +1,49 @@
+#include "formats/view/palette.hpp"
+
+#include <string>
+#include <utility>
+
+#include "geometry/portable_math.hpp"
+
+namespace graycube {
+namespace {
+
+/// OpenSCAD's yellow of its preview, sRGB.
+constexpr std::array<double, 3> kDefaultColor{249 / 255.0, 215 / 255.0, 44 / 255.0};
+constexpr double kAmbient = 0.2;
+constexpr double kDiffuse = 0.8;
+constexpr double kSpecular = 0.15;
+constexpr double kShininess = 30;
+
+double linear_from_srgb(double v) {
+  return v <= 0.04045 ? v / 12.92 : portable_pow((v + 0.055) / 1.055, 2.4);
+}
+
+Material material_of(const ScadColor& color) {
+  const auto component = [&](std::size_t i) {
+    return linear_from_srgb(color.rgba[i] >= 0 ? color.rgba[i] : kDefaultColor[i]);
+  };
+  Material material;
+  material.color = {component(0), component(1), component(2)};
+  material.ambient = kAmbient;
+  material.diffuse = kDiffuse;
+  material.specular = kSpecular;
+  material.shininess = kShininess;
+  material.transmit = color.rgba[3] >= 0 ? 1 - color.rgba[3] : 0;
+  return material;
+}
+
+}  // namespace
+
+MaterialIndex OpenscadPalette::index_of(const ScadColor& color) {
+  const auto next = static_cast<MaterialIndex>(materials_.size());
+  const auto [place, is_new] = index_.try_emplace(color.rgba, next);
+  if (is_new) {
+    const bool plain = color.rgba == ScadColor{}.rgba;
+    std::string name = plain ? "default" : "color " + std::to_string(++color_count_);
+    materials_.push_back({std::move(name), material_of(color)});
+  }
+  return place->second;
+}
+
+}  // namespace graycube
