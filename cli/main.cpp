@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "geometry/simd.hpp"
 
 namespace graycube {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/progress.hpp"
+#include "cli/display/progress.hpp"
 #include "cli/scene_input.hpp"
 #include "film/film.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/progress.hpp"
+#include "cli/display/progress.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include "cli/display/job_text.hpp"
+#include "cli/display/table.hpp"
 #include "cli/failure.hpp"
-#include "cli/farm_client.hpp"
-#include "cli/job_text.hpp"
-#include "cli/table.hpp"
+#include "cli/farm/client.hpp"
 
 namespace graycube {
 namespace {

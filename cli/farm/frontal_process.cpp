@@ -1,4 +1,4 @@
-#include "cli/frontal_process.hpp"
+#include "cli/farm/frontal_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/bars_svg.hpp"
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/display/bars_svg.hpp"
+#include "cli/display/table.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/render_here.hpp"
-#include "cli/table.hpp"
 #include "proto/comparison.hpp"
 #include "proto/statistics.hpp"
 #include "simulation/calibration.hpp"

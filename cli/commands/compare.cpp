@@ -2,14 +2,14 @@
 #include <chrono>
 #include <cstdio>
 
-#include "cli/bars_svg.hpp"
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/cpu_time.hpp"
-#include "cli/frontal_process.hpp"
+#include "cli/display/bars_svg.hpp"
+#include "cli/display/table.hpp"
+#include "cli/farm/frontal_process.hpp"
+#include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
-#include "cli/job_client.hpp"
 #include "cli/render_here.hpp"
-#include "cli/table.hpp"
 #include "proto/comparison.hpp"
 #include "proto/statistics.hpp"
 

@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/commands.hpp"
-#include "cli/farm_client.hpp"
-#include "cli/frontal_process.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/farm/client.hpp"
+#include "cli/farm/frontal_process.hpp"
+#include "cli/farm/listener.hpp"
 #include "cli/interrupts.hpp"
-#include "cli/listener.hpp"
 #include "transport/endpoint.hpp"
 
 namespace graycube {

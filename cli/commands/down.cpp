@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <thread>
 
-#include "cli/commands.hpp"
-#include "cli/farm_client.hpp"
-#include "cli/listener.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/farm/client.hpp"
+#include "cli/farm/listener.hpp"
 
 namespace graycube {
 namespace {

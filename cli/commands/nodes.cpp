@@ -1,9 +1,9 @@
 // graycube nodes: the processes of a farm.
 #include <cstdio>
 
-#include "cli/commands.hpp"
-#include "cli/farm_client.hpp"
-#include "cli/job_text.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/display/job_text.hpp"
+#include "cli/farm/client.hpp"
 
 namespace graycube {
 

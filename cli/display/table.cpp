@@ -1,4 +1,4 @@
-#include "cli/table.hpp"
+#include "cli/display/table.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "cli/job_text.hpp"
+#include "cli/display/job_text.hpp"
 
 #include <array>
 #include <cmath>
 #include <ctime>
 
-#include "cli/progress.hpp"
-#include "cli/table.hpp"
+#include "cli/display/progress.hpp"
+#include "cli/display/table.hpp"
 
 namespace graycube {
 namespace {

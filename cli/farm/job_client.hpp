@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "cli/farm_client.hpp"
+#include "cli/display/progress.hpp"
+#include "cli/farm/client.hpp"
 #include "cli/outputs.hpp"
-#include "cli/progress.hpp"
 #include "cli/scene_input.hpp"
 #include "film/film.hpp"
 

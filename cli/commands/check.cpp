@@ -1,7 +1,7 @@
 // graycube check: every error of a scene file, or what is in it.
 #include <cstdio>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "scene/compile_scene.hpp"

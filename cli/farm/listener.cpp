@@ -1,4 +1,4 @@
-#include "cli/listener.hpp"
+#include "cli/farm/listener.hpp"
 
 #include <netdb.h>
 #include <sys/socket.h>

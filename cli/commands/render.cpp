@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <optional>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/cpu_time.hpp"
-#include "cli/frontal_process.hpp"
+#include "cli/farm/frontal_process.hpp"
+#include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
-#include "cli/job_client.hpp"
 #include "cli/render_here.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/statistics.hpp"

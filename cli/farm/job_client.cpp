@@ -1,4 +1,4 @@
-#include "cli/job_client.hpp"
+#include "cli/farm/job_client.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,9 +1,9 @@
-#include "cli/farm_client.hpp"
+#include "cli/farm/client.hpp"
 
 #include <algorithm>
 
+#include "cli/farm/listener.hpp"
 #include "cli/interrupts.hpp"
-#include "cli/listener.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {

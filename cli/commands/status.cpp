@@ -1,9 +1,9 @@
 // graycube status: how one job is getting on.
 #include <cstdio>
 
-#include "cli/commands.hpp"
-#include "cli/job_client.hpp"
-#include "cli/job_text.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/display/job_text.hpp"
+#include "cli/farm/job_client.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {

@@ -1,4 +1,4 @@
-#include "cli/bars_svg.hpp"
+#include "cli/display/bars_svg.hpp"
 
 #include <algorithm>
 #include <array>

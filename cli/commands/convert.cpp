@@ -1,7 +1,7 @@
 // graycube convert: one file into another, by the endings of their names.
 #include <filesystem>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"

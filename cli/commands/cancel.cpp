@@ -1,8 +1,8 @@
 // graycube cancel: stops a job that waits or runs.
 #include <cstdio>
 
-#include "cli/commands.hpp"
-#include "cli/farm_client.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/farm/client.hpp"
 
 namespace graycube {
 

@@ -1,9 +1,9 @@
 // graycube fetch: a done job's picture and statistics.
 #include <cstdio>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
-#include "cli/job_client.hpp"
 
 namespace graycube {
 
