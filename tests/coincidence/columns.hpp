@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "csg/mesh_samples.hpp"
 #include "csg/random_model.hpp"
+#include "mesh/samples.hpp"
 
 namespace graycube::testing {
 

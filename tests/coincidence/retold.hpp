@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "coincidence/chain.hpp"
-#include "csg/mesh_samples.hpp"
+#include "mesh/samples.hpp"
 
 namespace graycube::testing {
 

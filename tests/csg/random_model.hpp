@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "csg/dice.hpp"
-#include "csg/mesh_samples.hpp"
 #include "geometry/affine.hpp"
+#include "mesh/samples.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/scene.hpp"
 

@@ -1,8 +1,8 @@
 // A box as a mesh against the box itself: the same depths, normals and shades, pixel by pixel.
 #include <catch2/catch.hpp>
 
-#include "csg/mesh_samples.hpp"
 #include "csg/random_model.hpp"
+#include "mesh/samples.hpp"
 #include "trace/render_serial.hpp"
 
 using namespace graycube;

@@ -8,9 +8,9 @@
 #include "flat/pieces.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/membership.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/flat_solids.hpp"
-#include "scene/openscad/membership.hpp"
 
 namespace graycube {
 namespace {

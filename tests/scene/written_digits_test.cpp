@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "csg/mesh_samples.hpp"
 #include "formats/mesh/mesh_file.hpp"
-#include "scene/openscad/reading.hpp"
+#include "formats/openscad/reading.hpp"
+#include "mesh/samples.hpp"
 
 namespace graycube {
 namespace {

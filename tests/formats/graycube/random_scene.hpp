@@ -1,0 +1,180 @@
+// Valid scenes from a seed, with every kind of node and every setting.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "mesh/samples.hpp"
+#include "scene/scene.hpp"
+
+namespace graycube::testing {
+
+class RandomScene {
+ public:
+  explicit RandomScene(std::uint64_t seed) : random_(seed) {}
+
+  Scene make() {
+    scene_ = {};
+    settings(scene_.settings);
+    const auto materials = 1 + below(4);
+    for (std::size_t i = 0; i < materials; ++i)
+      scene_.materials.push_back({name("material", i), material()});
+    const auto shapes = below(4);
+    for (std::size_t i = 0; i < shapes; ++i) {
+      // A shape may use those before it.
+      CsgNode node = tree(2);
+      scene_.shapes.push_back({name("shape", i), std::move(node)});
+    }
+    const auto objects = below(6);
+    for (std::size_t i = 0; i < objects; ++i)
+      scene_.objects.push_back({below(3) == 0 ? "" : name("object", i), some_material(), tree(3)});
+    if (below(2) == 0) scene_.digits = static_cast<std::uint32_t>(1 + below(17));
+    return std::move(scene_);
+  }
+
+ private:
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
+  /// All 53 bits in use, over many magnitudes.
+  double positive() {
+    return std::ldexp(1 + std::generate_canonical<double, 53>(random_),
+                      static_cast<int>(below(40)) - 20);
+  }
+  double number() { return below(8) == 0 ? 0 : below(2) == 0 ? positive() : -positive(); }
+  double fraction() { return std::generate_canonical<double, 53>(random_); }
+  Vec3 vector() { return {number(), number(), number()}; }
+  Vec3 direction() { return {positive(), number(), number()}; }
+  Rgb color() { return {positive(), positive(), below(2) == 0 ? 0 : positive()}; }
+  MaterialIndex some_material() {
+    return static_cast<MaterialIndex>(below(scene_.materials.size()));
+  }
+
+  std::string name(const std::string& kind, std::size_t i) {
+    static const char* const kOddities[] = {"",         " \"quoted\"",     "\\", "/~1", "\n\t\x01",
+                                            "\xC3\xA9", "\xF0\x9F\x98\x80"};
+    return kind + std::to_string(i) + kOddities[below(std::size(kOddities))];
+  }
+
+  void settings(RenderSettings& s) {
+    s.image = {static_cast<std::uint32_t>(1 + below(500)),
+               static_cast<std::uint32_t>(1 + below(500)),
+               static_cast<std::uint32_t>(1 + below(8))};
+    s.camera.projection = below(2) == 0 ? Projection::kPerspective : Projection::kOrthographic;
+    s.camera.eye = vector();
+    s.camera.look_at = s.camera.eye + Vec3{2e6, fraction(), 1e6};
+    s.camera.up = {fraction(), 1, fraction()};
+    (s.camera.projection == Projection::kPerspective ? s.camera.fov_degrees : s.camera.width) =
+        1 + 178 * fraction();
+    s.camera.handedness = below(2) == 0 ? Handedness::kRight : Handedness::kLeft;
+    if (below(2) == 0) s.camera.pixel_offset = {fraction(), fraction()};
+    if (s.camera.projection == Projection::kOrthographic && below(2) == 0) {
+      s.camera.inside = InsideView::kEntry;
+    }
+    s.background = color();
+    s.ambient = color();
+    s.max_depth = static_cast<std::uint32_t>(below(1001));
+    s.min_weight = fraction();
+    const auto lights = below(4);
+    for (std::size_t i = 0; i < lights; ++i)
+      s.lights.push_back(
+          {vector(), color(), below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare});
+  }
+
+  Material material() {
+    return {color(),    positive(), positive(),
+            positive(), positive(), positive(),
+            fraction(), positive(), static_cast<ShadingModel>(below(3))};
+  }
+
+  /// Scales, mirrors and shears, never far from the identity.
+  Affine transform() {
+    Affine map;
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        map.m[row][column] = (row == column ? (below(4) == 0 ? -2 : 2) : 0) + 0.3 * fraction();
+    return map;
+  }
+
+  CsgNode tree(int depth) {
+    CsgNode node;
+    if (depth == 0 || below(3) == 0)
+      leaf(node);
+    else
+      operation(node, depth);
+    if (below(2) == 0) node.transform = transform();
+    if (below(3) == 0) node.material = some_material();
+    return node;
+  }
+
+  void operation(CsgNode& node, int depth) {
+    OperationNode o;
+    o.operation = static_cast<Operation>(below(4));
+    const std::size_t children = o.operation == Operation::kComplement ? 1 : 1 + below(4);
+    for (std::size_t i = 0; i < children; ++i) o.children.push_back(tree(depth - 1));
+    node.value = std::move(o);
+  }
+
+  void leaf(CsgNode& node) {
+    const Vec3 corner = vector();
+    const double major = positive();
+    switch (below(scene_.shapes.empty() ? 12 : 13)) {
+      case 0: node.value = SphereShape{vector(), positive()}; return;
+      case 1:
+        node.value =
+            BoxShape{corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
+        return;
+      case 2:
+        node.value = CylinderShape{corner, corner + direction() + Vec3{1, 0, 0}, positive()};
+        return;
+      case 3:
+        node.value = ConeShape{corner, below(3) == 0 ? 0 : positive(),
+                               corner + direction() + Vec3{1, 0, 0}, positive()};
+        return;
+      case 4:
+        node.value = TorusShape{vector(), direction(), major, major * (0.1 + 0.8 * fraction())};
+        return;
+      case 5: node.value = HalfSpaceShape{direction(), number()}; return;
+      case 6:
+        // Axes of like lengths: very unequal ones are, to working precision, dependent.
+        node.value = EllipsoidShape{
+            vector(), {{{1 + fraction(), 0, 0}, {fraction(), 2, 0}, {fraction(), fraction(), 3}}}};
+        return;
+      case 7:
+        node.value = PolyhedronShape{};
+        for (std::size_t i = 0, count = 1 + below(5); i < count; ++i)
+          std::get<PolyhedronShape>(node.value).planes.push_back({direction(), number()});
+        return;
+      case 8:
+        node.value = EllipticConeShape{
+            corner,    corner + Vec3{0.1, 0.2, 2}, {1, fraction(), 0}, {0, 2, 0.1}, positive(),
+            positive()};
+        return;
+      case 9:
+        node.value = EllipticTorusShape{vector(),    direction(), major, major * 0.5 * fraction(),
+                                        major * 0.5, major * 0.5};
+        return;
+      case 10:
+        node.value = QuadricShape{{positive(), number(), number(), number()},
+                                  corner,
+                                  corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()}};
+        return;
+      case 11:
+        node.value =
+            MeshShape{closed(box_polygons(
+                          corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
+                      static_cast<std::uint32_t>(below(18))};
+        return;
+      default:
+        node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};
+        return;
+    }
+  }
+
+  std::mt19937_64 random_;
+  Scene scene_;
+};
+
+}  // namespace graycube::testing

@@ -1,0 +1,96 @@
+// How the solids of a .csg file become objects, and its colours materials.
+#include <catch2/catch.hpp>
+
+#include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/openscad.hpp"
+#include "formats/openscad/reading.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace graycube::testing;
+
+TEST_CASE("parts outside of any operation are objects of their own") {
+  const Scene scene = scene_of(
+      "group() { cube(1); union() { sphere(1); render() difference() { cube(2); sphere(1); } } }\n"
+      "intersection() { cube(3); sphere(2); }");
+  REQUIRE(scene.objects.size() == 4);
+  CHECK(scene.objects[0].name == "part 1: cube, line 1");
+  CHECK(scene.objects[3].name == "part 4: intersection, line 2");
+  CHECK(scene.materials.size() == 1);
+  for (const SceneObject& object : scene.objects) CHECK(object.material == 0);
+}
+
+TEST_CASE("a file with a transparent part is one object, so that no inner surface shows") {
+  const Scene scene = scene_of(
+      "color([0, 0, 1, 0.25]) cube(2);\nmultmatrix([[1, 0, 0, 1]]) color([1, 0, 0, 1]) cube(2);");
+  REQUIRE(scene.objects.size() == 1);
+  CHECK(scene.objects[0].material == kInheritMaterial);
+  const auto& root = std::get<OperationNode>(scene.objects[0].csg.value);
+  REQUIRE(root.operation == Operation::kUnion);
+  REQUIRE(root.children.size() == 2);
+  CHECK(scene.materials[root.children[0].material].material.transmit == 0.75);
+  CHECK(scene.materials[root.children[1].material].material.transmit == 0);
+}
+
+TEST_CASE("a colour that is cut away altogether doesn't make the file transparent") {
+  CHECK(scene_of("cube(1); sphere(1); difference() { group(); color([0, 0, 1, 0.25]) cube(2); }")
+            .objects.size() == 2);
+}
+
+TEST_CASE("colours are sRGB in the file and linear in the scene") {
+  const Scene scene = scene_of("color([1, 0.5, 0.02, 1]) cube(1);");
+  const Material& material = material_of(scene, 0);
+  CHECK(material.color.r == 1);
+  CHECK(material.color.g == Approx(0.21404114));
+  CHECK(material.color.b == Approx(0.02 / 12.92));
+}
+
+TEST_CASE("without a colour a solid has OpenSCAD's yellow") {
+  const Scene scene = scene_of("cube(1);");
+  CHECK(scene.materials.at(0).name == "default");
+  const Rgb color = material_of(scene, 0).color;
+  CHECK(color.r == Approx(0.94730654));
+  CHECK(color.g == Approx(0.67954255));
+  CHECK(color.b == Approx(0.02518686));
+}
+
+TEST_CASE("of nested colours the outermost wins") {
+  const Scene scene = scene_of("color([1, 0, 0, 1]) group() { color([0, 1, 0, 0.5]) cube(1); }");
+  CHECK(material_of(scene, 0).color == Rgb{1, 0, 0});
+  CHECK(material_of(scene, 0).transmit == 0);
+}
+
+TEST_CASE("a colour that is not given leaves room for one inside, as in OpenSCAD") {
+  const std::string red = "color([1, 0, 0, 1]) cube(1);";
+  CHECK(material_of(scene_of("color([-1, -1, -1, 1]) " + red), 0).color == Rgb{1, 0, 0});
+  CHECK(material_of(scene_of("color() " + red), 0).color == Rgb{1, 0, 0});
+  const Scene ghost = scene_of("color([-1, -1, -1, 0.25]) cube(1);");
+  CHECK(material_of(ghost, 0).transmit == 0.75);
+  CHECK(material_of(ghost, 0).color.r == Approx(0.94730654));
+  CHECK(material_of(scene_of("color([2, 0, 0, 7]) cube(1);"), 0).color == Rgb{1, 0, 0});
+}
+
+TEST_CASE("what a coloured cutter leaves has the cutter's colour, each leaf its own") {
+  const Scene scene = scene_of("difference() { color([1, 0, 0, 1]) cube(3); sphere(1); }");
+  CHECK(scene.objects[0].material == kInheritMaterial);
+  const auto& root = std::get<OperationNode>(scene.objects[0].csg.value);
+  CHECK(scene.materials[root.children[0].material].name == "color 1");
+  CHECK(scene.materials[root.children[1].material].name == "default");
+}
+
+TEST_CASE("what is read can be written as a scene file and passes all checks of its reader") {
+  for (const std::string& text :
+       {fixture("every_module.csg"), std::string("color([0, 0, 1, 0.5]) cube(1); sphere(1);"),
+        std::string()}) {
+    const std::string written = write_scene_text(scene_of(text));
+    const ReadResult again = read_scene_text(written);
+    for (const SceneError& error : again.errors) UNSCOPED_INFO(error.pointer << error.message);
+    REQUIRE(again.scene);
+    CHECK(write_scene_text(*again.scene) == written);
+  }
+}
+
+}  // namespace
+}  // namespace graycube

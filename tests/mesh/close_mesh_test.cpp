@@ -1,0 +1,177 @@
+// From polygons to closed meshes.
+#include "mesh/close_mesh.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "mesh/cut_face.hpp"
+#include "mesh/samples.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+double volume_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c]));
+  return sum / 6;
+}
+
+/// Areas along z of the triangles that a face in the x-y plane is cut into.
+std::vector<double> cut_areas(const std::vector<Vec3>& corners) {
+  std::vector<std::uint32_t> face(corners.size());
+  for (std::uint32_t i = 0; i < face.size(); ++i) face[i] = i;
+  std::vector<Triangle> triangles;
+  cut_face(corners, face, triangles);
+  std::vector<double> areas;
+  for (const auto& [a, b, c] : triangles) {
+    areas.push_back(0.5 * cross(corners[b] - corners[a], corners[c] - corners[a]).z);
+  }
+  return areas;
+}
+
+bool contains_text(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a box of six squares is a mesh of twelve triangles and eight points") {
+  const TriangleMesh mesh = closed(box_polygons({0, 0, 0}, {1, 2, 3}));
+  CHECK(mesh.points.size() == 8);
+  CHECK(mesh.triangles.size() == 12);
+  CHECK(volume_of(mesh) == Approx(6));
+}
+
+TEST_CASE("a mesh turned inside out is turned back as a whole, cavities kept") {
+  PolygonMesh turned;
+  append(turned, box_polygons({0, 0, 0}, {1, 2, 3}), true);
+  CHECK(volume_of(closed(turned)) == Approx(6));
+  PolygonMesh hollow = box_polygons({0, 0, 0}, {4, 4, 4});
+  append(hollow, box_polygons({1, 1, 1}, {2, 2, 2}), true);
+  CHECK(volume_of(closed(hollow)) == Approx(63));
+}
+
+TEST_CASE("closing a closed mesh changes nothing") {
+  PolygonMesh turned;
+  append(turned, ring_polygons(3, 1, 7, 5), true);
+  const TriangleMesh once = closed(turned);
+  CHECK(std::get<TriangleMesh>(closed_mesh(once)) == once);
+  PolygonMesh again;
+  again.points = once.points;
+  for (const Triangle& t : once.triangles) again.add_face(t);
+  CHECK(closed(again) == once);
+}
+
+TEST_CASE("points with equal coordinates are one, and unused ones are dropped") {
+  PolygonMesh soup;
+  const PolygonMesh box = box_polygons({-1, -1, -1}, {0, 0, 0});
+  soup.points.push_back({9, 9, 9});
+  for (const std::uint32_t i : box.corners)
+    soup.points.push_back(0.0 == box.points[i].x ? box.points[i] + Vec3{-0.0, 0, 0}
+                                                 : box.points[i]);
+  for (std::uint32_t f = 0; f < 6; ++f) {
+    const std::uint32_t n = 1 + 4 * f;
+    soup.add_face(std::array{n, n + 1, n + 2, n + 3});
+  }
+  CHECK(closed(soup).points.size() == 8);
+}
+
+TEST_CASE("negative zeros weld with zeros") {
+  PolygonMesh mesh = box_polygons({0, 0, 0}, {1, 1, 1});
+  mesh.points.push_back({-0.0, -0.0, -0.0});
+  mesh.corners[0] = 8;
+  CHECK(closed(mesh).points.size() == 8);
+}
+
+TEST_CASE("faces that disagree are turned to agree with their neighbours") {
+  const PolygonMesh ring = ring_polygons(3, 1, 8, 6);
+  PolygonMesh mixed;
+  mixed.points = ring.points;
+  for (std::uint32_t f = 0; f < ring.face_ends.size(); ++f) {
+    std::array<std::uint32_t, 4> face{};
+    for (std::uint32_t i = 0; i < 4; ++i) face[i] = ring.corners[4 * f + (f % 3 == 0 ? 3 - i : i)];
+    mixed.add_face(face);
+  }
+  CHECK(volume_of(closed(mixed)) == Approx(volume_of(closed(ring))));
+}
+
+TEST_CASE("an open mesh is refused with its first open edge") {
+  PolygonMesh open = box_polygons({0, 0, 0}, {1, 1, 1});
+  open.corners.resize(20);
+  open.face_ends.resize(5);
+  const std::string why = fault_of(open);
+  CHECK(contains_text(why, "not closed"));
+  CHECK(contains_text(why, "the edge from (1, 1, 0) to (1, 0, 0)"));
+  CHECK(contains_text(why, "4 edges"));
+}
+
+TEST_CASE("a surface with one side is refused") {
+  // A projective plane of six points: every edge has two faces, and no orientation.
+  PolygonMesh plane;
+  for (int i = 0; i < 6; ++i) plane.points.push_back({1.0 * i, 1.0 * i * i, 1.0 * i * i * i});
+  constexpr std::uint32_t kFaces[10][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+                                           {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  for (const auto& f : kFaces) plane.add_face(f);
+  CHECK(contains_text(fault_of(plane), "no inside"));
+}
+
+TEST_CASE("two boxes that share an edge are one closed mesh") {
+  PolygonMesh two = box_polygons({0, 0, 0}, {1, 1, 1});
+  append(two, box_polygons({1, 1, 0}, {2, 2, 1}));
+  CHECK(closed(two).points.size() == 14);
+}
+
+TEST_CASE("faces, points and corners out of range are refused") {
+  PolygonMesh mesh = box_polygons({0, 0, 0}, {1, 1, 1});
+  SECTION("a point that isn't there") {
+    mesh.corners[5] = 8;
+    CHECK(contains_text(fault_of(mesh), "face 1 has the point 8, there are 8"));
+  }
+  SECTION("a point at infinity") {
+    mesh.points[3].y = INFINITY;
+    CHECK(contains_text(fault_of(mesh), "point 3 is not finite"));
+  }
+  SECTION("too few corners") {
+    mesh.add_face(std::array{0u, 1u});
+    CHECK(contains_text(fault_of(mesh), "face 6 has 2 corners"));
+  }
+  SECTION("too many corners") {
+    mesh.add_face(std::vector<std::uint32_t>(kMaxFaceCorners + 1, 0u));
+    CHECK(contains_text(fault_of(mesh), "corners, at most 4096"));
+  }
+  SECTION("no face at all") {
+    CHECK(contains_text(fault_of({mesh.points, {}, {}}), "no face encloses anything"));
+  }
+}
+
+TEST_CASE("convex and concave faces are cut into triangles of one sense") {
+  const std::vector<std::vector<Vec3>> faces{
+      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},
+      {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}},
+      {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 2, 0}, {3, 2, 0}, {3, 3, 0}, {0, 3, 0}},
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}}};
+  const double areas[] = {2, 10, 7, 4};
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    double sum = 0;
+    const auto cut = cut_areas(faces[f]);
+    CHECK(cut.size() == faces[f].size() - 2);
+    for (const double a : cut) {
+      CHECK(a > 0);
+      sum += a;
+    }
+    CHECK(sum == Approx(areas[f]));
+  }
+}
+
+TEST_CASE("a face that crosses itself or is bent leaves the mesh closed") {
+  PolygonMesh bow;
+  bow.points = {{0, 0, 0}, {2, 2, 1}, {2, 0, 0}, {0, 2, -1}, {0.3, 1, 5}, {1, 0.2, -3}};
+  const std::array<std::uint32_t, 6> face{0, 1, 2, 3, 4, 5};
+  const std::array<std::uint32_t, 6> back{5, 4, 3, 2, 1, 0};
+  bow.add_face(face);
+  bow.add_face(back);
+  CHECK(fault_of(bow).empty());
+}
