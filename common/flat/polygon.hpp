@@ -1,5 +1,5 @@
 // Polygons of the plane, with holes: Boolean operations and offsets (by Clipper, whose only home is
-// flat_polygon.cpp), and what is in them.
+// polygon.cpp), and what is in them.
 #pragma once
 
 #include <array>

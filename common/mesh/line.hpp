@@ -88,9 +88,9 @@ inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, co
 }
 
 /// Where the line meets the triangle's plane, kept between the corners' parameters. The expression
-/// is that of all planes (roots.hpp), so that faces along the axes tie with boxes'. A triangle seen
-/// edge on, or without an area, has no plane worth the name: then it is the corners' parameters
-/// weighted by where the line passes.
+/// is that of all planes (geometry/interval.hpp), so that faces along the axes tie with boxes'. A
+/// triangle seen edge on, or without an area, has no plane worth the name: then it is the corners'
+/// parameters weighted by where the line passes.
 double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b,
                           const Vec3& c);
 
