@@ -1,0 +1,279 @@
+"""tidy.py ROOT: holds the rules of the house against the source tree.
+
+Prints a line for each breach, "FILE:LINE: what is wrong", and fails if there is one. The rules:
+each folder includes only what the code map of ARCHITECTURE.md says, which names every folder, and
+only folders above its own row; a vendor is included only at home; what decides without a clock
+includes none, nor threads or sockets; folders stay small; links of Markdown files, and the files
+that they name, are there.
+"""
+
+import os
+import re
+import sys
+
+SOURCES = (".cpp", ".hpp")
+MAX_FILES = 30
+
+# One file a message, and one a case: these don't count as crowded.
+DATA_FOLDERS = ("proto/schema", "scenes", "tests/fuzz/corpus")
+# Where the compiler looks for what quotes name, after the root itself.
+INCLUDE_ROOTS = ("common/", "tests/")
+GENERATED = {"version.hpp"}
+
+# Where a vendor's header, by its beginning, may be included. Tests may include all.
+VENDORS = {
+    "CLI/": ("cli/command_line.cpp", "frontal/main.cpp", "node/main.cpp"),
+    "Imf": ("common/film/exr_file.cpp",),
+    "OpenEXR/": ("common/film/exr_file.cpp",),
+    "benchmark/": ("bench/",),
+    "embree": ("bench/",),
+    "httplib.h": ("frontal/http_server.cpp",),
+    "hwy/": ("common/geometry/", "common/mesh/", "common/crossings/", "common/regions/",
+             "common/visibility/"),
+    "libqhull": ("formats/openscad/hulls/convex_hull.cpp",),
+    "nlohmann/": ("formats/json/parser.cpp", "formats/json/cbor_parser.cpp", "proto/"),
+    "png.h": ("common/film/png_file.cpp",),
+    "polyclipping/": ("common/flat/polygon.cpp",),
+    "simdjson": ("formats/json/fast_parser.cpp",),
+    "zlib.h": ("formats/brlcad/binary.cpp",),
+    "zmq": ("common/transport/zmq_sockets.cpp",),
+}
+
+# Headers of clocks, threads, processes and sockets. Plain atomics are none of them.
+WORLDLY = re.compile(
+    r"(chrono|condition_variable|ctime|future|mutex|poll\.h|pthread\.h|semaphore|shared_mutex|"
+    r"signal\.h|spawn\.h|stop_token|sys/.*|thread|time\.h|unistd\.h)$")
+# Folders that hold nothing worldly, and those of which only a brain's sources don't.
+UNWORLDLY = ("common/", "formats/", "proto/")
+BRAINS = {"node": "graycube_node_brain", "frontal": "graycube_frontal_brain"}
+WORLDLY_FILES = {
+    "common/film/whole_file.cpp": "writes files so that they are whole or not there",
+    "common/memory/kept_heap.cpp": "asks the system for memory",
+    "common/memory/large_pages.cpp": "asks the system for memory",
+    "common/trace/render_serial.cpp": "is a program's whole render, with threads and their clock",
+    "common/transport/endpoint.cpp": "knows sockets",
+    "common/transport/zmq_sockets.cpp": "knows sockets",
+    "common/transport/zmq_sockets.hpp": "knows sockets",
+    "frontal/preparation.cpp": "measures itself, which should come from outside",
+    "node/work.cpp": "measures itself, which should come from outside",
+}
+
+
+class Tree:
+    """The files below a root: their paths in it, and their lines."""
+
+    def __init__(self, root):
+        self.root = root
+        self.paths = sorted(self._walk())
+        self.files = set(self.paths)
+        self.breaches = []
+
+    def _walk(self):
+        for folder, inner, names in os.walk(self.root):
+            inner[:] = [n for n in inner if n[0] != "." and not re.match(r"(build|out)(-|$)", n)
+                        and n != "__pycache__"]
+            for name in names:
+                yield os.path.relpath(os.path.join(folder, name), self.root).replace(os.sep, "/")
+
+    def lines(self, path):
+        with open(os.path.join(self.root, path), encoding="utf-8") as file:
+            return file.read().split("\n")
+
+    def exists(self, path):
+        return os.path.exists(os.path.join(self.root, path))
+
+    def breach(self, path, line, what):
+        self.breaches.append(f"{path}:{line}: {what}")
+
+    def includes(self, path):
+        """Triples of line, what is included, and whether in quotes."""
+        pattern = re.compile(r'\s*#\s*include\s+(["<])([^">]+)[">]')
+        for number, line in enumerate(self.lines(path), 1):
+            if found := pattern.match(line):
+                yield number, found[2], found[1] == '"'
+
+
+def code_map(tree):
+    """The rows of ARCHITECTURE.md's code map, in order: folder to what it may include."""
+    rows = {}
+    lines = tree.lines("ARCHITECTURE.md")
+    start = lines.index("## Code map") if "## Code map" in lines else len(lines)
+    for number, line in enumerate(lines[start:], start + 1):
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        folders = re.findall(r"`([^`]+)`", cells[0]) if line.startswith("| `") else []
+        if len(cells) == 3:
+            named = re.findall(r"`([^`]+)`", cells[2])
+            for folder in folders:
+                rows[folder] = (number, named)
+        if line.startswith("## ") and number > start + 1:
+            break
+    if not rows:
+        tree.breach("ARCHITECTURE.md", 1, "there is no code map")
+    return rows
+
+
+def room_of(path, rows):
+    """The longest row that the file is in; the ground floor is common's own files only."""
+    folder = os.path.dirname(path)
+    while folder and (folder not in rows or (folder == "common" != os.path.dirname(path))):
+        folder = os.path.dirname(folder)
+    return folder
+
+
+def resolved(tree, path, name):
+    """The path of what a file includes in quotes; None where it is nowhere."""
+    beside = os.path.normpath(os.path.join(os.path.dirname(path), name))
+    for candidate in [name] + [root + name for root in INCLUDE_ROOTS] + [beside]:
+        if candidate in tree.files:
+            return candidate
+    return None
+
+
+def check_map(tree, rows):
+    """Folders that are named exist, and come after those that they include."""
+    above = set()
+    for folder, (number, named) in rows.items():
+        if not tree.exists(folder):
+            tree.breach("ARCHITECTURE.md", number, f"there is no folder {folder}")
+        for other in named:
+            if other not in above:
+                tree.breach("ARCHITECTURE.md", number, f"{other} is no row above that of {folder}")
+        above.add(folder)
+
+
+def check_includes(tree, rows):
+    """Includes in quotes are those of the code map, and all of those are made."""
+    made = {folder: set() for folder in rows}
+    for path in tree.paths:
+        if not path.endswith(SOURCES) or path.startswith("tests/"):
+            continue
+        room = room_of(path, rows)
+        if not room:
+            tree.breach(path, 1, "the code map has no row for its folder")
+            continue
+        allowed = {room, "common", *rows[room][1]}
+        for number, name, is_quoted in tree.includes(path):
+            if not is_quoted or name in GENERATED:
+                continue
+            target = resolved(tree, path, name)
+            other = room_of(target, rows) if target else None
+            if target is None or target.startswith("tests/"):
+                tree.breach(path, number, f"there is no {name} that it may include")
+            elif other not in allowed:
+                tree.breach(path, number, f"{room} doesn't include {other}: {name}")
+            else:
+                made[room].add(other)
+    for folder, (number, named) in rows.items():
+        for other in named:
+            if other not in made[folder]:
+                tree.breach("ARCHITECTURE.md", number, f"{folder} includes nothing of {other}")
+
+
+def check_vendors(tree):
+    for path in tree.paths:
+        if not path.endswith(SOURCES) or path.startswith("tests/"):
+            continue
+        for number, name, is_quoted in tree.includes(path):
+            for vendor, homes in VENDORS.items():
+                if not is_quoted and name.startswith(vendor) and not path.startswith(homes):
+                    tree.breach(path, number, f"{name} is at home in {', '.join(homes)}")
+
+
+def brain_sources(tree):
+    """The .cpp files of the brains' targets, and all that these include of their folders."""
+    found = []
+    for folder, target in BRAINS.items():
+        text = "\n".join(tree.lines(folder + "/CMakeLists.txt"))
+        listed = re.search(r"add_library\(" + target + r" STATIC([^)]*)\)", text)
+        if not listed:
+            tree.breach(folder + "/CMakeLists.txt", 1, f"there is no target {target}")
+        waiting = [folder + "/" + name for name in (listed[1].split() if listed else [])]
+        seen = set()
+        while waiting:
+            path = waiting.pop()
+            if path in seen or path not in tree.files:
+                continue
+            seen.add(path)
+            waiting += [name for _, name, is_quoted in tree.includes(path)
+                        if is_quoted and name.startswith(folder + "/")]
+        found += sorted(seen)
+    return found
+
+
+def check_worldly(tree):
+    """What must behave alike everywhere knows no clock, thread or socket."""
+    checked = [p for p in tree.paths if p.startswith(UNWORLDLY) and p.endswith(SOURCES)]
+    checked += brain_sources(tree)
+    worldly = set()
+    for path in checked:
+        for number, name, is_quoted in tree.includes(path):
+            if (not is_quoted and WORLDLY.match(name)) or name.startswith("transport/zmq"):
+                worldly.add(path)
+                if path not in WORLDLY_FILES:
+                    tree.breach(path, number, f"{name}: no clocks, threads and sockets here")
+    for path in sorted(set(WORLDLY_FILES) - worldly):
+        tree.breach(path, 1, "is no exception any more: take it out of tidy.py")
+
+
+def check_sizes(tree):
+    counts = {}
+    for path in tree.paths:
+        folder = os.path.dirname(path)
+        if not (folder + "/").startswith(tuple(d + "/" for d in DATA_FOLDERS)):
+            counts[folder] = counts.get(folder, 0) + 1
+    for folder, count in sorted(counts.items()):
+        if count > MAX_FILES:
+            tree.breach(folder, 1, f"holds {count} files, {MAX_FILES} at most")
+
+
+def anchors_of(tree, path):
+    """The anchors of a Markdown file's headings, as GitHub makes them."""
+    anchors = set()
+    for line in tree.lines(path):
+        if heading := re.match(r"#+\s+(.*)", line):
+            plain = re.sub(r"[^\w\- ]", "", heading[1].strip().lower())
+            anchors.add(plain.replace(" ", "-"))
+    return anchors
+
+
+def check_link(tree, path, number, link):
+    if re.match(r"[a-z]+:", link):
+        return
+    file, _, anchor = link.partition("#")
+    target = os.path.normpath(os.path.join(os.path.dirname(path), file)) if file else path
+    if not tree.exists(target):
+        tree.breach(path, number, f"the link {link} leads nowhere")
+    elif anchor and target.endswith(".md") and anchor not in anchors_of(tree, target):
+        tree.breach(path, number, f"the link {link} leads to no heading")
+
+
+def check_documents(tree):
+    """Links lead somewhere, and what looks like a source file of ours is one."""
+    named = re.compile(r"`([\w.-]+(?:/[\w.-]+)+\.(?:cpp|hpp|py|sh|md|cmake))`")
+    for path in tree.paths:
+        if not path.endswith(".md"):
+            continue
+        for number, line in enumerate(tree.lines(path), 1):
+            for link in re.findall(r"\]\(([^)\s]+)\)", line):
+                check_link(tree, path, number, link)
+            for name in named.findall(line) if os.path.basename(path) != "CHANGELOG.md" else []:
+                if not any(tree.exists(root + name) for root in ("", "common/", "formats/")):
+                    tree.breach(path, number, f"there is no {name}")
+
+
+def breaches_of(root):
+    tree = Tree(root)
+    rows = code_map(tree)
+    check_map(tree, rows)
+    check_includes(tree, rows)
+    check_vendors(tree)
+    check_worldly(tree)
+    check_sizes(tree)
+    check_documents(tree)
+    return tree.breaches
+
+
+if __name__ == "__main__":
+    found = breaches_of(sys.argv[1])
+    print("\n".join(found) if found else "tidy")
+    sys.exit(1 if found else 0)
