@@ -17,7 +17,8 @@ void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactnes
     planes.count(i);
     surfaces.count(i);
     const Aabb& bounds = model.primitives[i].bounds;
-    if (bounds.is_finite()) reach = larger(larger(max_abs(bounds.lo), max_abs(bounds.hi)), reach);
+    const double own = larger(max_abs(bounds.lo), max_abs(bounds.hi));
+    if (own > reach && bounds.is_finite()) reach = own;
   }
   planes.begin_marking(reach);
   surfaces.begin_marking();

@@ -36,7 +36,6 @@ class PlaneUnifier {
   template <typename Visit>
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   static double number_tolerance(double distance, double direction, double reach);
-  Measured plane_number(const Heading& heading, double offset) const;
   void add_levels(const Heading& heading, const Vec3& direction, double direction_tolerance, std::vector<Level>& group) const;
   Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction, double direction_tolerance) const;
   void unify_directions();
