@@ -8,14 +8,15 @@
 namespace graycube {
 namespace {
 
-/// Entries that stand alone in their row scale, and are off by a share of themselves. Those of a rotation come from sines:
-/// they are off by a share of the largest.
+/// Entries that stand alone in their row scale, and are off by a share of themselves. Those of a rotation come from sines and
+/// their products: however small, they are off by the last places of numbers about as large as the largest.
 Affine magnitude_of(const Affine& map) {
+  constexpr double kLeastPart = 1.0 / 8;
   Affine r;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& row = map.m[i];
     const double most = std::max(std::fabs(row[0]), std::max(std::fabs(row[1]), std::fabs(row[2])));
-    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = row[j] == 0 ? 0.0 : most;
+    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = row[j] == 0 ? 0.0 : std::max(std::fabs(row[j]), kLeastPart * most);
     r.m[i][3] = std::fabs(row[3]);
   }
   return r;

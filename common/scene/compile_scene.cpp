@@ -1,6 +1,7 @@
 #include "scene/compile_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "csg/build_primitive.hpp"
@@ -35,6 +36,7 @@ class Compiler {
     model_.primitives.reserve(scene_.objects.size());
     exactness_.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
+    measure_unbounded();
     unify_coincident_surfaces(model_, exactness_);
     for (Object& object : model_.objects) object.bounds = bounds_of(model_.tree(object), model_.primitives);
     model_.delta = delta();
@@ -114,6 +116,22 @@ class Compiler {
   double share_of(const CsgNode& leaf) const {
     const auto* mesh = std::get_if<MeshShape>(&leaf.value);
     return mesh == nullptr ? share_ : std::max(share_, share_of_digits(mesh->digits));
+  }
+
+  /// A half-space has no size to measure its offset by, which may be what is left of larger numbers: that of the others
+  /// does.
+  void measure_unbounded() {
+    constexpr float kPart = 1.0f / 8;
+    std::array<float, 3> most{};
+    const auto raise = [](std::array<float, 3>& to, const std::array<float, 3>& from, float factor) {
+      for (std::size_t a = 0; a < 3; ++a) to[a] = std::max(to[a], factor * from[a]);
+    };
+    for (std::size_t i = 0; i < exactness_.size(); ++i) {
+      if (model_.primitives[i].bounds.is_finite()) raise(most, exactness_[i].along, 1);
+    }
+    for (std::size_t i = 0; i < exactness_.size(); ++i) {
+      if (!model_.primitives[i].bounds.is_finite()) raise(exactness_[i].along, most, kPart);
+    }
   }
 
   static Primitive build(const Affine& m, const SphereShape& s) {
