@@ -6,10 +6,10 @@
 
 namespace graycube {
 
-void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
+bool unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
   GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(), model.primitives.size());
   const auto count = static_cast<std::uint32_t>(model.primitives.size());
-  if (count < 2) return;
+  if (count < 2) return false;
   csg::PlaneUnifier planes(model, exactness);
   csg::SurfaceUnifier surfaces(model, exactness);
   double reach = 0;
@@ -30,8 +30,8 @@ void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactnes
     planes.collect(i);
     surfaces.collect(i);
   }
-  planes.unify();
-  surfaces.unify();
+  const bool has_moved_planes = planes.unify();
+  return surfaces.unify() || has_moved_planes;
 }
 
 }  // namespace graycube

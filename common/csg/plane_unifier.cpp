@@ -80,10 +80,10 @@ void PlaneUnifier::collect(std::uint32_t primitive) {
   });
 }
 
-void PlaneUnifier::unify() {
+bool PlaneUnifier::unify() {
   for (int a = 0; a < 3; ++a) unify_offsets(world_axis(a), std::move(along_[static_cast<std::size_t>(a)]));
   unify_directions();
-  settle();
+  return settle();
 }
 
 void PlaneUnifier::unify_directions() {
@@ -165,14 +165,16 @@ void PlaneUnifier::set(const Level& level, const Vec3& direction, double offset,
   changed_.emplace_back(level.primitive, std::fabs(level.offset - offset) + turned);
 }
 
-void PlaneUnifier::settle() {
+bool PlaneUnifier::settle() {
   std::sort(changed_.begin(), changed_.end());
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     // The last of a primitive's faces has moved most.
     if (i + 1 < changed_.size() && changed_[i + 1].first == changed_[i].first) continue;
     settle_faces(model_, changed_[i].first, changed_[i].second);
   }
-  for (MeshFaces& faces : mesh_faces_) faces.settle(model_);
+  bool has_changed = !changed_.empty();
+  for (MeshFaces& faces : mesh_faces_) has_changed = faces.settle(model_) || has_changed;
+  return has_changed;
 }
 
 std::size_t PlaneUnifier::place_of_mesh(std::uint32_t primitive) const {

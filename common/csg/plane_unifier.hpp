@@ -29,8 +29,8 @@ class PlaneUnifier {
   void begin_marking(double reach);
   void mark(std::uint32_t primitive);
   void collect(std::uint32_t primitive);
-  /// Changes the faces of what was collected.
-  void unify();
+  /// Changes the faces of what was collected; whether any differ now.
+  bool unify();
 
  private:
   template <typename Visit>
@@ -41,7 +41,7 @@ class PlaneUnifier {
   void unify_directions();
   void unify_offsets(const Vec3& direction, std::vector<Level> group);
   void set(const Level& level, const Vec3& direction, double offset, bool is_shared_plane);
-  void settle();
+  bool settle();
   std::size_t place_of_mesh(std::uint32_t primitive) const;
 
   Model& model_;

@@ -102,7 +102,7 @@ void SurfaceUnifier::collect(std::uint32_t primitive) {
   families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
 }
 
-void SurfaceUnifier::unify() {
+bool SurfaceUnifier::unify() {
   const auto measure = [&](std::uint32_t i, int which) {
     return surface_number(model_.primitives[i], exactness_[i], which);
   };
@@ -110,6 +110,7 @@ void SurfaceUnifier::unify() {
   for (std::size_t f = 0; f < families_.size(); ++f) {
     for_each_cluster(std::move(families_[f]), number_count(static_cast<SurfaceFamily>(f)), measure, unify);
   }
+  return has_changed_;
 }
 
 /// Simpler kinds first, then what is known best; the rest is a choice among bits.
@@ -130,7 +131,9 @@ void SurfaceUnifier::unify_cluster(std::span<const Extent> cluster) {
     Primitive& p = model_.primitives[e.item];
     const Primitive before = p;
     take_surface(from, p);
-    if (p == before || p.bounds != before.bounds) continue;
+    if (p == before) continue;
+    has_changed_ = true;
+    if (p.bounds != before.bounds) continue;
     p.bounds = p.bounds.grown(2 * exactness_[e.item].distance());
   }
 }

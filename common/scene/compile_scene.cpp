@@ -37,8 +37,9 @@ class Compiler {
     exactness_.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
     measure_unbounded();
-    unify_coincident_surfaces(model_, exactness_);
-    for (Object& object : model_.objects) object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    if (unify_coincident_surfaces(model_, exactness_)) {
+      for (Object& object : model_.objects) object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    }
     model_.delta = delta();
     return std::move(model_);
   }
@@ -57,6 +58,7 @@ class Compiler {
     out.first_node = static_cast<std::uint32_t>(model_.nodes.size());
     emit(object.csg, {.to_world = {}, .material = object.material, .inverted = false});
     out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
+    out.bounds = bounds_of(model_.tree(out), model_.primitives);
     model_.objects.push_back(out);
   }
 
