@@ -30,6 +30,9 @@ void divide_row(Affine& map, std::size_t row, double by) {
 void simplify(Primitive& p, double tolerance) {
   // In the frame, across the axis.
   const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
+  // What is known no better, beyond the range of floats for one, stays what it is.
+  constexpr double kWorst = 1e-3;
+  if (!(local < kWorst)) return;
   if (p.kind == PrimitiveKind::kCone && std::fabs(p.v[5]) <= local) {
     p.kind = PrimitiveKind::kCylinder;
     p.v[5] = 0;

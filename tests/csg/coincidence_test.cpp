@@ -238,6 +238,17 @@ TEST_CASE("surfaces without a partner keep their bits, and so do those that are 
   }
 }
 
+TEST_CASE("a cone with equal ends is a cylinder, and one so far away that nothing is known of it stays a cone") {
+  for (const double reach : {1.0, 1e60}) {
+    Model model = model_of({build_cone({}, {reach, 0, 0}, reach, {reach, 0, reach}, reach * (1 - 1e-15)),
+                            build_cone({}, {-reach, 0, 0}, reach, {-reach, 0, reach}, 0.5 * reach)});
+    const Exactness exactness = exactness_of({}, {2 * reach, 2 * reach, 2 * reach}, 1, kRoundedShare);
+    unify_coincident_surfaces(model, std::vector<Exactness>(2, exactness));
+    CHECK(model.primitives[0].kind == (reach == 1 ? PrimitiveKind::kCylinder : PrimitiveKind::kCone));
+    CHECK(model.primitives[1].kind == PrimitiveKind::kCone);
+  }
+}
+
 TEST_CASE("a box by a turn of three times thirty degrees is one along the axes where another's face lies in its planes") {
   Affine turn;
   for (int i = 0; i < 3; ++i) turn = compose(rotation({0, 0, 1}, 30), turn);
