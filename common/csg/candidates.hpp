@@ -67,7 +67,8 @@ class Candidates {
 
   static bool is_number(const Measured& m) { return std::isfinite(m.value) && m.tolerance >= 0 && std::isfinite(m.tolerance); }
   std::int64_t step_of(double v) const {
-    constexpr double kFarthest = 0x1p+62;
+    // Steps on both sides of 0 are at most 2⁶² apart, which still is a number.
+    constexpr double kFarthest = 0x1p+61;
     return static_cast<std::int64_t>(std::floor(std::min(std::max(v * scale_, -kFarthest), kFarthest)));
   }
   /// Fibonacci hashing (Knuth, volume 3, 6.4): steps side by side part.
