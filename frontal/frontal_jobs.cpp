@@ -23,7 +23,7 @@ std::optional<PreparationWork> Frontal::take_work() {
 void Frontal::start_next_job() {
   if (running_ || queue_.empty() || going_down_) return;
   const QueuedJob& next = queue_.front();
-  Running& job = running_.emplace();
+  Running& job = running_.emplace(Running{});
   job.info = next.info;
   job.options = next.work.options;
   job.submitted_at_s = next.submitted_at_s;

@@ -21,14 +21,14 @@ class Candidates {
     once_.assign((std::size_t{1} << bits_) / 64, 0);
     twice_.assign(once_.size(), 0);
     const double step = kStepTolerances * tolerance;
-    scale_ = step > 0 && std::isfinite(1 / step) ? 1 / step : 0;
+    if (!(step > 0) || !std::isfinite(1 / step)) return;
+    scale_ = 1 / step;
+    widest_ = 0.499 * step;
   }
 
   void mark(const Measured& m) {
     if (!is_number(m)) return;
-    const std::int64_t first = step_of(m.value - m.tolerance),
-                       last = step_of(m.value + m.tolerance);
-    if (last - first >= kMostSteps) {
+    if (m.tolerance > widest_) {
       if (wide_.size() < kMostWide) {
         wide_.push_back(m);
       } else {
@@ -36,45 +36,46 @@ class Candidates {
       }
       return;
     }
-    for (std::int64_t step = first; step <= last; ++step) {
-      const std::size_t bucket = bucket_of(step);
-      const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
-      twice_[bucket / 64] |= once_[bucket / 64] & bit;
-      once_[bucket / 64] |= bit;
-    }
+    const std::size_t bucket = bucket_of(step_of(m.value));
+    const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
+    twice_[bucket / 64] |= once_[bucket / 64] & bit;
+    once_[bucket / 64] |= bit;
   }
 
-  /// False only where no other's values come within its own and that one's tolerance.
+  /// False only where no other's values come within its own and that one's tolerance: values that
+  /// may be one are in one step, or in steps side by side.
   bool may_meet(const Measured& m) const {
     if (!is_number(m)) return false;
-    if (is_crowded_) return true;
-    for (const Measured& w : wide_) {
-      if (std::fabs(m.value - w.value) <= m.tolerance + w.tolerance) return true;
-    }
-    const std::int64_t first = step_of(m.value - m.tolerance),
-                       last = step_of(m.value + m.tolerance);
-    if (last - first >= kMostSteps) return true;
-    for (std::int64_t step = first; step <= last; ++step) {
-      const std::size_t bucket = bucket_of(step);
-      if ((twice_[bucket / 64] >> (bucket % 64) & 1) != 0) return true;
-    }
-    return false;
+    if (is_crowded_ || m.tolerance > widest_) return true;
+    const std::int64_t step = step_of(m.value);
+    if (has(twice_, step) || has(once_, step - 1) || has(once_, step + 1)) return true;
+    return std::any_of(wide_.begin(), wide_.end(), [&](const Measured& w) {
+      return std::fabs(m.value - w.value) <= m.tolerance + w.tolerance;
+    });
   }
 
  private:
+  using Bits = std::vector<std::uint64_t>;
   static constexpr std::size_t kBucketsEach = 16;
-  static constexpr double kStepTolerances = 8;
-  /// Values that may be in more steps are compared with all others, if there are few of them.
-  static constexpr std::int64_t kMostSteps = 16;
+  static constexpr double kStepTolerances = 32;
+  /// Values known worse than half a step are compared with all others, if there are few of them.
   static constexpr std::size_t kMostWide = 32;
 
   static bool is_number(const Measured& m) {
-    return std::isfinite(m.value) && m.tolerance >= 0 && std::isfinite(m.tolerance);
+    // What isn't finite makes this NaN.
+    return m.tolerance >= 0 && (m.value - m.value) + (m.tolerance - m.tolerance) == 0;
   }
+  bool has(const Bits& bits, std::int64_t step) const {
+    const std::size_t bucket = bucket_of(step);
+    return (bits[bucket / 64] >> (bucket % 64) & 1) != 0;
+  }
+  /// The floor, without a call of the library.
   std::int64_t step_of(double v) const {
     constexpr double kFarthest = 0x1p+62;
-    return static_cast<std::int64_t>(
-        std::floor(std::min(std::max(v * scale_, -kFarthest), kFarthest)));
+    const double at = v * scale_;
+    const double near = at < kFarthest ? (at > -kFarthest ? at : -kFarthest) : kFarthest;
+    const auto step = static_cast<std::int64_t>(near);
+    return static_cast<double>(step) > near ? step - 1 : step;
   }
   /// Fibonacci hashing (Knuth, volume 3, 6.4): steps side by side part.
   std::size_t bucket_of(std::int64_t step) const {
@@ -84,9 +85,11 @@ class Candidates {
 
   unsigned bits_ = 6;
   double scale_ = 0;
+  /// Half a step, a little less.
+  double widest_ = 0;
   bool is_crowded_ = false;
   std::vector<Measured> wide_;
-  std::vector<std::uint64_t> once_, twice_;
+  Bits once_, twice_;
 };
 
 }  // namespace graycube::csg

@@ -6,11 +6,11 @@
 
 namespace graycube {
 
-void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
+bool unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
   GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(),
                  model.primitives.size());
   const auto count = static_cast<std::uint32_t>(model.primitives.size());
-  if (count < 2) return;
+  if (count < 2) return false;
   csg::PlaneUnifier planes(model, exactness);
   csg::SurfaceUnifier surfaces(model, exactness);
   double reach = 0;
@@ -18,7 +18,8 @@ void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactnes
     planes.count(i);
     surfaces.count(i);
     const Aabb& bounds = model.primitives[i].bounds;
-    if (bounds.is_finite()) reach = larger(larger(max_abs(bounds.lo), max_abs(bounds.hi)), reach);
+    const double own = larger(max_abs(bounds.lo), max_abs(bounds.hi));
+    if (own > reach && bounds.is_finite()) reach = own;
   }
   planes.begin_marking(reach);
   surfaces.begin_marking();
@@ -30,8 +31,8 @@ void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactnes
     planes.collect(i);
     surfaces.collect(i);
   }
-  planes.unify();
-  surfaces.unify();
+  const bool has_moved_planes = planes.unify();
+  return surfaces.unify() || has_moved_planes;
 }
 
 }  // namespace graycube

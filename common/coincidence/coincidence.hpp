@@ -13,9 +13,9 @@
 namespace graycube {
 
 /// Changes the model's primitives, planes and meshes, and the bounds of primitives, in place;
-/// `exactness` has one element for each primitive. Deterministic, and independent of the order of
-/// primitives; surfaces without a partner keep their bits. Object bounds, trees and delta are left
-/// alone: compute them afterwards.
-void unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness);
+/// `exactness` has one element for each primitive. Whether anything changed. Deterministic, and
+/// independent of the order of primitives; surfaces without a partner keep their bits. Object
+/// bounds, trees and delta are left alone: compute them afterwards.
+bool unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness);
 
 }  // namespace graycube

@@ -9,13 +9,16 @@ namespace graycube {
 namespace {
 
 /// Entries that stand alone in their row scale, and are off by a share of themselves. Those of a
-/// rotation come from sines: they are off by a share of the largest.
+/// rotation come from sines and their products: however small, they are off by the last places of
+/// numbers about as large as the largest.
 Affine magnitude_of(const Affine& map) {
+  constexpr double kLeastPart = 1.0 / 8;
   Affine r;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& row = map.m[i];
     const double most = std::max(std::fabs(row[0]), std::max(std::fabs(row[1]), std::fabs(row[2])));
-    for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = row[j] == 0 ? 0.0 : most;
+    for (std::size_t j = 0; j < 3; ++j)
+      r.m[i][j] = row[j] == 0 ? 0.0 : std::max(std::fabs(row[j]), kLeastPart * most);
     r.m[i][3] = std::fabs(row[3]);
   }
   return r;
@@ -41,14 +44,14 @@ std::optional<Affine> inverse_of(const Affine& map) {
 
 /// By how much more a normal may turn than the map's entries are off, as a share: normals go by the
 /// inverse transposed, and the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
-double turn_of(const MeasuredMap& map) {
-  const auto inverse = inverse_of(map.map);
+double turn_of(const Affine& map, const Affine& magnitude) {
+  const auto inverse = inverse_of(map);
   if (!inverse) return 1;
   double most = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto& row = map.magnitude.m[k];
+      const auto& row = magnitude.m[k];
       sum += std::fabs(inverse->m[i][k]) * (row[0] + row[1] + row[2]);
     }
     most = std::max(most, sum);
@@ -75,7 +78,9 @@ double share_of_digits(std::uint32_t digits) {
 }
 
 MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
-  return {compose(then.map, first), compose(then.magnitude, magnitude_of(first))};
+  MeasuredMap r{compose(then.map, first), compose(then.magnitude, magnitude_of(first)), 1};
+  if (!keeps_directions(r.map)) r.turn = turn_of(r.map, r.magnitude);
+  return r;
 }
 
 Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share) {
@@ -83,7 +88,7 @@ Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, d
   const Vec3 position = share * map.magnitude.point(reach);
   e.along = {static_cast<float>(position.x), static_cast<float>(position.y),
              static_cast<float>(position.z)};
-  e.direction = static_cast<float>(share * turn * (keeps_directions(map.map) ? 1 : turn_of(map)));
+  e.direction = static_cast<float>(share * turn * map.turn);
   return e;
 }
 

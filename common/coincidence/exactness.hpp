@@ -24,11 +24,13 @@ inline constexpr std::uint32_t kDoubleDigits = 17;
 /// the last one at worst, but kRoundedShare at least. 0 digits: all that a double has.
 double share_of_digits(std::uint32_t digits);
 
-/// A map made of others, and what its rounding errors are measured against: the product of the
-/// absolute values of their entries.
+/// A map made of others, and what its rounding errors are measured against.
 struct MeasuredMap {
   Affine map;
+  /// The product of the absolute values of the maps' entries.
   Affine magnitude;
+  /// How many times worse the directions of normals are known under it than its entries.
+  double turn = 1;
 };
 /// The map that applies `first`, then `then`.
 MeasuredMap compose(const MeasuredMap& then, const Affine& first);

@@ -94,8 +94,8 @@ void MeshFaces::spread_to_slender() {
   }
 }
 
-void MeshFaces::settle(Model& model) {
-  if (planes_.empty()) return;
+bool MeshFaces::settle(Model& model) {
+  if (planes_.empty()) return false;
   spread_to_slender();
   TriangleMesh with_planes = surface();
   with_planes.planes = std::move(planes_);
@@ -103,6 +103,7 @@ void MeshFaces::settle(Model& model) {
   Primitive& p = model.primitives[primitive_];
   model.meshes[p.mesh] = Mesh(std::move(with_planes));
   p.bounds = model.meshes[p.mesh].bounds();
+  return true;
 }
 
 }  // namespace graycube::csg

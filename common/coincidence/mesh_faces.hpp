@@ -41,9 +41,10 @@ class MeshFaces {
   /// The plane is left alone where it isn't the triangle's to within how exactly its corners are
   /// known.
   void set(std::uint32_t triangle, const Plane& plane);
-  /// Puts the mesh with the planes set into the model, and grows its bounds. Slender triangles, by
-  /// which no plane is known, get that of neighbours with which they share their corners.
-  void settle(Model& model);
+  /// Puts the mesh with the planes set into the model, and grows its bounds; false when there are
+  /// none. Slender triangles, by which no plane is known, get that of neighbours with which they
+  /// share their corners.
+  bool settle(Model& model);
 
  private:
   /// Radians; triangles that know their normals worse are too slender.

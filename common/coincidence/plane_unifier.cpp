@@ -25,65 +25,72 @@ void PlaneUnifier::begin_marking(double reach) {
   candidates_.emplace(number_tolerance(distances_ / count, directions_ / count, reach), count_);
 }
 
-/// Calls visit(heading, the offsets of its faces along its normal).
+/// Calls visit(heading, the first and the last of its faces' numbers).
 template <typename Visit>
 void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit) const {
-  using Offsets = std::array<double, 2>;
   const Primitive& p = model_.primitives[primitive];
+  const Exactness& exact = exactness_[primitive];
+  const double distance = exact.distance();
+  const auto visit_faces = [&](const Heading& h, double first, double last) {
+    const double along = dot(kGenericDirection, h.normal);
+    const double reach = larger(reach_, larger(std::fabs(first), std::fabs(last)));
+    const double tolerance = number_tolerance(distance, h.tolerance, reach),
+                 base = along * (reach_ * along);
+    visit(h, Measured{along * first + base, tolerance}, Measured{along * last + base, tolerance});
+  };
   if (p.kind == PrimitiveKind::kMesh) {
     mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t triangle, const MeshFace& f) {
-      visit(Heading{f.plane.normal, f.direction_tolerance, primitive, triangle, 1},
-            Offsets{f.plane.offset, 0});
+      visit_faces({f.plane.normal, f.direction_tolerance, primitive, triangle, 1}, f.plane.offset,
+                  f.plane.offset);
     });
+    return;
+  }
+  // The kinds that there are most of need no planes looked up.
+  if (p.kind == PrimitiveKind::kParallelepiped) {
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      visit_faces(
+          {p.to_local.row(static_cast<int>(a)), double{exact.direction}, primitive, 2 * a, 2},
+          p.v[a], p.v[a + 3]);
+    }
     return;
   }
   const std::uint32_t count = face_count(p), step = has_opposite_faces(p) ? 2 : 1;
   for (std::uint32_t slot = 0; slot < count; slot += step) {
     const Vec3 normal = heading_of(model_, p, slot);
-    const Exactness& exact = exactness_[primitive];
     const double tolerance =
         p.plane_count > 0 ? direction_tolerance(p, normal, exact) : double{exact.direction};
-    visit(Heading{normal, tolerance, primitive, slot, step},
-          Offsets{offset_of(model_, p, slot), step == 2 ? offset_of(model_, p, slot + 1) : 0});
+    visit_faces({normal, tolerance, primitive, slot, step}, offset_of(model_, p, slot),
+                offset_of(model_, p, slot + step - 1));
   }
 }
 
+/// Of a number of a plane, whichever way its normal looks, that differs for nearly all planes that
+/// differ: its place along a generic direction, and that direction's along it.
 double PlaneUnifier::number_tolerance(double distance, double direction, double reach) {
   return 2 * distance + 8 * reach * direction;
 }
 
-/// A number of a plane, whichever way its normal looks, that differs for nearly all planes that
-/// differ.
-Measured PlaneUnifier::plane_number(const Heading& heading, double offset) const {
-  const double along = dot(kGenericDirection, heading.normal);
-  const double reach = larger(reach_, std::fabs(offset));
-  return {along * (offset + reach_ * along),
-          number_tolerance(exactness_[heading.primitive].distance(), heading.tolerance, reach)};
-}
-
 void PlaneUnifier::mark(std::uint32_t primitive) {
-  for_each_heading(primitive, [&](const Heading& h, const std::array<double, 2>& offsets) {
-    for (std::uint32_t k = 0; k < h.count; ++k) candidates_->mark(plane_number(h, offsets[k]));
+  for_each_heading(primitive, [&](const Heading& h, const Measured& first, const Measured& last) {
+    candidates_->mark(first);
+    if (h.count == 2) candidates_->mark(last);
   });
 }
 
 void PlaneUnifier::collect(std::uint32_t primitive) {
-  for_each_heading(primitive, [&](const Heading& h, const std::array<double, 2>& offsets) {
-    bool is_candidate = candidates_->may_meet(plane_number(h, offsets[0]));
-    if (h.count == 2)
-      is_candidate = is_candidate || candidates_->may_meet(plane_number(h, offsets[1]));
-    if (!is_candidate) return;
+  for_each_heading(primitive, [&](const Heading& h, const Measured& first, const Measured& last) {
+    if (!candidates_->may_meet(first) && (h.count == 1 || !candidates_->may_meet(last))) return;
     const int axis = world_axis_of(h);
     if (axis == 3) return others_.push_back(h);
     add_levels(h, world_axis(axis), 0, along_[static_cast<std::size_t>(axis)]);
   });
 }
 
-void PlaneUnifier::unify() {
+bool PlaneUnifier::unify() {
   for (int a = 0; a < 3; ++a)
     unify_offsets(world_axis(a), std::move(along_[static_cast<std::size_t>(a)]));
   unify_directions();
-  settle();
+  return settle();
 }
 
 void PlaneUnifier::unify_directions() {
@@ -173,14 +180,16 @@ void PlaneUnifier::set(const Level& level, const Vec3& direction, double offset,
   changed_.emplace_back(level.primitive, std::fabs(level.offset - offset) + turned);
 }
 
-void PlaneUnifier::settle() {
+bool PlaneUnifier::settle() {
   std::sort(changed_.begin(), changed_.end());
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     // The last of a primitive's faces has moved most.
     if (i + 1 < changed_.size() && changed_[i + 1].first == changed_[i].first) continue;
     settle_faces(model_, changed_[i].first, changed_[i].second);
   }
-  for (MeshFaces& faces : mesh_faces_) faces.settle(model_);
+  bool has_changed = !changed_.empty();
+  for (MeshFaces& faces : mesh_faces_) has_changed = faces.settle(model_) || has_changed;
+  return has_changed;
 }
 
 std::size_t PlaneUnifier::place_of_mesh(std::uint32_t primitive) const {

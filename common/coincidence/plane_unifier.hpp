@@ -30,14 +30,13 @@ class PlaneUnifier {
   void begin_marking(double reach);
   void mark(std::uint32_t primitive);
   void collect(std::uint32_t primitive);
-  /// Changes the faces of what was collected.
-  void unify();
+  /// Changes the faces of what was collected; whether any differ now.
+  bool unify();
 
  private:
   template <typename Visit>
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   static double number_tolerance(double distance, double direction, double reach);
-  Measured plane_number(const Heading& heading, double offset) const;
   void add_levels(const Heading& heading, const Vec3& direction, double direction_tolerance,
                   std::vector<Level>& group) const;
   Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction,
@@ -45,7 +44,7 @@ class PlaneUnifier {
   void unify_directions();
   void unify_offsets(const Vec3& direction, std::vector<Level> group);
   void set(const Level& level, const Vec3& direction, double offset, bool is_shared_plane);
-  void settle();
+  bool settle();
   std::size_t place_of_mesh(std::uint32_t primitive) const;
 
   Model& model_;

@@ -31,6 +31,9 @@ void divide_row(Affine& map, std::size_t row, double by) {
 void simplify(Primitive& p, double tolerance) {
   // In the frame, across the axis.
   const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
+  // What is known no better, beyond the range of floats for one, stays what it is.
+  constexpr double kWorst = 1e-3;
+  if (!(local < kWorst)) return;
   if (p.kind == PrimitiveKind::kCone && std::fabs(p.v[5]) <= local) {
     p.kind = PrimitiveKind::kCylinder;
     p.v[5] = 0;
@@ -107,7 +110,7 @@ void SurfaceUnifier::collect(std::uint32_t primitive) {
   families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
 }
 
-void SurfaceUnifier::unify() {
+bool SurfaceUnifier::unify() {
   const auto measure = [&](std::uint32_t i, int which) {
     return surface_number(model_.primitives[i], exactness_[i], which);
   };
@@ -116,6 +119,7 @@ void SurfaceUnifier::unify() {
     for_each_cluster(std::move(families_[f]), number_count(static_cast<SurfaceFamily>(f)), measure,
                      unify);
   }
+  return has_changed_;
 }
 
 /// Simpler kinds first, then what is known best; the rest is a choice among bits.
@@ -136,7 +140,9 @@ void SurfaceUnifier::unify_cluster(std::span<const Extent> cluster) {
     Primitive& p = model_.primitives[e.item];
     const Primitive before = p;
     take_surface(from, p);
-    if (p == before || p.bounds != before.bounds) continue;
+    if (p == before) continue;
+    has_changed_ = true;
+    if (p.bounds != before.bounds) continue;
     p.bounds = p.bounds.grown(2 * exactness_[e.item].distance());
   }
 }

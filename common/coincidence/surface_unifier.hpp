@@ -27,8 +27,8 @@ class SurfaceUnifier {
   void begin_marking();
   void mark(std::uint32_t primitive);
   void collect(std::uint32_t primitive);
-  /// Changes the surfaces of what was collected.
-  void unify();
+  /// Changes the surfaces of what was collected; whether any surface differs now.
+  bool unify();
 
  private:
   bool is_better(std::uint32_t a, std::uint32_t b) const;
@@ -37,6 +37,7 @@ class SurfaceUnifier {
   Model& model_;
   std::span<const Exactness> exactness_;
   std::size_t count_ = 0;
+  bool has_changed_ = false;
   /// The sum of how far surfaces may be off.
   double distances_ = 0;
   std::optional<Candidates> candidates_;

@@ -153,23 +153,35 @@ std::optional<RoundedPolygon> moved(const RoundedPolygon& polygon, double distan
   return result;
 }
 
+namespace {
+
+/// Calls sharp(corner) and round(corner's turn, arc, radius) along the loop.
+template <typename Sharp, typename Round>
+void for_each_corner(const RoundedLoop& loop, const Sharp& sharp, const Round& round) {
+  const auto corners = corners_of(loop.corners);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double radius = loop.radii[i];
+    if (radius == 0) {
+      sharp(loop.corners[i]);
+    } else {
+      round(corners[i], arc_at(corners[i], radius), radius);
+    }
+  }
+}
+
+}  // namespace
+
 RoundedParts parts_of(const RoundedPolygon& polygon, int sides) {
   RoundedParts parts;
   for (const RoundedLoop& loop : polygon) {
     FlatLoop outline;
-    const auto corners = corners_of(loop.corners);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const double radius = loop.radii[i];
-      if (radius == 0) {
-        outline.push_back(loop.corners[i]);
-        continue;
-      }
-      const Arc arc = arc_at(corners[i], radius);
+    const auto sharp = [&](const FlatPoint& corner) { outline.push_back(corner); };
+    for_each_corner(loop, sharp, [&](const auto& corner, const Arc& arc, double radius) {
       outline.push_back(arc.first);
       outline.push_back(arc.last);
-      (corners[i].points_outwards() ? parts.added : parts.removed)
+      (corner.points_outwards() ? parts.added : parts.removed)
           .push_back({arc.center, radius, sides});
-    }
+    });
     parts.polygon.push_back(std::move(outline));
   }
   return parts;
@@ -179,17 +191,12 @@ FlatLoops outline_of(const RoundedPolygon& polygon, double sagitta) {
   FlatLoops loops;
   for (const RoundedLoop& loop : polygon) {
     FlatLoop& outline = loops.emplace_back();
-    const auto corners = corners_of(loop.corners);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const double radius = loop.radii[i];
-      if (radius == 0) {
-        outline.push_back(loop.corners[i]);
-        continue;
-      }
-      const Arc arc = arc_at(corners[i], radius);
-      for (const FlatPoint& n : directions_between(arc, radius, sagitta))
+    const auto sharp = [&](const FlatPoint& corner) { outline.push_back(corner); };
+    for_each_corner(loop, sharp, [&](const auto&, const Arc& arc, double radius) {
+      for (const FlatPoint& n : directions_between(arc, radius, sagitta)) {
         outline.push_back(shifted(arc.center, n, radius));
-    }
+      }
+    });
   }
   return loops;
 }

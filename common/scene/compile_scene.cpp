@@ -1,6 +1,7 @@
 #include "scene/compile_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "check.hpp"
@@ -35,9 +36,11 @@ class Compiler {
     model_.primitives.reserve(scene_.objects.size());
     exactness_.reserve(scene_.objects.size());
     for (const SceneObject& object : scene_.objects) add_object(object);
-    unify_coincident_surfaces(model_, exactness_);
-    for (Object& object : model_.objects)
-      object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    measure_unbounded();
+    if (unify_coincident_surfaces(model_, exactness_)) {
+      for (Object& object : model_.objects)
+        object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    }
     model_.delta = delta();
     return std::move(model_);
   }
@@ -56,6 +59,7 @@ class Compiler {
     out.first_node = static_cast<std::uint32_t>(model_.nodes.size());
     emit(object.csg, {.to_world = {}, .material = object.material, .inverted = false});
     out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
+    out.bounds = bounds_of(model_.tree(out), model_.primitives);
     model_.objects.push_back(out);
   }
 
@@ -118,6 +122,23 @@ class Compiler {
   double share_of(const CsgNode& leaf) const {
     const auto* mesh = std::get_if<MeshShape>(&leaf.value);
     return mesh == nullptr ? share_ : std::max(share_, share_of_digits(mesh->digits));
+  }
+
+  /// A half-space has no size to measure its offset by, which may be what is left of larger
+  /// numbers: that of the others does.
+  void measure_unbounded() {
+    constexpr float kPart = 1.0f / 8;
+    std::array<float, 3> most{};
+    const auto raise = [](std::array<float, 3>& to, const std::array<float, 3>& from,
+                          float factor) {
+      for (std::size_t a = 0; a < 3; ++a) to[a] = std::max(to[a], factor * from[a]);
+    };
+    for (std::size_t i = 0; i < exactness_.size(); ++i) {
+      if (model_.primitives[i].bounds.is_finite()) raise(most, exactness_[i].along, 1);
+    }
+    for (std::size_t i = 0; i < exactness_.size(); ++i) {
+      if (!model_.primitives[i].bounds.is_finite()) raise(exactness_[i].along, most, kPart);
+    }
   }
 
   static Primitive build(const Affine& m, const SphereShape& s) {

@@ -86,7 +86,8 @@ TEST_CASE("a scene from OpenSCAD has six digits, and so have its meshes from Ope
   } program;
   OpenscadOptions options;
   options.program = &program;
-  const Scene scene = scene_of("minkowski() { cube(1); sphere(1); }", options);
+  const Scene scene = scene_of(
+      "resize(newsize = [3, 0, 0], auto = [0, 0, 0]) { cube(size = [1, 1, 1]); }", options);
   CHECK(scene.digits == 6);
   CHECK(std::get<MeshShape>(scene.objects.at(0).csg.value).digits == 6);
 }
