@@ -346,7 +346,7 @@ class Importer {
   ReachDirections directions_;
   OpenscadReport& report_;
   ScadImport import_;
-  OpenscadPalette palette_;
+  Palette palette_;
 };
 
 }  // namespace

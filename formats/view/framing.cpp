@@ -105,7 +105,7 @@ Reach reach_of_operation(const OperationNode& operation, const Affine& to_world,
 /// The nearest eye on this view from which the four sides of the pyramid enclose the solid,
 /// symmetrically. A side's plane through the eye e lets the points with n · p ≤ n · e through, and
 /// n is, say, right − k forward.
-Vec3 nearest_eye(const OpenscadView& view, const Opening& k, const Reach& reach) {
+Vec3 nearest_eye(const ViewAxes& view, const Opening& k, const Reach& reach) {
   const double right = reach.along[6], left = reach.along[7];
   const double upper = reach.along[8], lower = reach.along[9];
   const double depth =
@@ -113,7 +113,7 @@ Vec3 nearest_eye(const OpenscadView& view, const Opening& k, const Reach& reach)
   return 0.5 * (right - left) * view.right + 0.5 * (upper - lower) * view.up + depth * view.forward;
 }
 
-Vec3 light_position(const OpenscadView& view, const Vec3& center, double radius,
+Vec3 light_position(const ViewAxes& view, const Vec3& center, double radius,
                     const Vec3& direction) {
   const Vec3 d = normalized(direction);
   return center + kLightDistance * radius * (d.x * view.right + d.y * view.up - d.z * view.forward);
@@ -126,7 +126,7 @@ Reach reach_of_unit_cube(const ReachDirections& directions) {
 
 }  // namespace
 
-OpenscadView OpenscadView::standard() {
+ViewAxes ViewAxes::standard() {
   const double tilt = sin_degrees(kTiltDegrees), lift = cos_degrees(kTiltDegrees);
   const double s = sin_degrees(kTurnDegrees), c = cos_degrees(kTurnDegrees);
   // From the eye, which the rotations take from +z to there; right is forward × z: not mirrored in
@@ -137,7 +137,7 @@ OpenscadView OpenscadView::standard() {
 }
 
 ReachDirections reach_directions(const Frame& frame) {
-  const OpenscadView view = OpenscadView::standard();
+  const ViewAxes view = ViewAxes::standard();
   const Opening k = opening(frame);
   const Vec3 across = k.across * view.forward, upright = k.upright * view.forward;
   return {Vec3{1, 0, 0},     Vec3{-1, 0, 0},    Vec3{0, 1, 0},       Vec3{0, -1, 0},
@@ -190,7 +190,7 @@ RenderSettings framed_settings(const Reach& reach, const Frame& frame) {
   const Aabb box = framed.box();
   const Vec3 center = box.center();
   const double radius = 0.5 * length(box.hi - box.lo);
-  const OpenscadView view = OpenscadView::standard();
+  const ViewAxes view = ViewAxes::standard();
 
   // What reaches are kept of intersections only bounds them, and might place the eye inside.
   Vec3 eye = nearest_eye(view, opening(frame), framed);

@@ -15,9 +15,9 @@ namespace graycube {
 
 /// The view of OpenSCAD's window, rotation [55, 0, 25], as unit vectors: `right` and `up` in the
 /// picture.
-struct OpenscadView {
+struct ViewAxes {
   Vec3 right, up, forward;
-  static OpenscadView standard();
+  static ViewAxes standard();
 };
 
 /// Directions n along which the largest n · p over a solid is kept: the six half-axes first (+x,

@@ -15,7 +15,7 @@ Scene scene_of_mesh(MeshShape mesh, const Frame& frame) {
   hull.value = PolyhedronShape{};
   scene.settings =
       framed_settings(reach_of(hull, mesh.mesh.points, Affine{}, reach_directions(frame)), frame);
-  OpenscadPalette palette;
+  Palette palette;
   SceneObject object{"mesh", palette.index_of(ScadColor{}), {}};
   object.csg.value = std::move(mesh);
   scene.materials = std::move(palette).take();

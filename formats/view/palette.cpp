@@ -35,7 +35,7 @@ Material material_of(const ScadColor& color) {
 
 }  // namespace
 
-MaterialIndex OpenscadPalette::index_of(const ScadColor& color) {
+MaterialIndex Palette::index_of(const ScadColor& color) {
   const auto next = static_cast<MaterialIndex>(materials_.size());
   const auto [place, is_new] = index_.try_emplace(color.rgba, next);
   if (is_new) {

@@ -1,4 +1,4 @@
-// The colours of a .csg file as materials.
+// Colours as materials.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct ScadColor {
 
 /// One material per colour, in the order of first use: "default", "color 1", "color 2" and so on.
 /// Components left open are those of OpenSCAD's yellow; alpha below 1 becomes transmit = 1 − alpha.
-class OpenscadPalette {
+class Palette {
  public:
   MaterialIndex index_of(const ScadColor& color);
   std::vector<NamedMaterial> take() { return std::move(materials_); }
