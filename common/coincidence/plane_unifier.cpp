@@ -82,7 +82,7 @@ void PlaneUnifier::collect(std::uint32_t primitive) {
     if (!candidates_->may_meet(first) && (h.count == 1 || !candidates_->may_meet(last))) return;
     const int axis = world_axis_of(h);
     if (axis == 3) return others_.push_back(h);
-    add_levels(h, world_axis(axis), 0, along_[static_cast<std::size_t>(axis)]);
+    add_levels(h, world_axis(axis), along_[static_cast<std::size_t>(axis)]);
   });
 }
 
@@ -100,53 +100,72 @@ void PlaneUnifier::unify_directions() {
     return direction_number(others_[i], which);
   };
   for_each_cluster(std::move(items), kDirectionNumbers, measure,
-                   [&](std::span<const Extent> cluster) {
-                     const Heading* best = &others_[cluster.front().item];
-                     for (const Extent& e : cluster) {
-                       if (is_better_direction(others_[e.item], *best)) best = &others_[e.item];
-                     }
-                     const Vec3 direction = turned_first(best->normal);
-                     std::vector<Level> group;
-                     for (const Extent& e : cluster)
-                       add_levels(others_[e.item], direction, best->tolerance, group);
-                     unify_offsets(direction, std::move(group));
-                   });
+                   [&](std::span<const Extent> cluster) { unify_direction(cluster); });
+}
+
+void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
+  const Heading* best = &others_[cluster.front().item];
+  for (const Extent& e : cluster) {
+    if (is_better_direction(others_[e.item], *best)) best = &others_[e.item];
+  }
+  const Vec3 direction = turned_first(best->normal);
+  std::vector<Level> group;
+  std::vector<Vec3> anchors;
+  Aabb around = Aabb::nothing();
+  for (const Extent& e : cluster) {
+    const Heading& h = others_[e.item];
+    for (std::uint32_t slot = h.slot; slot < h.slot + h.count; ++slot) {
+      const Anchored face = anchored_face(h.primitive, slot);
+      group.push_back(level_of(h.primitive, slot, face, direction));
+      anchors.push_back(face.anchor);
+      around.include(face.anchor);
+    }
+  }
+  // What faces in one plane but apart come to, seen along a direction that is a little off. It
+  // counts from the place nearest the origin among them: how far all of them are from there parts
+  // none.
+  Vec3 from;
+  for (int a = 0; a < 3; ++a) from[a] = std::min(std::max(0.0, around.lo[a]), around.hi[a]);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Vec3 away = anchors[i] - from;
+    group[i].tolerance += best->tolerance * length(away - dot(direction, away) * direction);
+  }
+  unify_offsets(direction, std::move(group));
 }
 
 /// The heading's faces along a direction that its own can't be told from.
 void PlaneUnifier::add_levels(const Heading& heading, const Vec3& direction,
-                              double direction_tolerance, std::vector<Level>& group) const {
-  for (std::uint32_t i = 0; i < heading.count; ++i) {
-    group.push_back(level_of(heading.primitive, heading.slot + i, direction, direction_tolerance));
+                              std::vector<Level>& group) const {
+  for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot) {
+    const Anchored face = anchored_face(heading.primitive, slot);
+    group.push_back(level_of(heading.primitive, slot, face, direction));
   }
 }
 
-Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction,
-                             double direction_tolerance) const {
+PlaneUnifier::Anchored PlaneUnifier::anchored_face(std::uint32_t primitive,
+                                                   std::uint32_t slot) const {
   const Primitive& p = model_.primitives[primitive];
-  Plane plane;
-  Vec3 anchor;
   if (p.kind == PrimitiveKind::kMesh) {
     const MeshFace f = mesh_faces_[place_of_mesh(primitive)].face(slot);
-    plane = f.plane;
-    anchor = f.middle;
-  } else {
-    plane = face_of(model_, primitive, slot).plane;
-    anchor = anchor_of(p, plane);
+    return {f.plane, f.middle};
   }
+  const Plane plane = face_of(model_, primitive, slot).plane;
+  return {plane, anchor_of(p, plane)};
+}
+
+Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const Anchored& face,
+                             const Vec3& direction) const {
   Level level;
   level.primitive = primitive;
   level.slot = slot;
-  level.is_backward = dot(direction, plane.normal) < 0;
-  level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
+  level.is_backward = dot(direction, face.plane.normal) < 0;
+  level.own = level.is_backward ? Plane{-face.plane.normal, -face.plane.offset} : face.plane;
   level.has_direction = level.own.normal == direction;
   // Otherwise it is turned about its middle.
-  level.offset = level.has_direction ? level.own.offset : dot(direction, anchor);
+  level.offset = level.has_direction ? level.own.offset : dot(direction, face.anchor);
   const Vec3 position = exactness_[primitive].position();
-  // What faces in one plane but far apart come to, seen along a direction that is a little off.
-  const double beside = length(anchor - level.offset * direction);
   level.tolerance = std::fabs(direction.x) * position.x + std::fabs(direction.y) * position.y +
-                    std::fabs(direction.z) * position.z + direction_tolerance * beside;
+                    std::fabs(direction.z) * position.z;
   return level;
 }
 

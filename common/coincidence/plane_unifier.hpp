@@ -37,11 +37,17 @@ class PlaneUnifier {
   template <typename Visit>
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   static double number_tolerance(double distance, double direction, double reach);
-  void add_levels(const Heading& heading, const Vec3& direction, double direction_tolerance,
-                  std::vector<Level>& group) const;
-  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction,
-                 double direction_tolerance) const;
+  /// A face and a point of it, in its middle.
+  struct Anchored {
+    Plane plane;
+    Vec3 anchor;
+  };
+  Anchored anchored_face(std::uint32_t primitive, std::uint32_t slot) const;
+  void add_levels(const Heading& heading, const Vec3& direction, std::vector<Level>& group) const;
+  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Anchored& face,
+                 const Vec3& direction) const;
   void unify_directions();
+  void unify_direction(std::span<const Extent> cluster);
   void unify_offsets(const Vec3& direction, std::vector<Level> group);
   void set(const Level& level, const Vec3& direction, double offset, bool is_shared_plane);
   bool settle();

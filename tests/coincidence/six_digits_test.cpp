@@ -118,3 +118,26 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("in six digits a turned part of 40 mm that is 57 m away keeps a floor of 2 mm") {
+  constexpr double kFloor = 2, kHeight = 8;
+  Dice dice(1);
+  for (int i = 0; i < 24; ++i) {
+    const Affine turned = rotation(dice.unit_vector(), dice.between(0, 180));
+    // These numbers have six digits.
+    const Affine away = translation({12345.6, -54321.7, 9876.5});
+    const CsgNode plate = node_of(BoxShape{{0, 0, 0}, {40, 30, kHeight}});
+    const CsgNode slot = node_of(BoxShape{{20, -1, kFloor}, {30, 31, kHeight + 1}});
+    Scene scene = scene_of({transformed(
+        transformed(operation(Operation::kDifference, {plate, slot}), turned), away)});
+    scene.digits = 6;
+    const Model model = compile_scene(scene);
+    CrossingFinder finder(model);
+    const Affine map = compose(away, turned);
+    const Ray ray{map.point({25, 15, 20}), normalized(map.vector({0, 0, -1}))};
+    const auto found = finder.all({"", ray, 0, 40, false});
+    REQUIRE(found.size() == 2);
+    // What lies within the digits of 57 m from each other may have become one: half a millimetre.
+    CHECK(found[1].t - found[0].t == Approx(kFloor).margin(0.6));
+  }
+}
