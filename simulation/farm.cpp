@@ -142,6 +142,7 @@ void Farm::deliver(const Frontal::Outgoing& o) {
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   if (o.to != peer_of(rank, incarnation)) return;
   if (rank.value == 0) watch_to_node(o.message);
+  if (on_sent) on_sent({}, rank, timeline_.now_s(), o.message);
   timeline_.at(machine_.arrival_s({}, rank, bytes_of(o.message), timeline_.now_s()),
                [this, rank, incarnation, message = o.message] {
                  node_receives(rank, incarnation, {}, message);
@@ -205,6 +206,7 @@ void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const
 void Farm::deliver(Rank rank, const Node::Outgoing& o) {
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   const Place to = o.to;
+  if (on_sent) on_sent(rank, to, timeline_.now_s(), o.message);
   if (to) {
     watch_batch(rank, *to, o.message.frame, true);
   } else {
