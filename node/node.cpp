@@ -166,7 +166,7 @@ void Node::forget_rays() {
   passing_.clear();
   rays_.set_fifo(is_blocking());
   stalled_.clear();
-  for (Borrowed& b : borrowed_) b.waiting.clear();
+  for (Loan& b : borrowed_) b.waiting.clear();
   rays_in_wait_ = 0;
   helped_.clear();
   outbox_rays_ = 0;

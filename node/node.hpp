@@ -120,7 +120,7 @@ class Node {
   std::uint32_t bit_towards(const RegionIndex& region) const { return cube_->first_bit(id_.rank, owner_of(region)); }
   void send_control(const ControlMessage& message);
   bool choose_work(Work& work);
-  void adopt_domain(WorkResult& result);
+  void adopt_domain(Built& built, double build_s);
   void send_ready_when_complete();
   BatchStamp stamp(std::uint64_t sequence) const;
 
@@ -129,8 +129,8 @@ class Node {
   Rank owner_of(const RegionIndex& region) const { return cube_->owner_of(region.column, region.row); }
   const std::shared_ptr<const Domain>& domain_of(std::uint32_t tile) const;
   std::optional<PixelRect> next_pixels();
-  void absorb(WorkResult& result);
-  void absorb_rays(WorkResult& result);
+  void absorb(Traced& traced);
+  void absorb_rays(Traced& traced);
   void forward_across(std::uint32_t bit, std::span<const RayTask> rays);
   void count_forwarded(std::uint32_t bit, std::span<const RayTask> rays);
   bool may_start_tiles() const;
@@ -151,7 +151,7 @@ class Node {
 
   // node_borrowing.cpp
   [[nodiscard]] bool waits_for_model(Rank owner, const RayTask& ray);
-  void adopt_borrowed(WorkResult& result);
+  void adopt_borrowed(Borrowed& borrowed);
 
   // node_classes.cpp
   bool is_full() const;
@@ -173,7 +173,7 @@ class Node {
 
   // node_sharing.cpp
   void on_copy(const control::Copy& m, const SharedBytes& slice);
-  void adopt_copy(WorkResult& result);
+  void adopt_copy(Copied& copied);
   void leave_copy(std::span<const RayTask> rays, Rank owner);
   void offer_help();
   void on_offer(Link& link, std::span<const std::byte> batch, Link::Offer offer);
@@ -235,12 +235,12 @@ class Node {
   std::deque<RayTask> stalled_;
   std::uint64_t moves_ = 0;
   /// Shadows local: what has become of each other node's model.
-  struct Borrowed {
+  struct Loan {
     enum class State : std::uint8_t { kUnasked, kAsked, kHeld, kRefused };
     State state = State::kUnasked;
     std::vector<RayTask> waiting;
   };
-  std::vector<Borrowed> borrowed_;  // by rank
+  std::vector<Loan> borrowed_;  // by rank
   /// Copies of neighbours' regions, by bit: their tiles and rays may come here.
   std::vector<std::shared_ptr<const Domain>> copies_;
   struct Helped {

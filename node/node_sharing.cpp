@@ -36,14 +36,11 @@ void Node::on_copy(const control::Copy& m, const SharedBytes& slice) {
   lent_.push_back(CopyWork{Rank{m.rank}, share_of(*cube_, Rank{m.rank}), slice, load_.horizon_bytes});
 }
 
-void Node::adopt_copy(WorkResult& result) {
-  if (!result.domain) {
-    send_control(control::NodeError{job_, result.error});
-    return;
-  }
+void Node::adopt_copy(Copied& copied) {
+  if (!copied.domain) return send_control(control::NodeError{job_, copied.error});
   ++stats_.models_borrowed;
-  const std::uint32_t bit = bit_of(*result.copied_from);
-  copies_[bit] = std::move(result.domain);
+  const std::uint32_t bit = bit_of(copied.from);
+  copies_[bit] = std::move(copied.domain);
   links_[bit].has_offered = false;
 }
 

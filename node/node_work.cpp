@@ -4,6 +4,7 @@
 
 #include "geometry/check.hpp"
 #include "node/node.hpp"
+#include "overloaded.hpp"
 #include "proto/control.hpp"
 #include "proto/share_of.hpp"
 #include "proto/tile_shape.hpp"
@@ -108,29 +109,29 @@ std::optional<PixelRect> Node::next_pixels() {
 
 void Node::give_result(WorkResult result) {
   if (result.job != job_ || result.epoch != epoch_ || state_ == State::kNoJob) return;
-  if (state_ == State::kBuilding) return adopt_domain(result);
+  if (auto* built = std::get_if<Built>(&result.what)) return adopt_domain(*built, result.build_s);
   GRAYCUBE_CHECK(working_ > 0, "a result without work");
   --working_;
   ++moves_;
-  if (result.borrowed_from) {
-    adopt_borrowed(result);
-  } else if (result.copied_from) {
-    adopt_copy(result);
-  } else {
-    absorb(result);
-    // Of each tile more is known of what the others take.
-    if (result.tile) share_work();
-  }
+  std::visit(Overloaded{
+                 [](Built&) {},
+                 [this](Borrowed& borrowed) { adopt_borrowed(borrowed); },
+                 [this](Copied& copied) { adopt_copy(copied); },
+                 [this](Traced& traced) {
+                   absorb(traced);
+                   // Of each tile more is known of what the others take.
+                   if (traced.tile) share_work();
+                 },
+             },
+             result.what);
   pass_token();
 }
 
-void Node::adopt_domain(WorkResult& result) {
-  if (!result.domain) {
-    send_control(control::NodeError{job_, result.error});
-    return;
-  }
-  domain_ = std::move(result.domain);
-  build_s_ = result.build_s;
+void Node::adopt_domain(Built& built, double build_s) {
+  if (state_ != State::kBuilding) return;
+  if (!built.domain) return send_control(control::NodeError{job_, built.error});
+  domain_ = std::move(built.domain);
+  build_s_ = build_s;
   const RenderSettings& settings = domain_->settings();
   const TileShape shape = tile_shape(load_.grain, load_.tile_size, settings.image);
   if (domain_->grid() != nullptr) {
@@ -164,11 +165,11 @@ void Node::send_ready_when_complete() {
                               domain_->cell_count(), build_s_});
 }
 
-void Node::absorb(WorkResult& result) {
-  const Step& step = result.step;
+void Node::absorb(Traced& traced) {
+  const Step& step = traced.step;
   const auto& created = step.rays.created;
-  work_done_ += work_cost(created, result.walk);
-  if (result.tile) ++tiles_traced_;
+  work_done_ += work_cost(created, traced.walk);
+  if (traced.tile) ++tiles_traced_;
   stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
   stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
   stats_.reflection += created[static_cast<std::size_t>(RayKind::kReflection)];
@@ -176,12 +177,12 @@ void Node::absorb(WorkResult& result) {
   stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
   stats_.non_finite += step.rounding.non_finite;
   stats_.clamped += step.rounding.clamped;
-  absorb_rays(result);
+  absorb_rays(traced);
   std::span<const PixelReturn> returns = step.returns;
   while (!returns.empty()) {
     // Where children's light for the same pixels will come, each has its one place.
-    returns = returns.subspan(result.tile && !has_children_
-                                  ? merge_.add_tile(returns, *result.tile, *plan_)
+    returns = returns.subspan(traced.tile && !has_children_
+                                  ? merge_.add_tile(returns, *traced.tile, *plan_)
                                   : merge_.add(returns, *plan_));
     if (merge_.is_full()) flush_contributions();
   }
@@ -193,27 +194,27 @@ void Node::absorb(WorkResult& result) {
 }
 
 /// The rays of a step: those that leave, those that lack a model, those that were set aside.
-void Node::absorb_rays(WorkResult& result) {
-  const Step& step = result.step;
-  if (result.on_class) release_room_after(*result.on_class);
+void Node::absorb_rays(Traced& traced) {
+  const Step& step = traced.step;
+  if (traced.on_class) release_room_after(*traced.on_class);
   for_each_region(step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
-    if (result.helped) return leave_copy(rays, *result.helped);
+    if (traced.helped) return leave_copy(rays, *traced.helped);
     const std::uint32_t bit = bit_towards(region);
-    if (load_.shadows != ShadowMode::kLocal) return leave(result.on_class, bit, rays);
+    if (load_.shadows != ShadowMode::kLocal) return leave(traced.on_class, bit, rays);
     for (const RayTask& ray : rays) {
       if (ray.kind == RayKind::kShadow && waits_for_model(owner_of(region), ray)) continue;
-      leave(result.on_class, bit, {&ray, 1});
+      leave(traced.on_class, bit, {&ray, 1});
     }
   });
   for (const Step::Lacking& l : step.lacking) {
     if (waits_for_model(owner_of(l.region), l.task)) continue;
-    leave(result.on_class, bit_of(owner_of(l.task.region)), {&l.task, 1});
+    leave(traced.on_class, bit_of(owner_of(l.task.region)), {&l.task, 1});
   }
   if (step.set_aside.empty()) return;
-  if (result.on_class) {
+  if (traced.on_class) {
     class_rays_.add_own(step.set_aside);
-  } else if (result.helped) {
-    helped_.push_front({*result.helped, std::move(result.step.set_aside), false});
+  } else if (traced.helped) {
+    helped_.push_front({*traced.helped, std::move(traced.step.set_aside), false});
   } else {
     own_rays_.add(step.set_aside, kNoLink);
   }

@@ -275,13 +275,13 @@ double Farm::begin(Turn& turn) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
   turn.result = processes_[turn.rank.value].bench->run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
-  const Step& step = turn.result->step;
-  for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
-  doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
-  doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);
+  if (const auto* traced = std::get_if<Traced>(&turn.result->what)) {
+    for (const std::uint64_t n : traced->step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
+    doings[Unit::kVisit] = static_cast<double>(traced->walk.cells_visited);
+    doings[Unit::kTest] = static_cast<double>(traced->walk.primitives_tested);
+  }
   if (observe) observe(doings, took_s);
   turn.seconds = take(turn.rank, doings);
-  // What was measured here would make messages longer or shorter from run to run.
   if (turn.is_build) turn.result->build_s = turn.seconds;
   return waking_s + turn.seconds;
 }
@@ -294,7 +294,9 @@ void Farm::end(Turn& turn) {
   if (!turn.is_build && !turn.is_copying) p.busy_s += turn.seconds;
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();
   PerUnit doings;
-  doings[Unit::kReturn] = static_cast<double>(turn.result->step.returns.size());
+  if (const auto* traced = std::get_if<Traced>(&turn.result->what)) {
+    doings[Unit::kReturn] = static_cast<double>(traced->step.returns.size());
+  }
   in_node(turn.rank, true, doings, [&](Node& node) { node.give_result(std::move(*turn.result)); });
   ask_for_turn(turn.rank, false);
 }
