@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frontal/frontal.hpp"
+#include "node/class_places.hpp"
 #include "node/node.hpp"
 #include "node/wait_clock.hpp"
 #include "proto/control.hpp"

@@ -1,0 +1,31 @@
+// What a node holds of scene and picture while a job is on: its macro-regions, the tiles, and what numbers may be.
+#pragma once
+
+#include <memory>
+
+#include "node/seat.hpp"
+#include "proto/batch.hpp"
+#include "proto/messages.hpp"
+#include "trace/domain.hpp"
+#include "trace/tile_plan.hpp"
+
+namespace graycube {
+
+struct Holding {
+  Seat seat;
+  std::shared_ptr<const Domain> domain;
+  TilePlan plan;
+  BatchLimits limits;
+
+  /// Of a domain that was built from what the job was loaded with.
+  static Holding of(const Seat& seat, const control::Load& load, std::shared_ptr<const Domain> domain);
+
+  bool holds(const RegionIndex& region) const { return domain->holds(region); }
+  /// Who traces it, where it isn't everybody's as in `roth`.
+  Rank owner_of_tile(std::uint32_t tile) const { return seat.owner_of(plan.owner_of_tile(tile)); }
+  bool is_own_tile(std::uint32_t tile) const { return holds(plan.owner_of_tile(tile)); }
+  /// Tiles that belong to this node; 0 where all are everybody's.
+  std::uint64_t own_tiles() const;
+};
+
+}  // namespace graycube
