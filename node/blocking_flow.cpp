@@ -7,7 +7,8 @@
 
 namespace graycube {
 
-BlockingFlow::BlockingFlow(const FlowRules& rules) : link_credit_(rules.link_credit_bytes), links_(rules.links) {
+BlockingFlow::BlockingFlow(const FlowRules& rules)
+    : link_credit_(rules.link_credit_bytes), links_(rules.links) {
   BlockingFlow::reset();
 }
 
@@ -25,14 +26,16 @@ Pace BlockingFlow::pace() const {
   return pace;
 }
 
-void BlockingFlow::leave(std::uint32_t bit, std::span<const RayTask> rays, std::optional<std::uint16_t>) {
+void BlockingFlow::leave(std::uint32_t bit, std::span<const RayTask> rays,
+                         std::optional<std::uint16_t>) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
   counts_.count_forwarded(rays);
   for (const RayTask& ray : rays) stalled_.push_back({ray, bit});
   counts_.outbox_peak = std::max<std::uint64_t>(counts_.outbox_peak, stalled_.size());
 }
 
-bool BlockingFlow::pass_on(std::uint32_t from_bit, std::uint32_t to_bit, std::span<const RayTask> rays) {
+bool BlockingFlow::pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+                           std::span<const RayTask> rays) {
   taken(from_bit, rays.size());
   leave(to_bit, rays, std::nullopt);
   return false;
@@ -61,12 +64,15 @@ std::size_t BlockingFlow::gift_room(std::uint32_t bit) const {
   return static_cast<std::size_t>(links_[bit].send_credit / kRayBytes);
 }
 
-void BlockingFlow::taken(std::uint32_t bit, std::size_t rays) { links_[bit].ungranted += rays * kRayBytes; }
+void BlockingFlow::taken(std::uint32_t bit, std::size_t rays) {
+  links_[bit].ungranted += rays * kRayBytes;
+}
 
 void BlockingFlow::grant(std::uint32_t bit, Mail& mail) {
   Link& link = links_[bit];
   if (link.ungranted == 0) return;
-  mail.to_neighbour(bit, [&](const BatchStamp& stamp) { return encode_link_credit(stamp, link.ungranted); });
+  mail.to_neighbour(
+      bit, [&](const BatchStamp& stamp) { return encode_link_credit(stamp, link.ungranted); });
   link.granted += std::exchange(link.ungranted, 0);
 }
 
@@ -76,8 +82,11 @@ bool BlockingFlow::was_granted(std::uint32_t bit, std::uint64_t bytes, bool part
   return send(partial, mail);
 }
 
-std::optional<control::WaitReport> BlockingFlow::wait_report() const {
+void BlockingFlow::answer_ping(std::uint64_t ping, Mail& mail) const {
   control::WaitReport report;
+  report.job = mail.job();
+  report.epoch = mail.epoch();
+  report.ping = ping;
   report.is_stalled = is_stalled();
   report.moves = moves_;
   if (is_stalled()) report.waits_for = stalled_.front().bit;
@@ -85,7 +94,7 @@ std::optional<control::WaitReport> BlockingFlow::wait_report() const {
     report.granted.push_back(link.granted);
     report.received.push_back(link.received);
   }
-  return report;
+  mail.to_frontal(report);
 }
 
 }  // namespace graycube

@@ -1,5 +1,6 @@
-// The flow of 1987: one ray a message, in order; an evaluator whose ray finds the next node's queue full waits, with
-// all that it holds. Evaluators that wait for each other in a circle deadlock, which the frontal finds out.
+// The flow of 1987: one ray a message, in order; an evaluator whose ray finds the next node's queue
+// full waits, with all that it holds. Evaluators that wait for each other in a circle deadlock,
+// which the frontal finds out.
 #pragma once
 
 #include <deque>
@@ -14,8 +15,10 @@ class BlockingFlow : public RayFlow {
   explicit BlockingFlow(const FlowRules& rules);
 
   Pace pace() const override;
-  void leave(std::uint32_t bit, std::span<const RayTask> rays, std::optional<std::uint16_t> on_class) override;
-  bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit, std::span<const RayTask> rays) override;
+  void leave(std::uint32_t bit, std::span<const RayTask> rays,
+             std::optional<std::uint16_t> on_class) override;
+  bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+               std::span<const RayTask> rays) override;
   bool send(bool partial, Mail& mail) override;
   void flush(Mail& mail) override;
   void give(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) override;
@@ -26,7 +29,7 @@ class BlockingFlow : public RayFlow {
   bool is_stalled() const override { return !stalled_.empty(); }
   bool is_empty() const override { return RayFlow::is_empty() && !is_stalled(); }
   void has_moved() override { ++moves_; }
-  std::optional<control::WaitReport> wait_report() const override;
+  void answer_ping(std::uint64_t ping, Mail& mail) const override;
   void report(control::NodeStats& stats) const override { counts_.report(stats); }
   void reset() override;
 

@@ -19,7 +19,8 @@ void Borrowing::ask(Rank owner, Mail& mail) {
   // A model takes about this many times its slice once it is subdivided.
   constexpr std::uint64_t kMemoryPerSliceByte = 4;
   if (room_ > 0) {
-    mail.to_frontal(control::Borrow{mail.job(), mail.epoch(), owner.value, room_ / kMemoryPerSliceByte});
+    mail.to_frontal(
+        control::Borrow{mail.job(), mail.epoch(), owner.value, room_ / kMemoryPerSliceByte});
   }
 }
 

@@ -11,15 +11,18 @@ namespace graycube {
 
 class Borrowing {
  public:
-  /// `is_on`: shadow rays are finished by who sent them. `room`: bytes of memory for others' models.
-  Borrowing(std::uint32_t nodes, bool is_on, std::uint64_t room) : is_on_(is_on), room_(room), loans_(nodes) {}
+  /// `is_on`: shadow rays are finished by who sent them. `room`: bytes of memory for others'
+  /// models.
+  Borrowing(std::uint32_t nodes, bool is_on, std::uint64_t room)
+      : is_on_(is_on), room_(room), loans_(nodes) {}
   bool is_on() const { return is_on_; }
 
   /// Where a ray goes on that lacks a node's model.
   enum class Place : std::uint8_t {
     kHere,   ///< the model is here meanwhile
     kWaits,  ///< it was taken over, until the model comes
-    kThere,  ///< there is no memory for the model: with the neighbour whose region the ray has entered
+    kThere,  ///< there is no memory for the model: with the neighbour whose region the ray has
+             ///< entered
   };
   Place place_of(Rank owner, const RayTask& ray, Mail& mail);
 

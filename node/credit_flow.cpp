@@ -9,15 +9,17 @@
 namespace graycube {
 namespace {
 
-/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most that part of the
-/// link's credit is out.
+/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most
+/// that part of the link's credit is out.
 constexpr std::size_t kEagerPart = 4, kQuietPart = 8;
 /// No primary rays are started while so many rays wait to be sent.
 constexpr std::uint64_t kLongOutboxes = 8192;
 
 }  // namespace
 
-CreditFlow::CreditFlow(const FlowRules& rules) : rules_(rules), links_(rules.links) { CreditFlow::reset(); }
+CreditFlow::CreditFlow(const FlowRules& rules) : rules_(rules), links_(rules.links) {
+  CreditFlow::reset();
+}
 
 void CreditFlow::reset() {
   RayFlow::reset();
@@ -36,7 +38,8 @@ Pace CreditFlow::pace() const {
 
 bool CreditFlow::is_full() const { return outbox_rays_ + reserved() >= rules_.outbox_rays; }
 
-/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty themselves.
+/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty
+/// themselves.
 bool CreditFlow::may_start_tiles() const { return outbox_rays_ < kLongOutboxes && !is_full(); }
 
 std::size_t CreditFlow::held() const {
@@ -51,7 +54,8 @@ bool CreditFlow::is_empty() const {
 
 // ---- rays out
 
-void CreditFlow::leave(std::uint32_t bit, std::span<const RayTask> rays, std::optional<std::uint16_t> on_class) {
+void CreditFlow::leave(std::uint32_t bit, std::span<const RayTask> rays,
+                       std::optional<std::uint16_t> on_class) {
   GRAYCUBE_CHECK(bit < links_.size(), "a ray left for a node that is no neighbour");
   counts_.count_forwarded(rays);
   outbox_rays_ += rays.size();
@@ -65,7 +69,8 @@ void CreditFlow::leave(std::uint32_t bit, std::span<const RayTask> rays, std::op
   }
 }
 
-bool CreditFlow::pass_on(std::uint32_t from_bit, std::uint32_t to_bit, std::span<const RayTask> rays) {
+bool CreditFlow::pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+                         std::span<const RayTask> rays) {
   if (is_full()) {
     passing_.push_back({from_bit, to_bit, {rays.begin(), rays.end()}});
     return false;
@@ -96,23 +101,26 @@ void CreditFlow::flush(Mail& mail) {
   }
 }
 
-/// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under way on
-/// the link, smaller ones.
+/// Sends what the link's credit allows: full batches, and with `partial`, or while nothing is under
+/// way on the link, smaller ones.
 void CreditFlow::send_link(std::uint32_t bit, bool partial, Mail& mail) {
   Link& link = links_[bit];
   send_class_outbox(bit, mail);
-  const std::size_t full = std::clamp<std::size_t>(rules_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
+  const std::size_t full =
+      std::clamp<std::size_t>(rules_.batch_bytes / kRayBytes, 1, kMaxRaysPerBatch);
   for (;;) {
     const std::size_t waiting = link.outbox.size();
     const std::size_t count = std::min({waiting, gift_room(bit), full});
     const std::uint64_t under_way = rules_.link_credit_bytes - link.send_credit;
-    const bool eager = kQuietPart * under_way <= rules_.link_credit_bytes && kEagerPart * waiting >= full;
+    const bool eager =
+        kQuietPart * under_way <= rules_.link_credit_bytes && kEagerPart * waiting >= full;
     if (count == 0 || (count < full && !partial && !eager)) break;
     give(bit, link.outbox.oldest(count), mail);
     link.outbox.drop_oldest(count);
     outbox_rays_ -= count;
   }
-  if (link.send_credit < kRayBytes && (is_full() || !link.class_outbox.empty())) send_on_class(bit, mail);
+  if (link.send_credit < kRayBytes && (is_full() || !link.class_outbox.empty()))
+    send_on_class(bit, mail);
 }
 
 void CreditFlow::give(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
@@ -134,13 +142,14 @@ void CreditFlow::send_class_outbox(std::uint32_t bit, Mail& mail) {
   waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(paid));
 }
 
-/// Where there is no such credit: what descends from rays on class credit, and of a full node all else, while there
-/// are places for their classes.
+/// Where there is no such credit: what descends from rays on class credit, and of a full node all
+/// else, while there are places for their classes.
 void CreditFlow::send_on_class(std::uint32_t bit, Mail& mail) {
   Link& link = links_[bit];
   std::vector<RayTask> rays;
   std::erase_if(link.class_outbox, [&](const RayTask& ray) {
-    if (rays.size() == kMaxRaysPerBatch || !link.places_out.take(ray.hops, rules_.class_places)) return false;
+    if (rays.size() == kMaxRaysPerBatch || !link.places_out.take(ray.hops, rules_.class_places))
+      return false;
     rays.push_back(ray);
     forget_class_ray(ray);
     return true;
@@ -162,15 +171,20 @@ void CreditFlow::forget_class_ray(const RayTask& ray) {
 
 // ---- credit
 
-void CreditFlow::taken(std::uint32_t bit, std::size_t rays) { links_[bit].ungranted += rays * kRayBytes; }
+void CreditFlow::taken(std::uint32_t bit, std::size_t rays) {
+  links_[bit].ungranted += rays * kRayBytes;
+}
 
 /// A node at work gives back half of a link's credit at once.
-void CreditFlow::grant(std::uint32_t bit, Mail& mail) { grant_from(bit, rules_.link_credit_bytes / 2, mail); }
+void CreditFlow::grant(std::uint32_t bit, Mail& mail) {
+  grant_from(bit, rules_.link_credit_bytes / 2, mail);
+}
 
 void CreditFlow::grant_from(std::uint32_t bit, std::uint64_t least, Mail& mail) {
   Link& link = links_[bit];
   if (link.ungranted == 0 || link.ungranted < least) return;
-  mail.to_neighbour(bit, [&](const BatchStamp& stamp) { return encode_link_credit(stamp, link.ungranted); });
+  mail.to_neighbour(
+      bit, [&](const BatchStamp& stamp) { return encode_link_credit(stamp, link.ungranted); });
   link.ungranted = 0;
 }
 
@@ -183,12 +197,15 @@ bool CreditFlow::was_granted(std::uint32_t bit, std::uint64_t bytes, bool partia
 // ---- rays on the credit of their classes
 
 /// What an evaluator of a full node may send on of what it traces together.
-std::uint64_t CreditFlow::children_per_class_work() const { return rays_per_class_work() * rules_.most_children; }
+std::uint64_t CreditFlow::children_per_class_work() const {
+  return rays_per_class_work() * rules_.most_children;
+}
 
-/// Rays on class credit that an evaluator of a full node traces together: for all classes, the room for what they may
-/// send on is a quarter of the outboxes, or enough for one.
+/// Rays on class credit that an evaluator of a full node traces together: for all classes, the room
+/// for what they may send on is a quarter of the outboxes, or enough for one.
 std::uint64_t CreditFlow::rays_per_class_work() const {
-  const std::uint64_t fitting = rules_.outbox_rays / (4 * rules_.classes * rules_.threads * rules_.most_children);
+  const std::uint64_t fitting =
+      rules_.outbox_rays / (4 * rules_.classes * rules_.threads * rules_.most_children);
   return std::clamp<std::uint64_t>(fitting, 1, Evaluator::kWaveRays);
 }
 
@@ -206,8 +223,10 @@ bool CreditFlow::has_class_work() const {
   return reserved() == 0 && next_class(true, {}).has_value();
 }
 
-/// The highest that may be taken: of a full node with room after it, and that of the rays begun with.
-std::optional<std::uint16_t> CreditFlow::next_class(bool is_full, const std::vector<RayTask>& begun) const {
+/// The highest that may be taken: of a full node with room after it, and that of the rays begun
+/// with.
+std::optional<std::uint16_t> CreditFlow::next_class(bool is_full,
+                                                    const std::vector<RayTask>& begun) const {
   return class_rays_.highest([&](std::uint16_t c) {
     return !is_full || (has_room_after(c) && (begun.empty() || c == begun.front().hops));
   });
@@ -246,12 +265,14 @@ void CreditFlow::class_work_ended(std::uint16_t on_class, std::span<const RayTas
   class_rays_.add_own(set_aside);
 }
 
-void CreditFlow::give_back_classes(std::uint32_t bit, std::span<const std::uint16_t> classes, Mail& mail) {
+void CreditFlow::give_back_classes(std::uint32_t bit, std::span<const std::uint16_t> classes,
+                                   Mail& mail) {
   if (classes.empty()) return;
   for (const std::uint16_t c : classes) {
     GRAYCUBE_CHECK(links_[bit].places_in.give_back(c), "class %u held no place", c);
   }
-  mail.to_neighbour(bit, [&](const BatchStamp& stamp) { return encode_class_credit(stamp, classes); });
+  mail.to_neighbour(bit,
+                    [&](const BatchStamp& stamp) { return encode_class_credit(stamp, classes); });
 }
 
 bool CreditFlow::add_class_rays(std::uint32_t bit, std::span<const RayTask> rays) {
@@ -262,10 +283,11 @@ bool CreditFlow::add_class_rays(std::uint32_t bit, std::span<const RayTask> rays
   return true;
 }
 
-void CreditFlow::on_class_credit(std::uint32_t bit, std::span<const std::uint16_t> classes, bool partial,
-                                 Mail& mail) {
+void CreditFlow::was_given_places(std::uint32_t bit, std::span<const std::uint16_t> classes,
+                                  bool partial, Mail& mail) {
   for (const std::uint16_t c : classes) {
-    if (!links_[bit].places_out.give_back(c)) mail.drop("class credit", "of a class that it was not due for");
+    if (!links_[bit].places_out.give_back(c))
+      mail.drop("class credit", "of a class that it was not due for");
   }
   send_link(bit, partial, mail);
 }

@@ -1,8 +1,8 @@
-// The flow of rays by credit (ARCHITECTURE.md, "Flow"): batches go out as far as the neighbours' credit reaches, what
-// waits for it lies in outboxes, and where these hold all that they may, the node is full. Then evaluators trace only
-// rays that came on the credit of their classes, of one class at a time, and only while there is room for what may
-// descend from them: its class is one higher. The highest class sends nothing on, so that every class finds room in the
-// end.
+// The flow of rays by credit (ARCHITECTURE.md, "Flow"): batches go out as far as the neighbours'
+// credit reaches, what waits for it lies in outboxes, and where these hold all that they may, the
+// node is full. Then evaluators trace only rays that came on the credit of their classes, of one
+// class at a time, and only while there is room for what may descend from them: its class is one
+// higher. The highest class sends nothing on, so that every class finds room in the end.
 #pragma once
 
 #include <deque>
@@ -20,8 +20,10 @@ class CreditFlow : public RayFlow {
   explicit CreditFlow(const FlowRules& rules);
 
   Pace pace() const override;
-  void leave(std::uint32_t bit, std::span<const RayTask> rays, std::optional<std::uint16_t> on_class) override;
-  bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit, std::span<const RayTask> rays) override;
+  void leave(std::uint32_t bit, std::span<const RayTask> rays,
+             std::optional<std::uint16_t> on_class) override;
+  bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+               std::span<const RayTask> rays) override;
   void pass_on_what_waits() override;
   bool send(bool partial, Mail& mail) override;
   void flush(Mail& mail) override;
@@ -32,7 +34,8 @@ class CreditFlow : public RayFlow {
   bool was_granted(std::uint32_t bit, std::uint64_t bytes, bool partial, Mail& mail) override;
 
   [[nodiscard]] bool add_class_rays(std::uint32_t bit, std::span<const RayTask> rays) override;
-  void on_class_credit(std::uint32_t bit, std::span<const std::uint16_t> classes, bool partial, Mail& mail) override;
+  void was_given_places(std::uint32_t bit, std::span<const std::uint16_t> classes, bool partial,
+                        Mail& mail) override;
   bool has_class_work() const override;
   std::optional<ClassWork> take_class_work(const Route& route, Mail& mail) override;
   void class_work_ended(std::uint16_t on_class, std::span<const RayTask> set_aside) override;

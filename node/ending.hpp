@@ -1,5 +1,5 @@
-// How a node passes the token on that finds the end (coordination/termination.hpp): when, to whom, and what rank 0
-// tells the frontal of it.
+// How a node passes the token on that finds the end (coordination/termination.hpp): when, to whom,
+// and what rank 0 tells the frontal of it.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,14 @@
 
 #include "coordination/termination.hpp"
 #include "node/mail.hpp"
+#include "node/seat.hpp"
 
 namespace graycube {
 
 class Ending {
  public:
-  struct Ring {
-    /// Across which the next node on the ring is; nothing on a ring of one.
-    std::optional<std::uint32_t> next_bit;
-    /// Rounds begin without waiting for what hints at the end, as in 1987.
-    bool never_rests = false;
-  };
-  Ending(Rank rank, const Ring& ring);
+  /// `never_rests`: rounds begin without waiting for what hints at the end, as in 1987.
+  Ending(const Seat& seat, bool never_rests);
 
   /// Rays, tiles or light came from a neighbour.
   void work_came() { token_.message_received(); }
@@ -28,9 +24,10 @@ class Ending {
   /// No ray is left anywhere; told to rank 0.
   void all_are_whole() { all_are_whole_ = true; }
   /// False when it was of no use.
-  [[nodiscard]] bool on_token(std::span<const std::byte> batch, const BatchLimits& limits, Mail& mail);
-  /// Passes the token on if it is here and may go. Passive: nothing is under way on this node. `ping`: that of the
-  /// frontal which is being answered.
+  [[nodiscard]] bool on_token(std::span<const std::byte> batch, const BatchLimits& limits,
+                              Mail& mail);
+  /// Passes the token on if it is here and may go. Passive: nothing is under way on this node.
+  /// `ping`: that of the frontal which is being answered.
   void pass(bool is_passive, std::optional<std::uint64_t> ping, Mail& mail);
   /// A new epoch.
   void reset();
@@ -40,7 +37,9 @@ class Ending {
   void tell_round(const Token& token, Mail& mail) const;
   void tell_verdict(Mail& mail) const;
 
-  Ring ring_;
+  /// Across which the next node on the ring is; nothing on a ring of one.
+  std::optional<std::uint32_t> next_bit_;
+  bool never_rests_;
   bool is_initiator_;
   TerminationRing token_;
   bool all_are_whole_ = false;

@@ -6,12 +6,12 @@
 namespace graycube {
 namespace {
 
-/// Own tiles not begun, and rays received, from which on a node shares them. A ray costs about as much to send as to
-/// trace, so that it takes many of them.
+/// Own tiles not begun, and rays received, from which on a node shares them. A ray costs about as
+/// much to send as to trace, so that it takes many of them.
 constexpr std::size_t kTilesToShare = 2;
 constexpr std::size_t kRaysToShare = 1024;
-/// Before a neighbour has a copy it takes so many tiles, and one more for so many bytes of the slice: to send and
-/// subdivide it costs about as much as to trace them.
+/// Before a neighbour has a copy it takes so many tiles, and one more for so many bytes of the
+/// slice: to send and subdivide it costs about as much as to trace them.
 constexpr std::size_t kTilesToCopy = 8;
 constexpr std::size_t kBytesPerTile = std::size_t{16} << 10;
 constexpr std::size_t kBytesPerRay = 32;
@@ -25,7 +25,8 @@ constexpr std::size_t kMostRaysAtATime = 512;
 }  // namespace
 
 void Helping::reset() {
-  for (Neighbour& n : neighbours_) n = {false, Offer::kNone, n.offered_after, false, std::move(n.copy)};
+  for (Neighbour& n : neighbours_)
+    n = {false, Offer::kNone, n.offered_after, false, std::move(n.copy)};
   work_done_ = 0;
   tiles_traced_ = 0;
 }
@@ -78,12 +79,13 @@ double Helping::work_of_a_tile() const {
   return tiles_traced_ < kTellingTiles ? 0 : work_done_ / static_cast<double>(tiles_traced_);
 }
 
-/// What brings both to the same if a neighbour that is idle does it: half of what this node will have done, as far as
-/// can be told, beyond what the neighbour has. Who is idle first need not have less to do, but may have been let run
-/// first.
+/// What brings both to the same if a neighbour that is idle does it: half of what this node will
+/// have done, as far as can be told, beyond what the neighbour has. Who is idle first need not have
+/// less to do, but may have been let run first.
 double Helping::work_to_spare(const Neighbour& neighbour, const Supply& supply) const {
-  const double to_do = work_of_a_tile() * static_cast<double>(supply.tiles + supply.unassigned_tiles) +
-                       kRayWork * static_cast<double>(supply.rays);
+  const double to_do =
+      work_of_a_tile() * static_cast<double>(supply.tiles + supply.unassigned_tiles) +
+      kRayWork * static_cast<double>(supply.rays);
   return 0.5 * (work_done_ + to_do - static_cast<double>(neighbour.offered_after));
 }
 
@@ -91,20 +93,23 @@ bool Helping::copy_pays(const Neighbour& neighbour, const Supply& supply) const 
   const double tile = work_of_a_tile(), spare = work_to_spare(neighbour, supply);
   const std::size_t least_tiles = kTilesToCopy + rules_.slice_bytes / kBytesPerTile;
   const std::size_t least_rays = kRaysToShare + rules_.slice_bytes / kBytesPerRay;
-  return (tile > 0 && supply.tiles >= 2 * least_tiles && spare >= tile * static_cast<double>(least_tiles)) ||
+  return (tile > 0 && supply.tiles >= 2 * least_tiles &&
+          spare >= tile * static_cast<double>(least_tiles)) ||
          (supply.rays >= least_rays && spare >= 0.5 * kRayWork * static_cast<double>(least_rays));
 }
 
 /// Tiles rather than rays: they are a few bytes.
-Helping::Gift Helping::gift_of(const Neighbour& neighbour, const Supply& supply, std::size_t most_rays) const {
+Helping::Gift Helping::gift_of(const Neighbour& neighbour, const Supply& supply,
+                               std::size_t most_rays) const {
   const double tile = work_of_a_tile(), spare = work_to_spare(neighbour, supply);
   if (supply.tiles >= kTilesToShare && supply.own_tiles_at_end > 0 && tile > 0 && spare >= tile) {
-    return {Gift::Kind::kTiles, std::min({supply.tiles / 2, kMostTiles, static_cast<std::size_t>(spare / tile),
-                                          supply.own_tiles_at_end})};
+    return {Gift::Kind::kTiles,
+            std::min({supply.tiles / 2, kMostTiles, static_cast<std::size_t>(spare / tile),
+                      supply.own_tiles_at_end})};
   }
   if (supply.rays < kRaysToShare || spare < kRayWork) return {};
-  const std::size_t most =
-      std::min({supply.rays / 2, kMostRaysAtATime, most_rays, static_cast<std::size_t>(spare / kRayWork)});
+  const std::size_t most = std::min(
+      {supply.rays / 2, kMostRaysAtATime, most_rays, static_cast<std::size_t>(spare / kRayWork)});
   if (most == 0) return {};
   return {Gift::Kind::kRays, most};
 }

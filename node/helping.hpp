@@ -1,5 +1,5 @@
-// Neighbours that help each other: who has nothing to do says so, and gets tiles and rays of a neighbour that has
-// much, to trace them in a copy of its regions.
+// Neighbours that help each other: who has nothing to do says so, and gets tiles and rays of a
+// neighbour that has much, to trace them in a copy of its regions.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ class Helping {
   static constexpr std::size_t kMostTiles = 16;
   /// What waits on this node.
   struct Supply {
-    /// To be begun, and how many at their end are own ones, up to kMostTiles; and what the frontal has not handed out
-    /// yet.
+    /// To be begun, and how many at their end are own ones, up to kMostTiles; and what the frontal
+    /// has not handed out yet.
     std::size_t tiles = 0, own_tiles_at_end = 0;
     std::uint64_t unassigned_tiles = 0;
     std::size_t rays = 0;
@@ -51,8 +51,8 @@ class Helping {
   void took_over(std::uint64_t tiles, std::uint64_t rays);
 
   // Who is helped
-  /// A neighbour without tiles may begin, and be idle, before this node has heard that the picture begins: its offer
-  /// waits. False when the batch is broken.
+  /// A neighbour without tiles may begin, and be idle, before this node has heard that the picture
+  /// begins: its offer waits. False when the batch is broken.
   [[nodiscard]] bool on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type,
                               const BatchLimits& limits, Mail& mail);
   bool has_offer(std::uint32_t bit) const { return neighbours_[bit].offer != Offer::kNone; }
@@ -70,7 +70,8 @@ class Helping {
   struct Neighbour {
     /// That this node has nothing to do.
     bool was_told = false;
-    /// What it has told, until it gets something; and what it had done by then, in tests of a primitive.
+    /// What it has told, until it gets something; and what it had done by then, in tests of a
+    /// primitive.
     Offer offer = Offer::kNone;
     std::uint64_t offered_after = 0;
     /// The frontal was asked to give it a copy of this node's slice.

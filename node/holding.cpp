@@ -32,14 +32,30 @@ BatchLimits limits_of(const Seat& seat, const Domain& domain, const TilePlan& pl
 
 }  // namespace
 
-Holding Holding::of(const Seat& seat, const control::Load& load, std::shared_ptr<const Domain> domain) {
+Holding Holding::of(const Seat& seat, const control::Load& load,
+                    std::shared_ptr<const Domain> domain) {
   TilePlan plan = plan_of(load, *domain);
   const BatchLimits limits = limits_of(seat, *domain, plan);
   return {seat, std::move(domain), std::move(plan), limits};
 }
 
+std::optional<std::uint32_t> Holding::next_link(const RegionIndex& region) const {
+  if (holds(region)) return std::nullopt;
+  return seat.bit_towards(region);
+}
+
+bool Holding::is_due(const RegionIndex& region, bool neighbours_help) const {
+  if (holds(region) || domain->has_foreign_bounds()) return true;
+  return neighbours_help && seat.bit_of(seat.owner_of(region)) < seat.links();
+}
+
 std::uint64_t Holding::own_tiles() const {
   return domain->grid() != nullptr ? plan.tiles_of(seat.share()).size() : 0;
+}
+
+void Holding::report(control::NodeStats& stats) const {
+  stats.primitives = domain->model().primitives.size();
+  stats.memory_bytes = domain->memory_bytes();
 }
 
 }  // namespace graycube

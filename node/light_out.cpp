@@ -19,17 +19,19 @@ void LightOut::reset() {
   holds_others_light_ = false;
 }
 
-void LightOut::add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile, const TilePlan& plan,
-                   Mail& mail) {
+void LightOut::add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
+                   const TilePlan& plan, Mail& mail) {
   while (!returns.empty()) {
     // Where children's light for the same pixels will come, each has its one place.
     const bool comes_once = tile && !has_children_;
-    returns = returns.subspan(comes_once ? merged_.add_tile(returns, *tile, plan) : merged_.add(returns, plan));
+    returns = returns.subspan(comes_once ? merged_.add_tile(returns, *tile, plan)
+                                         : merged_.add(returns, plan));
     if (merged_.is_full()) send(mail);
   }
 }
 
-bool LightOut::on_sums(std::uint32_t bit, std::span<const std::byte> batch, const BatchLimits& limits, Mail& mail) {
+bool LightOut::on_sums(std::uint32_t bit, std::span<const std::byte> batch,
+                       const BatchLimits& limits, Mail& mail) {
   BatchLimits with_aovs = limits;
   with_aovs.pixel_count *= 1 + kAovPlanes;
   std::vector<TileCredit> credits;
@@ -39,7 +41,8 @@ bool LightOut::on_sums(std::uint32_t bit, std::span<const std::byte> batch, cons
   if (error != nullptr || !is_child_[bit] || credits.size() > MergeBuffer::kMostPixels ||
       contributions.size() > MergeBuffer::kMostPixels) {
     mail.drop("contributions", error != nullptr ? to_string(*error) : "not a child's, or too many");
-    mail.fail("a broken batch of contributions came from node " + std::to_string(mail.peer(bit).value));
+    mail.fail("a broken batch of contributions came from node " +
+              std::to_string(mail.peer(bit).value));
     return false;
   }
   if (!merged_.add_gathered(credits, contributions)) {
@@ -55,10 +58,12 @@ void LightOut::send(Mail& mail) {
   if (is_empty()) return;
   holds_others_light_ = false;
   const auto encoded = [this](const BatchStamp& stamp) {
-    return encode_contributions(stamp, merged_.gathered().credits, merged_.gathered().contributions);
+    return encode_contributions(stamp, merged_.gathered().credits,
+                                merged_.gathered().contributions);
   };
   Sent& sent = parent_bit_ ? to_parent_ : to_frontal_;
-  sent.bytes += parent_bit_ ? mail.work_to_neighbour(*parent_bit_, encoded) : mail.light_to_frontal(encoded);
+  sent.bytes +=
+      parent_bit_ ? mail.work_to_neighbour(*parent_bit_, encoded) : mail.light_to_frontal(encoded);
   ++sent.batches;
   merged_.clear();
 }

@@ -1,4 +1,5 @@
-// Light on its way to the picture: gathered here, sent to the frontal or to the parent in the tree of sums.
+// Light on its way to the picture: gathered here, sent to the frontal or to the parent in the tree
+// of sums.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,13 @@ class LightOut {
   LightOut(const Seat& seat, SumsMode sums);
 
   /// Of a tile's primary rays, or of rays that came from anywhere.
-  void add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile, const TilePlan& plan,
-           Mail& mail);
-  /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the latest when nobody
-  /// here is at work. False when the batch is broken or nobody's child sent it: the job has failed then.
-  [[nodiscard]] bool on_sums(std::uint32_t bit, std::span<const std::byte> batch, const BatchLimits& limits,
-                             Mail& mail);
+  void add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
+           const TilePlan& plan, Mail& mail);
+  /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the
+  /// latest when nobody here is at work. False when the batch is broken or nobody's child sent it:
+  /// the job has failed then.
+  [[nodiscard]] bool on_sums(std::uint32_t bit, std::span<const std::byte> batch,
+                             const BatchLimits& limits, Mail& mail);
   /// All that is here.
   void send(Mail& mail);
   bool is_empty() const { return merged_.is_empty(); }

@@ -35,7 +35,9 @@ void Mail::to_frontal(const ControlMessage& message) {
 
 void Mail::fail(std::string why) { to_frontal(control::NodeError{first_.job, std::move(why)}); }
 
-void Mail::signal(std::uint32_t bit, BatchType type) { post(links_[bit].peer, encode_signal(first_, type)); }
+void Mail::signal(std::uint32_t bit, BatchType type) {
+  post(links_[bit].peer, encode_signal(first_, type));
+}
 
 void Mail::drop(const char* what, std::string_view why) {
   ++drops_;

@@ -1,4 +1,5 @@
-// What a node sends, in order; and the numbers of what goes and comes on each link, by which a loss is found out.
+// What a node sends, in order; and the numbers of what goes and comes on each link, by which a loss
+// is found out.
 #pragma once
 
 #include <cstdint>
@@ -61,8 +62,12 @@ class Mail {
   Counted take_counted() { return std::exchange(counted_, {}); }
 
   /// Whether nothing was lost before a batch that came; the next one is due from here on.
-  [[nodiscard]] bool is_next_from(std::uint32_t bit, std::uint64_t sequence) { return sequence == links_[bit].came++; }
-  [[nodiscard]] bool is_next_from_frontal(std::uint64_t sequence) { return sequence == came_from_frontal_++; }
+  [[nodiscard]] bool is_next_from(std::uint32_t bit, std::uint64_t sequence) {
+    return sequence == links_[bit].came++;
+  }
+  [[nodiscard]] bool is_next_from_frontal(std::uint64_t sequence) {
+    return sequence == came_from_frontal_++;
+  }
   /// Tells that something which came was of no use, and counts it.
   void drop(const char* what, std::string_view why);
   std::uint64_t drops() const { return drops_; }

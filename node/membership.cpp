@@ -16,6 +16,12 @@ control::Hello Membership::hello() const {
   return m;
 }
 
+void Membership::report(control::NodeStats& stats) const {
+  stats.rank = id_.rank.value;
+  stats.gray = seat_->cube.label_of(id_.rank).value;
+  stats.pid = id_.pid;
+}
+
 bool Membership::join(const control::Welcome& welcome) {
   const auto cube = Hypercube::of_size(welcome.nodes);
   if (!cube || !cube->has(id_.rank) || welcome.endpoints.size() != welcome.nodes) return false;

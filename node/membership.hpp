@@ -1,4 +1,5 @@
-// Who a node is and who the others are: its seat, where they listen, who has greeted, and which job and epoch is on.
+// Who a node is and who the others are: its seat, where they listen, who has greeted, and which job
+// and epoch is on.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ struct NodeIdentity {
   std::string version;
 };
 
-/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes the nodes.
+/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes
+/// the nodes.
 inline bool connects_to(Rank from, Rank to) { return from < to; }
 
 class Membership {
@@ -34,6 +36,7 @@ class Membership {
 
   const NodeIdentity& id() const { return id_; }
   control::Hello hello() const;
+  void report(control::NodeStats& stats) const;
 
   /// False, and nothing changes, when the welcome is to another farm.
   [[nodiscard]] bool join(const control::Welcome& welcome);
@@ -46,7 +49,8 @@ class Membership {
   /// Whether this node is to greet the one across that bit.
   bool is_to_greet(std::uint32_t bit) const;
 
-  /// A neighbour may have heard the frontal's welcome first: its greeting waits. Further ones are of no use.
+  /// A neighbour may have heard the frontal's welcome first: its greeting waits. Further ones are
+  /// of no use.
   void keep_early(std::span<const std::byte> greeting);
   std::vector<Bytes> take_early();
   void has_greeted(std::uint32_t bit) { greeted_[bit] = true; }
@@ -56,10 +60,14 @@ class Membership {
   void begin(std::uint32_t job, std::uint32_t epoch);
   void begin_epoch(std::uint32_t epoch) { epoch_ = epoch; }
   /// From here on only those of processes with these start numbers, by rank.
-  void accept_only(std::vector<std::uint32_t> incarnations) { incarnations_ = std::move(incarnations); }
+  void accept_only(std::vector<std::uint32_t> incarnations) {
+    incarnations_ = std::move(incarnations);
+  }
   std::uint32_t job() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
-  bool is_now(std::uint32_t job, std::uint32_t epoch) const { return job == job_ && epoch == epoch_; }
+  bool is_now(std::uint32_t job, std::uint32_t epoch) const {
+    return job == job_ && epoch == epoch_;
+  }
   bool is_of_now(const BatchStamp& stamp) const;
   /// Of the first batch that this node sends.
   BatchStamp stamp() const { return {job_, epoch_, id_.rank.value, id_.incarnation, 0}; }

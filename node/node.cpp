@@ -44,7 +44,8 @@ void Node::on_control(const Message& message) {
                    });
                  },
                  [&](const control::Lend& m) {
-                   to_rendering(m, [&](Rendering& r) { r.on_lend(Rank{m.rank}, message.payload, mail_); });
+                   to_rendering(
+                       m, [&](Rendering& r) { r.on_lend(Rank{m.rank}, message.payload, mail_); });
                  },
                  [&](const control::Relieved& m) {
                    to_rendering(m, [&](Rendering& r) { r.on_relieved(m.tiles, mail_); });
@@ -106,10 +107,7 @@ void Node::on_finish(const control::Finish& m) {
   if (m.job != membership_.job() || !has_job_) return;
   control::NodeStats stats;
   if (rendering_) rendering_->report(stats);
-  const NodeIdentity& id = membership_.id();
-  stats.rank = id.rank.value;
-  stats.gray = membership_.seat().cube.label_of(id.rank).value;
-  stats.pid = id.pid;
+  membership_.report(stats);
   stats.malformed_drops = mail_.drops();
   if (measure) measure(stats);
   mail_.to_frontal(control::NodeReport{m.job, membership_.epoch(), stats});
@@ -128,7 +126,8 @@ void Node::on_assignment(std::span<const std::byte> batch) {
   if (!rendering_) return;
   std::vector<std::uint32_t> tiles;
   const auto result = decode_assignment(batch, rendering_->limits(), tiles);
-  if (const auto* error = std::get_if<BatchError>(&result)) return mail_.drop("assignment", to_string(*error));
+  if (const auto* error = std::get_if<BatchError>(&result))
+    return mail_.drop("assignment", to_string(*error));
   const auto& s = std::get<BatchHeader>(result).stamp;
   if (!membership_.is_now(s.job, s.epoch) || s.sender != kFrontalRank) return;
   if (!mail_.is_next_from_frontal(s.sequence)) return mail_.fail("an assignment of tiles was lost");
@@ -139,9 +138,9 @@ void Node::on_assignment(std::span<const std::byte> batch) {
 
 void Node::on_neighbour(std::span<const std::byte> batch) {
   const auto peeked = peek_header(batch);
-  if (const auto* error = std::get_if<BatchError>(&peeked)) return mail_.drop("batch", to_string(*error));
+  if (const auto* error = std::get_if<BatchError>(&peeked))
+    return mail_.drop("batch", to_string(*error));
   const auto& header = std::get<BatchHeader>(peeked);
-  const bool is_signal = header.type == BatchType::kGreeting || header.type == BatchType::kGreetingAck;
   if (!membership_.has_joined()) {
     // Anything but a greeting is for a dead predecessor.
     if (header.type == BatchType::kGreeting) membership_.keep_early(batch);
@@ -149,7 +148,8 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   }
   const std::uint32_t bit = membership_.seat().bit_of(Rank{header.stamp.sender});
   if (bit == membership_.seat().links()) return mail_.drop("batch", "not from a neighbour");
-  if (is_signal) return on_signal(bit, header.type);
+  if (header.type == BatchType::kGreeting || header.type == BatchType::kGreetingAck)
+    return on_signal(bit, header.type);
   if (!rendering_ || !membership_.is_of_now(header.stamp)) return;
   if (mail_.is_next_from(bit, header.stamp.sequence)) return on_batch(bit, header.type, batch);
   mail_.fail("a batch from node " + std::to_string(header.stamp.sender) + " was lost on its link");
@@ -165,7 +165,7 @@ void Node::on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte
   switch (type) {
     case BatchType::kRays:
     case BatchType::kClassRays: return on_rays(bit, type, batch);
-    case BatchType::kAssignment: return on_tiles(bit, batch);
+    case BatchType::kAssignment: return rendering_->on_tiles(bit, batch, mail_);
     case BatchType::kContributions: return rendering_->on_sums(bit, batch, mail_);
     case BatchType::kToken: return rendering_->on_token(batch, mail_);
     case BatchType::kIdle:
@@ -182,21 +182,11 @@ void Node::on_rays(std::uint32_t bit, BatchType type, std::span<const std::byte>
   const auto result = decode_rays(batch, rendering_->limits(), received_, type);
   if (const auto* error = std::get_if<BatchError>(&result)) {
     mail_.drop(on_class ? "class rays" : "rays", to_string(*error));
-    return mail_.fail(std::string("a broken batch of ") + (on_class ? "class rays" : "rays") + " came from node " +
-                      std::to_string(mail_.peer(bit).value));
+    return mail_.fail(std::string("a broken batch of ") + (on_class ? "class rays" : "rays") +
+                      " came from node " + std::to_string(mail_.peer(bit).value));
   }
   if (on_class) return rendering_->on_class_rays(bit, received_, mail_);
   rendering_->on_rays(bit, received_, mail_);
-}
-
-void Node::on_tiles(std::uint32_t bit, std::span<const std::byte> batch) {
-  std::vector<std::uint32_t> tiles;
-  const auto result = decode_assignment(batch, rendering_->limits(), tiles);
-  if (const auto* error = std::get_if<BatchError>(&result)) {
-    mail_.drop("tiles", to_string(*error));
-    return mail_.fail("node " + std::to_string(mail_.peer(bit).value) + " sent tiles that can't be traced here");
-  }
-  rendering_->on_tiles(bit, tiles, mail_);
 }
 
 // ---- evaluators
@@ -216,7 +206,8 @@ std::optional<Work> Node::take_work() {
 }
 
 BuildWork Node::build_work() {
-  BuildWork build{*std::exchange(unbuilt_slice_, std::nullopt), load_.horizon_bytes, load_.is_replica, {}, {}};
+  BuildWork build{
+      *std::exchange(unbuilt_slice_, std::nullopt), load_.horizon_bytes, load_.is_replica, {}, {}};
   if (load_.algorithm == Algorithm::kMacro) {
     build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};
     build.share = membership_.seat().share();
@@ -233,7 +224,8 @@ void Node::give_result(WorkResult result) {
 void Node::adopt(Built& built, double build_s) {
   if (!built.domain) return mail_.fail(built.error);
   build_s_ = build_s;
-  rendering_.emplace(Holding::of(membership_.seat(), load_, std::move(built.domain)), load_, slice_bytes_);
+  rendering_.emplace(Holding::of(membership_.seat(), load_, std::move(built.domain)), load_,
+                     slice_bytes_);
   send_ready_when_complete();
 }
 
@@ -241,8 +233,9 @@ void Node::send_ready_when_complete() {
   if (!rendering_ || is_ready_sent_ || !membership_.have_all_greeted()) return;
   is_ready_sent_ = true;
   const Domain& domain = *rendering_->holding().domain;
-  mail_.to_frontal(control::Ready{membership_.job(), membership_.epoch(), domain.model().primitives.size(),
-                                  domain.model().objects.size(), domain.cell_count(), build_s_});
+  mail_.to_frontal(control::Ready{membership_.job(), membership_.epoch(),
+                                  domain.model().primitives.size(), domain.model().objects.size(),
+                                  domain.cell_count(), build_s_});
 }
 
 bool Node::may_have_work() const {

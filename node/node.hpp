@@ -1,5 +1,6 @@
-// A node's brain: a state machine. Messages, results of work and the request for work go in; messages and
-// work come out. It knows no socket, thread or clock: main.cpp wires those on, the simulation others.
+// A node's brain: a state machine. Messages, results of work and the request for work go in;
+// messages and work come out. It knows no socket, thread or clock: main.cpp wires those on, the
+// simulation others.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +32,13 @@ class Node {
   /// A batch from a neighbour's inbox link. The sender is read from it and checked.
   void on_neighbour(std::span<const std::byte> batch);
 
-  /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent goes out.
+  /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent
+  /// goes out.
   std::optional<Work> take_work();
   void give_result(WorkResult result);
-  WaitReason wait_reason() const { return rendering_ ? rendering_->wait_reason() : WaitReason::kIdle; }
+  WaitReason wait_reason() const {
+    return rendering_ ? rendering_->wait_reason() : WaitReason::kIdle;
+  }
   /// False only when take_work() would certainly give nothing.
   bool may_have_work() const;
   /// Evaluators that the job is to have; those of the node when there is none.
@@ -45,7 +49,8 @@ class Node {
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return rendering_ && rendering_->has_begun(); }
 
-  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are taken in.
+  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are
+  /// taken in.
   std::vector<Outgoing> take_outgoing();
   bool has_outgoing() const { return !mail_.is_empty(); }
   bool is_shut_down() const { return is_shut_down_; }
@@ -67,7 +72,6 @@ class Node {
   void on_signal(std::uint32_t bit, BatchType type);
   void on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte> batch);
   void on_rays(std::uint32_t bit, BatchType type, std::span<const std::byte> batch);
-  void on_tiles(std::uint32_t bit, std::span<const std::byte> batch);
 
   Rendering* rendering_of(std::uint32_t job, std::uint32_t epoch);
   BuildWork build_work();

@@ -1,5 +1,6 @@
-// How rays go from node to node, so that neither memory nor the farm's progress is lost: by credit, or as in 1987 by
-// queues that block. What both do is here; credit_flow.hpp and blocking_flow.hpp say how.
+// How rays go from node to node, so that neither memory nor the farm's progress is lost: by credit,
+// or as in 1987 by queues that block. What both do is here; credit_flow.hpp and blocking_flow.hpp
+// say how.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "node/holding.hpp"
 #include "node/mail.hpp"
 #include "node/pace.hpp"
 #include "trace/ray_task.hpp"
@@ -21,12 +23,15 @@ struct FlowRules {
   std::uint64_t link_credit_bytes = 0, batch_bytes = 0;
   /// A node with so many rays in its outboxes is full.
   std::uint64_t outbox_rays = 0;
-  /// Rays of each class that a link has places for beside its credit; and how many classes there are.
+  /// Rays of each class that a link has places for beside its credit; and how many classes there
+  /// are.
   std::uint32_t class_places = 1;
   std::uint64_t classes = 1;
   std::uint32_t threads = 1;
   /// Rays that one hit may send out.
   std::uint32_t most_children = 2;
+
+  static FlowRules of(const control::Load& load, const Holding& here);
 };
 
 /// What has left, for the report.
@@ -52,16 +57,20 @@ class RayFlow {
   virtual ~RayFlow() = default;
   virtual Pace pace() const = 0;
 
-  /// Rays leave across a link. `on_class`: that of the work in which they were sent, if a full node did it.
+  /// Rays leave across a link. `on_class`: that of the work in which they were sent, if a full node
+  /// did it.
   virtual void leave(std::uint32_t bit, std::span<const RayTask> rays,
                      std::optional<std::uint16_t> on_class = std::nullopt) = 0;
-  /// Rays came across one link and leave across another: at once, or when there is room. True when an outbox got them.
-  virtual bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit, std::span<const RayTask> rays) = 0;
+  /// Rays came across one link and leave across another: at once, or when there is room. True when
+  /// an outbox got them.
+  virtual bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+                       std::span<const RayTask> rays) = 0;
   virtual void pass_on_what_waits() {}
-  /// Sends what may go now; with `partial` also what doesn't fill a batch. True when rays were stalled and no longer
-  /// are.
+  /// Sends what may go now; with `partial` also what doesn't fill a batch. True when rays were
+  /// stalled and no longer are.
   virtual bool send(bool partial, Mail& mail) = 0;
-  /// Nothing is to be done here: sends all that may go, and gives back credit that is worth a message.
+  /// Nothing is to be done here: sends all that may go, and gives back credit that is worth a
+  /// message.
   virtual void flush(Mail& mail) = 0;
   /// A gift, of at most gift_room() rays: they go at once.
   virtual void give(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) = 0;
@@ -73,13 +82,19 @@ class RayFlow {
   virtual void grant(std::uint32_t bit, Mail& mail) = 0;
   /// A neighbour gives credit back. As send() for that link.
   virtual bool was_granted(std::uint32_t bit, std::uint64_t bytes, bool partial, Mail& mail) = 0;
+  bool on_link_credit(std::uint32_t bit, std::span<const std::byte> batch,
+                      const BatchLimits& limits, bool partial, Mail& mail);
 
   /// Rays on the credit of their classes came. False when there was no place for one of them.
-  [[nodiscard]] virtual bool add_class_rays(std::uint32_t, std::span<const RayTask>) { return false; }
+  [[nodiscard]] virtual bool add_class_rays(std::uint32_t, std::span<const RayTask>) {
+    return false;
+  }
   /// A neighbour has places again. As send() for that link.
-  virtual void on_class_credit(std::uint32_t, std::span<const std::uint16_t>, bool /*partial*/, Mail& mail) {
+  virtual void was_given_places(std::uint32_t, std::span<const std::uint16_t>, bool, Mail& mail) {
     mail.drop("class credit", "of a class that it was not due for");
   }
+  void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch,
+                       const BatchLimits& limits, bool partial, Mail& mail);
   virtual bool has_class_work() const { return false; }
   /// Those that only pass through go on at once. Nothing when none is left to be traced.
   virtual std::optional<ClassWork> take_class_work(const Route&, Mail&) { return std::nullopt; }
@@ -100,16 +115,16 @@ class RayFlow {
 
   /// A piece of work is done.
   virtual void has_moved() {}
-  /// For the frontal's watch on deadlocks; job, epoch and ping are the caller's.
-  virtual std::optional<control::WaitReport> wait_report() const { return std::nullopt; }
+  /// Tells the frontal, which watches for deadlocks, who waits for whom.
+  virtual void answer_ping(std::uint64_t /*ping*/, Mail&) const {}
   virtual void report(control::NodeStats& stats) const = 0;
   /// A new epoch.
   virtual void reset() { reserved_ = 0; }
 
  protected:
   std::uint64_t reserved() const { return reserved_; }
-  static void post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type, FlowCounts& counts,
-                        Mail& mail);
+  static void post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type,
+                        FlowCounts& counts, Mail& mail);
 
  private:
   std::uint64_t reserved_ = 0;

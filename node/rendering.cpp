@@ -9,40 +9,17 @@
 #include "trace/work_cost.hpp"
 
 namespace graycube {
-namespace {
-
-FlowRules rules_of(const control::Load& load, const Holding& here) {
-  FlowRules rules;
-  rules.links = here.seat.links();
-  rules.link_credit_bytes = load.link_credit_bytes;
-  rules.batch_bytes = load.batch_bytes;
-  rules.outbox_rays = load.outbox_rays;
-  rules.class_places = load.class_places;
-  rules.classes = most_hops(here.limits.max_depth, here.limits.columns, here.limits.rows);
-  rules.threads = load.threads;
-  // To each light, reflected and refracted.
-  rules.most_children = static_cast<std::uint32_t>(here.domain->settings().lights.size()) + 2;
-  return rules;
-}
-
-std::optional<Ending> ending_of(const control::Load& load, const Seat& seat, const Pace& pace) {
-  if (load.algorithm != Algorithm::kMacro) return std::nullopt;
-  const Rank next = seat.cube.ring_next(seat.rank);
-  Ending::Ring ring{std::nullopt, pace.token_never_rests};
-  if (next != seat.rank) ring.next_bit = seat.bit_of(next);
-  return Ending(seat.rank, ring);
-}
-
-}  // namespace
 
 Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
     : here_(std::move(holding)),
-      flow_(make_flow(load.flow, rules_of(load, here_))),
+      flow_(make_flow(load.flow, FlowRules::of(load, here_))),
       queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
       helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
       borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
-      light_(here_.seat, load.sums),
-      ending_(ending_of(load, here_.seat, flow_->pace())) {}
+      light_(here_.seat, load.sums) {
+  if (load.algorithm == Algorithm::kMacro)
+    ending_.emplace(here_.seat, flow_->pace().token_never_rests);
+}
 
 void Rendering::reset() {
   flow_->reset();
@@ -88,66 +65,51 @@ void Rendering::on_lend(Rank owner, const SharedBytes& slice, Mail& mail) {
   const std::vector<RayTask> refused = borrowing_.was_refused(owner);
   flow_->release(refused.size());
   const Seat& seat = here_.seat;
-  for (const RayTask& ray : refused) flow_->leave(seat.bit_of(seat.owner_of(ray.region)), {&ray, 1});
+  for (const RayTask& ray : refused)
+    flow_->leave(seat.bit_of(seat.owner_of(ray.region)), {&ray, 1});
   // No evaluator may come by to send what is left.
   send(true, mail);
   pass_token(mail);
 }
 
-void Rendering::on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes, Mail& mail) {
+void Rendering::on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes,
+                        Mail& mail) {
   const bool is_neighbours = here_.seat.bit_of(owner) < here_.seat.links();
-  if (!is_neighbours || here_.domain->grid() == nullptr) return mail.drop("copy", "not a neighbour's");
+  if (!is_neighbours || here_.domain->grid() == nullptr)
+    return mail.drop("copy", "not a neighbour's");
   queue_.add_model(CopyWork{owner, share_of(here_.seat.cube, owner), slice, horizon_bytes});
 }
 
 void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
   pass_token(mail, ping);
-  if (!has_begun_) return;
-  auto report = flow_->wait_report();
-  if (!report) return;
-  report->job = mail.job();
-  report->epoch = mail.epoch();
-  report->ping = ping;
-  mail.to_frontal(*std::move(report));
+  if (has_begun_) flow_->answer_ping(ping, mail);
 }
 
 // ---- from neighbours
 
-/// A ray for a region of this node; or on its way through it, from a helper to a neighbour of this node or, where rays
-/// are finished that have left their macro-regions, from these to what they meet.
-bool Rendering::is_due_here(const RegionIndex& region) const {
-  return here_.holds(region) || here_.domain->has_foreign_bounds() ||
-         (helping_.is_on() && here_.seat.bit_of(here_.seat.owner_of(region)) < here_.seat.links());
-}
-
-/// Or the sender's own, for whom this node is to trace them; or a neighbour's: what left a copy of another
-/// neighbour's regions comes this way.
+/// For this node's regions; or the sender's own, for whom this node is to trace them; or a
+/// neighbour's: what left a copy of another neighbour's regions comes this way.
 void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
   const Rank sender = mail.peer(bit);
   const auto is_senders = [&](RegionIndex region) { return here_.seat.owner_of(region) == sender; };
   const bool is_help = !rays.empty() && is_senders(rays.front().region);
   bool is_due = !is_help || helping_.copy_of(bit);
   for_each_region(rays, [&](RegionIndex region, std::span<const RayTask>) {
-    is_due = is_due && (is_help ? is_senders(region) : is_due_here(region));
+    is_due = is_due && (is_help ? is_senders(region) : here_.is_due(region, helping_.is_on()));
   });
   if (!is_due) {
     mail.drop("rays", "for another macro-region");
     return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
   }
   if (ending_) ending_->work_came();
-  stats_.rays_in += rays.size();
-  if (is_help) {
-    helping_.took_over(0, rays.size());
-    helping_.has_given(bit);
-    queue_.add_helped(sender, bit, rays);
-    return note_queue();
-  }
+  tally_.rays_came(rays.size());
+  if (is_help) return on_rays_to_help(bit, rays);
   bool go_on = false;
   for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
     if (here_.holds(region)) return queue_.add_received(run, bit);
     go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
   });
-  note_queue();
+  tally_.note_queue(held());
   share_work(mail);
   if (!go_on) return;
   if (all_evaluators_wait()) return flush_on_idle(mail);
@@ -155,41 +117,48 @@ void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& 
   flow_->grant(bit, mail);
 }
 
+void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays) {
+  helping_.took_over(0, rays.size());
+  helping_.has_given(bit);
+  queue_.add_helped(here_.seat.peer(bit), bit, rays);
+  tally_.note_queue(held());
+}
+
 void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
-  const bool are_due =
-      std::ranges::all_of(rays, [this](const RayTask& ray) { return is_due_here(ray.region); });
+  const bool are_due = std::ranges::all_of(
+      rays, [this](const RayTask& ray) { return here_.is_due(ray.region, helping_.is_on()); });
   if (!are_due || !flow_->add_class_rays(bit, rays)) {
     mail.drop("class rays", "for another macro-region, or without credit");
-    return mail.fail("a broken batch of class rays came from node " + std::to_string(mail.peer(bit).value));
+    return mail.fail("a broken batch of class rays came from node " +
+                     std::to_string(mail.peer(bit).value));
   }
   if (ending_) ending_->work_came();
-  stats_.rays_in += rays.size();
-  note_queue();
+  tally_.rays_came(rays.size());
+  tally_.note_queue(held());
 }
 
 /// Where all evaluators wait, none will come by to send the rest.
 void Rendering::on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  std::vector<std::uint16_t> classes;
-  const auto result = decode_class_credit(batch, limits(), classes);
-  if (std::holds_alternative<BatchError>(result)) return mail.drop("class credit", "malformed");
-  flow_->on_class_credit(bit, classes, all_evaluators_wait(), mail);
+  flow_->on_class_credit(bit, batch, limits(), all_evaluators_wait(), mail);
 }
 
 void Rendering::on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  std::uint64_t bytes = 0;
-  const auto result = decode_link_credit(batch, limits(), bytes);
-  if (std::holds_alternative<BatchError>(result)) return mail.drop("grant", "malformed");
-  const bool is_free = flow_->was_granted(bit, bytes, all_evaluators_wait(), mail);
+  const bool is_free = flow_->on_link_credit(bit, batch, limits(), all_evaluators_wait(), mail);
   if (is_free && all_evaluators_wait()) flush_on_idle(mail);
 }
 
 /// A neighbour's, to be traced here.
-void Rendering::on_tiles(std::uint32_t bit, std::span<const std::uint32_t> tiles, Mail& mail) {
+void Rendering::on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  std::vector<std::uint32_t> tiles;
+  const auto result = decode_assignment(batch, limits(), tiles);
+  const auto* error = std::get_if<BatchError>(&result);
   const Rank sender = mail.peer(bit);
   const auto is_senders = [&](std::uint32_t tile) { return here_.owner_of_tile(tile) == sender; };
-  if (!helping_.is_on() || !helping_.copy_of(bit) || !std::ranges::all_of(tiles, is_senders)) {
-    mail.drop("tiles", "of regions that are not held here");
-    return mail.fail("node " + std::to_string(sender.value) + " sent tiles that can't be traced here");
+  if (error != nullptr || !helping_.is_on() || !helping_.copy_of(bit) ||
+      !std::ranges::all_of(tiles, is_senders)) {
+    mail.drop("tiles", error != nullptr ? to_string(*error) : "of regions that are not held here");
+    return mail.fail("node " + std::to_string(sender.value) +
+                     " sent tiles that can't be traced here");
   }
   if (ending_) ending_->work_came();
   helping_.has_given(bit);
@@ -201,7 +170,8 @@ void Rendering::on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mai
   if (light_.on_sums(bit, batch, limits(), mail) && ending_) ending_->work_came();
 }
 
-void Rendering::on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type, Mail& mail) {
+void Rendering::on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type,
+                         Mail& mail) {
   if (helping_.on_offer(bit, batch, type, limits(), mail)) share_work(mail);
 }
 
@@ -209,13 +179,10 @@ void Rendering::on_token(std::span<const std::byte> batch, Mail& mail) {
   if (ending_ && ending_->on_token(batch, limits(), mail)) pass_token(mail);
 }
 
-void Rendering::note_queue() {
-  stats_.queue_peak = std::max<std::uint64_t>(stats_.queue_peak, queue_.held() + flow_->held());
-}
-
 // ---- work
 
-/// In `roth` and in replicas all tiles are everybody's; null where nothing here is good for the tile.
+/// In `roth` and in replicas all tiles are everybody's; null where nothing here is good for the
+/// tile.
 std::shared_ptr<const Domain> Rendering::domain_of(std::uint32_t tile) const {
   if (here_.is_own_tile(tile) || here_.domain->is_replica()) return here_.domain;
   return helping_.copy_of(here_.seat.bit_of(here_.owner_of_tile(tile)));
@@ -244,10 +211,7 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
     std::visit([&](auto& m) { work.what = std::move(m); }, *model);
     return work;
   }
-  const RayFlow::Route route = [this](const RegionIndex& region) -> std::optional<std::uint32_t> {
-    if (here_.holds(region)) return std::nullopt;
-    return here_.seat.bit_towards(region);
-  };
+  const auto route = [this](const RegionIndex& region) { return here_.next_link(region); };
   if (auto taken = flow_->take_class_work(route, mail)) {
     work.on_class = taken->on_class;
     if (work.on_class) work.most_leaving = 1;
@@ -255,10 +219,12 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
     return work;
   }
   if (flow_->is_full()) return std::nullopt;
-  auto piece = queue_.take(pace, flow_->may_start_tiles(), here_.plan,
-                           [this](std::uint32_t bit, std::size_t rays) { flow_->taken(bit, rays); });
+  auto piece =
+      queue_.take(pace, flow_->may_start_tiles(), here_.plan,
+                  [this](std::uint32_t bit, std::size_t rays) { flow_->taken(bit, rays); });
   if (!piece) return std::nullopt;
-  for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit) flow_->grant(bit, mail);
+  for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit)
+    flow_->grant(bit, mail);
   work.helped = piece->helped;
   if (work.helped) work.domain = helping_.copy_of(here_.seat.bit_of(*work.helped));
   if (const auto* pixels = std::get_if<TileWork>(&piece->what)) {
@@ -287,9 +253,11 @@ void Rendering::give_result(WorkResult& result, Mail& mail) {
 
 void Rendering::adopt(Borrowed& borrowed, Mail& mail) {
   if (!borrowed.model) return mail.fail(borrowed.error);
-  const std::vector<RayTask> waited = borrowing_.came(borrowed.from, borrowed.model->memory_bytes());
-  here_.domain = here_.domain->with_borrowed(here_.seat.cube.column_of(borrowed.from),
-                                             here_.seat.cube.row_of(borrowed.from), std::move(borrowed.model));
+  const std::vector<RayTask> waited =
+      borrowing_.came(borrowed.from, borrowed.model->memory_bytes());
+  here_.domain =
+      here_.domain->with_borrowed(here_.seat.cube.column_of(borrowed.from),
+                                  here_.seat.cube.row_of(borrowed.from), std::move(borrowed.model));
   flow_->release(waited.size());
   queue_.add_own(waited);
 }
@@ -301,26 +269,14 @@ void Rendering::adopt(Copied& copied, Mail& mail) {
 
 void Rendering::absorb(Traced& traced, Mail& mail) {
   const Step& step = traced.step;
-  tally(traced);
+  tally_.add(step);
+  helping_.has_traced(work_cost(step.rays.created, traced.walk), traced.tile.has_value());
   let_leave(traced, mail);
   keep_set_aside(traced);
   light_.add(step.returns, traced.tile, here_.plan, mail);
   if (!step.leaving.empty() || !step.lacking.empty()) send(false, mail);
   // Of each tile more is known of what the others take.
   if (traced.tile) share_work(mail);
-}
-
-void Rendering::tally(const Traced& traced) {
-  const Step& step = traced.step;
-  const auto& created = step.rays.created;
-  helping_.has_traced(work_cost(created, traced.walk), traced.tile.has_value());
-  stats_.primary += created[static_cast<std::size_t>(RayKind::kPrimary)];
-  stats_.shadow += created[static_cast<std::size_t>(RayKind::kShadow)];
-  stats_.reflection += created[static_cast<std::size_t>(RayKind::kReflection)];
-  stats_.refraction += created[static_cast<std::size_t>(RayKind::kRefraction)];
-  stats_.skipped_by_horizon += step.rays.skipped_by_horizon;
-  stats_.non_finite += step.rounding.non_finite;
-  stats_.clamped += step.rounding.clamped;
 }
 
 /// The rays of a step that leave, or wait for a model that they lack.
@@ -330,18 +286,20 @@ void Rendering::let_leave(const Traced& traced, Mail& mail) {
     const std::uint32_t bit = here_.seat.bit_towards(region);
     if (!borrowing_.is_on()) return flow_->leave(bit, rays, traced.on_class);
     for (const RayTask& ray : rays) {
-      if (ray.kind == RayKind::kShadow && waits_for_model(here_.seat.owner_of(region), ray, mail)) continue;
+      if (ray.kind == RayKind::kShadow && waits_for_model(here_.seat.owner_of(region), ray, mail))
+        continue;
       flow_->leave(bit, {&ray, 1}, traced.on_class);
     }
   });
   for (const Step::Lacking& l : traced.step.lacking) {
     if (waits_for_model(here_.seat.owner_of(l.region), l.task, mail)) continue;
-    flow_->leave(here_.seat.bit_of(here_.seat.owner_of(l.task.region)), {&l.task, 1}, traced.on_class);
+    flow_->leave(here_.seat.bit_of(here_.seat.owner_of(l.task.region)), {&l.task, 1},
+                 traced.on_class);
   }
 }
 
-/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for that:
-/// then it goes on with the neighbour whose region it has entered.
+/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for
+/// that: then it goes on with the neighbour whose region it has entered.
 bool Rendering::waits_for_model(Rank owner, const RayTask& ray, Mail& mail) {
   const Borrowing::Place place = borrowing_.place_of(owner, ray, mail);
   if (place == Borrowing::Place::kHere) queue_.add_own({&ray, 1});
@@ -349,14 +307,11 @@ bool Rendering::waits_for_model(Rank owner, const RayTask& ray, Mail& mail) {
   return place != Borrowing::Place::kThere;
 }
 
-/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region. If that is a neighbour's of
-/// the owner, they cross the bit that they would have crossed from there: who is beyond is a neighbour of the node that
-/// they go to, and sends them on. So the owner, which is busy, has no part in it.
+/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region.
 void Rendering::leave_copy(std::span<const RayTask> rays, Rank owner) {
-  const Seat& seat = here_.seat;
-  const Rank next = seat.owner_of(rays.front().region);
-  if (next == seat.rank) return queue_.add_own(rays);
-  flow_->leave(seat.cube.first_bit(seat.rank, next, seat.bit_of(owner)), rays);
+  const Rank next = here_.seat.owner_of(rays.front().region);
+  if (next == here_.seat.rank) return queue_.add_own(rays);
+  flow_->leave(here_.seat.bit_for_helped(owner, next), rays);
 }
 
 void Rendering::keep_set_aside(Traced& traced) {
@@ -373,7 +328,8 @@ void Rendering::share_work(Mail& mail) {
   for (std::uint32_t bit = 0; bit < here_.seat.links(); ++bit) {
     if (!helping_.has_offer(bit)) continue;
     const auto is_own = [this](std::uint32_t tile) { return here_.is_own_tile(tile); };
-    const Helping::Supply supply{queue_.tiles(), queue_.own_tiles_at_end(Helping::kMostTiles, is_own),
+    const Helping::Supply supply{queue_.tiles(),
+                                 queue_.own_tiles_at_end(Helping::kMostTiles, is_own),
                                  queue_.unassigned(), queue_.received()};
     give(helping_.gift_for(bit, supply, flow_->gift_room(bit)), bit, mail);
   }
@@ -381,13 +337,16 @@ void Rendering::share_work(Mail& mail) {
 
 void Rendering::give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail) {
   const auto take_from = [this](std::uint32_t from, std::size_t rays) { flow_->taken(from, rays); };
-  const auto tiles = [&](const BatchStamp& stamp) { return encode_assignment(stamp, queue_.give_tiles(gift.most)); };
+  const auto tiles = [&](const BatchStamp& stamp) {
+    return encode_assignment(stamp, queue_.give_tiles(gift.most));
+  };
   switch (gift.kind) {
     case Helping::Gift::Kind::kNothing: return;
     case Helping::Gift::Kind::kCopy:
       return mail.to_frontal(control::Share{mail.job(), mail.epoch(), mail.peer(bit).value});
     case Helping::Gift::Kind::kTiles: mail.work_to_neighbour(bit, tiles); return;
-    case Helping::Gift::Kind::kRays: return flow_->give(bit, queue_.give_rays(gift.most, take_from), mail);
+    case Helping::Gift::Kind::kRays:
+      return flow_->give(bit, queue_.give_rays(gift.most, take_from), mail);
   }
 }
 
@@ -400,8 +359,8 @@ void Rendering::send(bool partial, Mail& mail) {
 void Rendering::flush_on_idle(Mail& mail) {
   flow_->flush(mail);
   light_.send(mail);
-  const bool is_dry = has_begun_ && !queue_.tiles() && queue_.unassigned() == 0 && !flow_->is_full() &&
-                      all_evaluators_wait();
+  const bool is_dry = has_begun_ && !queue_.tiles() && queue_.unassigned() == 0 &&
+                      !flow_->is_full() && all_evaluators_wait();
   if (is_dry) helping_.offer(mail);
   pass_token(mail);
 }
@@ -416,7 +375,9 @@ void Rendering::pass_token(Mail& mail, std::optional<std::uint64_t> ping) {
   if (has_begun_ && ending_) ending_->pass(is_passive, ping, mail);
 }
 
-bool Rendering::has_unfinished() const { return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty(); }
+bool Rendering::has_unfinished() const {
+  return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty();
+}
 
 WaitReason Rendering::wait_reason() const {
   if (flow_->is_stalled()) return WaitReason::kBlocked;
@@ -424,14 +385,14 @@ WaitReason Rendering::wait_reason() const {
   if (queue_.has_rays() || flow_->held() > 0) {
     return flow_->is_full() ? WaitReason::kBlocked : WaitReason::kReady;
   }
-  if (queue_.has_tiles()) return flow_->may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
+  if (queue_.has_tiles())
+    return flow_->may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return queue_.unassigned() > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 
 void Rendering::report(control::NodeStats& stats) const {
-  stats = stats_;
-  stats.primitives = here_.domain->model().primitives.size();
-  stats.memory_bytes = here_.domain->memory_bytes();
+  here_.report(stats);
+  tally_.report(stats);
   flow_->report(stats);
   helping_.report(stats);
   borrowing_.report(stats);

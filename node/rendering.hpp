@@ -1,5 +1,6 @@
-// A node's part in one picture, from when its macro-regions are subdivided: which mechanism is asked in which order
-// about rays, tiles and light that come, about work for evaluators and about its results.
+// A node's part in one picture, from when its macro-regions are subdivided: which mechanism is
+// asked in which order about rays, tiles and light that come, about work for evaluators and about
+// its results.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include "node/light_out.hpp"
 #include "node/mail.hpp"
 #include "node/ray_flow.hpp"
+#include "node/tally.hpp"
 #include "node/work.hpp"
 #include "node/work_queue.hpp"
 
@@ -22,7 +24,8 @@ namespace graycube {
 /// Why an evaluator gets no work (design section 6).
 enum class WaitReason : std::uint8_t {
   kReady,    ///< it would get some now
-  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold, is full
+  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold,
+             ///< is full
   kWindow,   ///< there are only unstarted primary rays, and the window is closed
   kIdle,     ///< there is neither
 };
@@ -54,7 +57,7 @@ class Rendering {
   void on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
   void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
-  void on_tiles(std::uint32_t bit, std::span<const std::uint32_t> tiles, Mail& mail);
+  void on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type, Mail& mail);
   void on_token(std::span<const std::byte> batch, Mail& mail);
@@ -71,20 +74,19 @@ class Rendering {
   void report(control::NodeStats& stats) const;
 
  private:
-  bool is_due_here(const RegionIndex& region) const;
+  void on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays);
   std::shared_ptr<const Domain> domain_of(std::uint32_t tile) const;
   std::optional<Work> choose_work(Mail& mail);
   void adopt(Borrowed& borrowed, Mail& mail);
   void adopt(Copied& copied, Mail& mail);
   void absorb(Traced& traced, Mail& mail);
-  void tally(const Traced& traced);
   void let_leave(const Traced& traced, Mail& mail);
   bool waits_for_model(Rank owner, const RayTask& ray, Mail& mail);
   void leave_copy(std::span<const RayTask> rays, Rank owner);
   void keep_set_aside(Traced& traced);
-  void note_queue();
   void share_work(Mail& mail);
   void give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail);
+  std::size_t held() const { return queue_.held() + flow_->held(); }
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send(bool partial, Mail& mail);
   void flush_on_idle(Mail& mail);
@@ -100,7 +102,7 @@ class Rendering {
   std::optional<Ending> ending_;
   bool has_begun_ = false;
   unsigned working_ = 0;
-  control::NodeStats stats_;
+  Tally tally_;
 };
 
 }  // namespace graycube

@@ -23,8 +23,8 @@ struct Slice {
   }
 };
 
-std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes, const Model& model,
-                                                      std::string& error) {
+std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes,
+                                                      const Model& model, std::string& error) {
   auto decoded = decode_horizons(bytes, model.settings.lights.size());
   if (decoded) return std::make_shared<const LightHorizons>(*std::move(decoded));
   error = "the light horizons received are broken";

@@ -1,5 +1,5 @@
-// What a node's brain hands to its evaluators, and what it gets back. Running a piece of work is pure: it
-// touches nothing of the brain.
+// What a node's brain hands to its evaluators, and what it gets back. Running a piece of work is
+// pure: it touches nothing of the brain.
 #pragma once
 
 #include <array>

@@ -2,7 +2,8 @@
 
 namespace graycube {
 
-WorkQueue::WorkQueue(std::uint64_t own_tiles, bool is_one_by_one) : own_tiles_(own_tiles), unassigned_(own_tiles) {
+WorkQueue::WorkQueue(std::uint64_t own_tiles, bool is_one_by_one)
+    : own_tiles_(own_tiles), unassigned_(own_tiles) {
   received_.set_fifo(is_one_by_one);
 }
 
@@ -53,7 +54,8 @@ std::optional<TileWork> WorkQueue::next_pixels(bool is_one_by_one, const TilePla
   if (!is_one_by_one) return std::exchange(open_, std::nullopt)->work;
   const PixelRect& tile = open_->work.rect;
   const std::uint32_t width = tile.x1 - tile.x0;
-  const std::uint32_t x = tile.x0 + open_->next_pixel % width, y = tile.y0 + open_->next_pixel / width;
+  const std::uint32_t x = tile.x0 + open_->next_pixel % width,
+                      y = tile.y0 + open_->next_pixel / width;
   const TileWork pixel{{x, y, x + 1, y + 1}, open_->work.tile};
   if (++open_->next_pixel == width * (tile.y1 - tile.y0)) open_.reset();
   return pixel;

@@ -1,4 +1,5 @@
-// What waits on a node to be done: models to subdivide, rays, primary rays of tiles; and what comes next of it.
+// What waits on a node to be done: models to subdivide, rays, primary rays of tiles; and what comes
+// next of it.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,9 @@ class WorkQueue {
   /// The oldest of them, if there is one.
   std::optional<ModelWork> take_model();
 
-  void add_tiles(std::span<const std::uint32_t> tiles) { tiles_.insert(tiles_.end(), tiles.begin(), tiles.end()); }
+  void add_tiles(std::span<const std::uint32_t> tiles) {
+    tiles_.insert(tiles_.end(), tiles.begin(), tiles.end());
+  }
   /// So many own tiles will not be handed out any more: they have been, or others traced them.
   void expect_less(std::uint64_t own_tiles) { unassigned_ -= std::min(unassigned_, own_tiles); }
   /// Own tiles that the frontal has not handed out yet.
@@ -49,7 +52,8 @@ class WorkQueue {
   /// The last ones, last first: this node comes from the other end.
   std::vector<std::uint32_t> give_tiles(std::size_t count);
 
-  /// Rays in this node's regions that came across a link, whose credit they take up until they are taken.
+  /// Rays in this node's regions that came across a link, whose credit they take up until they are
+  /// taken.
   void add_received(std::span<const RayTask> rays, std::uint32_t bit) { received_.add(rays, bit); }
   /// Others in them: created here, or work was set aside.
   void add_own(std::span<const RayTask> rays) { own_.add(rays, 0); }
@@ -69,7 +73,8 @@ class WorkQueue {
 
   /// What is to be done next, models aside: rays before tiles, which may have to wait.
   template <typename TakenFrom>
-  std::optional<Piece> take(const Pace& pace, bool may_start_tiles, const TilePlan& plan, TakenFrom&& taken_from);
+  std::optional<Piece> take(const Pace& pace, bool may_start_tiles, const TilePlan& plan,
+                            TakenFrom&& taken_from);
 
   /// Neither rays nor tiles.
   bool is_empty() const { return !has_rays() && !has_tiles() && unassigned_ == 0; }
@@ -101,15 +106,17 @@ class WorkQueue {
 template <typename IsOwn>
 std::size_t WorkQueue::own_tiles_at_end(std::size_t most, IsOwn&& is_own) const {
   std::size_t count = 0;
-  while (count < std::min(most, tiles_.size()) && is_own(tiles_[tiles_.size() - 1 - count])) ++count;
+  while (count < std::min(most, tiles_.size()) && is_own(tiles_[tiles_.size() - 1 - count]))
+    ++count;
   return count;
 }
 
 template <typename TakenFrom>
-std::optional<WorkQueue::Piece> WorkQueue::take(const Pace& pace, bool may_start_tiles, const TilePlan& plan,
-                                                TakenFrom&& taken_from) {
+std::optional<WorkQueue::Piece> WorkQueue::take(const Pace& pace, bool may_start_tiles,
+                                                const TilePlan& plan, TakenFrom&& taken_from) {
   if (!own_.is_empty()) {
-    return Piece{RayWork{own_.take(pace.most_rays, [](std::uint32_t, std::size_t) {})}, std::nullopt, false};
+    return Piece{RayWork{own_.take(pace.most_rays, [](std::uint32_t, std::size_t) {})},
+                 std::nullopt, false};
   }
   if (!received_.is_empty()) {
     return Piece{RayWork{received_.take(pace.most_rays, taken_from)}, std::nullopt, true};

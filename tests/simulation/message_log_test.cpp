@@ -1,6 +1,7 @@
-// What nodes and the frontal say to each other, when and in which order, as one number: it changes with any change of
-// the brains' behaviour. Who changes that on purpose, or what tracing counts, records the new numbers.
-// GRAYCUBE_SEEDS=2000 compares so many seeds, GRAYCUBE_SEED=S prints the number of that one.
+// What nodes and the frontal say to each other, when and in which order, as one number: it changes
+// with any change of the brains' behaviour. Who changes that on purpose, or what tracing counts,
+// records the new numbers. GRAYCUBE_SEEDS=2000 compares so many seeds, GRAYCUBE_SEED=S prints the
+// number of that one.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -22,7 +23,8 @@ constexpr std::uint64_t kSeeds = 300, kManySeeds = 2000;
 class Digest {
  public:
   void add(std::span<const std::byte> bytes) {
-    for (const std::byte b : bytes) value_ = (value_ ^ std::to_integer<std::uint64_t>(b)) * 0x100000001B3;
+    for (const std::byte b : bytes)
+      value_ = (value_ ^ std::to_integer<std::uint64_t>(b)) * 0x100000001B3;
   }
   void add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
   std::uint64_t value() const { return value_; }
@@ -35,7 +37,9 @@ class Digest {
 class MessageLog {
  public:
   explicit MessageLog(Farm& farm) {
-    farm.on_sent = [this](Place from, Place to, double sent_s, const Message& m) { add(from, to, sent_s, m); };
+    farm.on_sent = [this](Place from, Place to, double sent_s, const Message& m) {
+      add(from, to, sent_s, m);
+    };
   }
   std::uint64_t value() const { return digest_.value(); }
 
@@ -75,7 +79,8 @@ struct Help {
 
 /// Larger pictures, whose nodes help each other.
 Help help_of(std::uint64_t seed) {
-  RandomFarmOptions how{.nodes = 2u << seed % 4, .threads = static_cast<std::uint32_t>(1 + seed % 3), .seed = seed};
+  RandomFarmOptions how{
+      .nodes = 2u << seed % 4, .threads = static_cast<std::uint32_t>(1 + seed % 3), .seed = seed};
   how.link_delay_s = seed % 2 == 0 ? 1e-3 : 1e-2;
   control::JobOptions job;
   job.algorithm = Algorithm::kMacro;

@@ -1,4 +1,5 @@
-// A tiny farm and job that a seed decides: every way of rendering, with little credit, short queues and slow links.
+// A tiny farm and job that a seed decides: every way of rendering, with little credit, short queues
+// and slow links.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,8 @@ inline std::string tiny_scene(unsigned width, unsigned height) {
   return R"({"graycube": 1, "image": {"width": )" + std::to_string(width) + R"(, "height": )" +
          std::to_string(height) + R"(},
   "camera": {"type": "perspective", "eye": [0,1,-6], "look_at": [0,0,0], "up": [0,1,0], "fov": 60},
-  "background": [0.1,0.2,0.4], "max_depth": )" + std::to_string(kDepth) + R"(,
+  "background": [0.1,0.2,0.4], "max_depth": )" +
+         std::to_string(kDepth) + R"(,
   "lights": [{"type": "point", "position": [5,9,-6], "color": [0.6,0.6,0.6]},
              {"type": "point", "position": [-1,0.5,-1], "color": [0.4,0.3,0.3]}],
   "materials": {"mirror": {"color": [0.9,0.8,0.9], "diffuse": 0.2, "reflect": 0.8},
@@ -41,9 +43,10 @@ struct Trial {
 
   std::string name() const {
     const std::string sums = " " + std::string(to_string(job.sums));
-    if (job.algorithm == Algorithm::kRoth) return "roth " + std::string(to_string(job.grain)) + sums;
-    return "macro " + std::string(to_string(job.shadows)) + " " + std::string(to_string(job.partition)) + " " +
-           std::string(to_string(job.flow)) + sums;
+    if (job.algorithm == Algorithm::kRoth)
+      return "roth " + std::string(to_string(job.grain)) + sums;
+    return "macro " + std::string(to_string(job.shadows)) + " " +
+           std::string(to_string(job.partition)) + " " + std::string(to_string(job.flow)) + sums;
   }
 };
 
