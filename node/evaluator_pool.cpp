@@ -73,11 +73,16 @@ void EvaluatorPool::work(unsigned index) {
     }
     const bool is_primary = std::holds_alternative<TileWork>(piece->what);
     const bool is_build = !is_primary && !std::holds_alternative<RayWork>(piece->what);
-    if (is_build) busy_s_ += since_last_count();
+    WaitClock::Time began;
+    if (is_build) {
+      busy_s_ += since_last_count();
+      began = WaitClock::Time::clock::now();
+    }
     lock.unlock();
     WorkResult result = bench.run(std::move(*piece));
     // Rendering is counted when the evaluator waits: looking at the clock takes a system call.
     if (is_build) {
+      result.build_s = std::chrono::duration<double>(WaitClock::Time::clock::now() - began).count();
       touch_heap_ahead(kHeapOfRendering);
       since_last_count();
     }

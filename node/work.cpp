@@ -1,9 +1,9 @@
 #include "node/work.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 
+#include "overloaded.hpp"
 #include "proto/bounds_bytes.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
@@ -24,50 +24,50 @@ struct Slice {
 };
 
 std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte> bytes,
-                                                      const Model& model, WorkResult& result) {
+                                                      const Model& model, std::string& error) {
   auto decoded = decode_horizons(bytes, model.settings.lights.size());
   if (decoded) return std::make_shared<const LightHorizons>(*std::move(decoded));
-  result.error = "the light horizons received are broken";
+  error = "the light horizons received are broken";
   return nullptr;
 }
 
 /// Of a slice without the light horizons at its end.
 std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t horizon_bytes,
-                                   WorkResult& result) {
+                                   std::string& error) {
   if (horizon_bytes > bytes.size()) {
-    result.error = "less came than was announced";
+    error = "less came than was announced";
     return std::nullopt;
   }
   bytes = bytes.first(bytes.size() - horizon_bytes);
   auto decoded = take_model(bytes);
-  if (const auto* error = std::get_if<ModelError>(&decoded)) {
-    result.error = "the macro-region received is broken: " + error->where + ": " + error->why;
+  if (const auto* broken = std::get_if<ModelError>(&decoded)) {
+    error = "the macro-region received is broken: " + broken->where + ": " + broken->why;
     return std::nullopt;
   }
   Slice slice{std::get<Model>(std::move(decoded)), nullptr, nullptr};
   if (begins_with_bounds(bytes)) {
     auto bounds = take_bounds(bytes);
     if (!bounds) {
-      result.error = "the foreign bounds received are broken";
+      error = "the foreign bounds received are broken";
       return std::nullopt;
     }
     slice.foreign_bounds = std::make_shared<const ForeignBounds>(*std::move(bounds));
   }
   if (bytes.empty()) return slice;
-  slice.foreign_horizons = decoded_horizons(bytes, slice.model, result);
+  slice.foreign_horizons = decoded_horizons(bytes, slice.model, error);
   if (!slice.foreign_horizons) return std::nullopt;
   return slice;
 }
 
-void build(BuildWork work, WorkResult& result) {
-  const auto started = std::chrono::steady_clock::now();
+Built build(BuildWork work) {
+  Built built;
   const std::span<const std::byte> bytes = work.slice.bytes();
-  auto slice = decoded_slice(bytes, work.horizon_bytes, result);
-  if (!slice) return;
+  auto slice = decoded_slice(bytes, work.horizon_bytes, built.error);
+  if (!slice) return built;
   std::shared_ptr<const LightHorizons> horizons;
   if (work.horizon_bytes > 0) {
-    horizons = decoded_horizons(bytes.last(work.horizon_bytes), slice->model, result);
-    if (!horizons) return;
+    horizons = decoded_horizons(bytes.last(work.horizon_bytes), slice->model, built.error);
+    if (!horizons) return built;
   }
   work.slice = {};
   std::shared_ptr<Domain> domain;
@@ -81,9 +81,25 @@ void build(BuildWork work, WorkResult& result) {
   domain->set_horizons(std::move(horizons));
   slice->set_foreign(*domain);
   if (work.is_replica) domain->set_replica();
-  result.domain = std::move(domain);
-  result.build_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  built.domain = std::move(domain);
+  return built;
+}
+
+Borrowed borrow(const BorrowWork& work) {
+  Borrowed borrowed{work.from, nullptr, {}};
+  auto slice = decoded_slice(work.slice.bytes(), 0, borrowed.error);
+  if (slice) borrowed.model = Territory::of(std::move(slice->model));
+  return borrowed;
+}
+
+Copied copy(const CopyWork& work, const Domain& own) {
+  Copied copied{work.from, nullptr, {}};
+  auto slice = decoded_slice(work.slice.bytes(), work.horizon_bytes, copied.error);
+  if (!slice) return copied;
+  const auto domain = own.of_neighbour(work.share, std::move(slice->model));
+  slice->set_foreign(*domain);
+  copied.domain = domain;
+  return copied;
 }
 
 }  // namespace
@@ -100,41 +116,34 @@ Evaluator& Workbench::evaluator_for(std::shared_ptr<const Domain> domain) {
   return *first.evaluator;
 }
 
-WorkResult Workbench::run(Work work) {
-  WorkResult result;
-  result.job = work.job;
-  result.epoch = work.epoch;
-  result.helped = work.helped;
-  result.on_class = work.on_class;
-  if (auto* b = std::get_if<BuildWork>(&work.what)) {
-    build(std::move(*b), result);
-    return result;
-  }
-  if (const auto* b = std::get_if<BorrowWork>(&work.what)) {
-    result.borrowed_from = b->from;
-    if (auto slice = decoded_slice(b->slice.bytes(), 0, result))
-      result.borrowed = Territory::of(std::move(slice->model));
-    return result;
-  }
-  if (auto* c = std::get_if<CopyWork>(&work.what)) {
-    result.copied_from = c->from;
-    if (auto slice = decoded_slice(c->slice.bytes(), c->horizon_bytes, result)) {
-      const auto domain = work.domain->of_neighbour(c->share, std::move(slice->model));
-      slice->set_foreign(*domain);
-      result.domain = domain;
-    }
-    return result;
-  }
+/// The primary rays of those pixels; or, where there are none, those rays.
+Traced Workbench::trace(Work& work, const PixelRect* pixels, std::span<const RayTask> rays) {
+  Traced traced{work.helped, work.on_class, std::nullopt, {}, {}};
   Evaluator& evaluator = evaluator_for(std::move(work.domain));
   evaluator.stop_after(work.most_leaving);
   const WalkCounts before = evaluator.walk_counts();
-  if (const auto* tile = std::get_if<TileWork>(&work.what)) {
-    evaluator.trace_pixels(tile->rect, result.step);
-    result.tile = tile->tile;
+  if (pixels != nullptr) {
+    evaluator.trace_pixels(*pixels, traced.step);
   } else {
-    evaluator.trace_rays(std::get<RayWork>(work.what).rays, result.step);
+    evaluator.trace_rays(rays, traced.step);
   }
-  result.walk = evaluator.walk_counts().since(before);
+  traced.walk = evaluator.walk_counts().since(before);
+  return traced;
+}
+
+WorkResult Workbench::run(Work work) {
+  WorkResult result{work.job, work.epoch, 0, {}};
+  std::visit(Overloaded{
+                 [&](BuildWork& build_work) { result.what = build(std::move(build_work)); },
+                 [&](BorrowWork& borrow_work) { result.what = borrow(borrow_work); },
+                 [&](CopyWork& copy_work) { result.what = copy(copy_work, *work.domain); },
+                 [&](TileWork& tile) {
+                   result.what = trace(work, &tile.rect, {});
+                   std::get<Traced>(result.what).tile = tile.tile;
+                 },
+                 [&](RayWork& rays) { result.what = trace(work, nullptr, rays.rays); },
+             },
+             work.what);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -68,24 +69,40 @@ struct Work {
   std::variant<BuildWork, BorrowWork, CopyWork, TileWork, RayWork> what;
 };
 
-struct WorkResult {
-  std::uint32_t job = 0, epoch = 0;
-  std::optional<Rank> helped;
-  std::optional<std::uint16_t> on_class;
-  /// BuildWork, CopyWork: the domain, or why there is none.
+/// The node's own macro-regions, subdivided; or why they could not be.
+struct Built {
   std::shared_ptr<const Domain> domain;
   std::string error;
-  double build_s = 0;
-  /// CopyWork: whose.
-  std::optional<Rank> copied_from;
-  /// BorrowWork: whose, and what; nothing after an error.
-  std::optional<Rank> borrowed_from;
-  std::shared_ptr<const Territory> borrowed;
+};
+/// Another node's, for shadow rays.
+struct Borrowed {
+  Rank from;
+  std::shared_ptr<const Territory> model;
+  std::string error;
+};
+/// A neighbour's, to help it.
+struct Copied {
+  Rank from;
+  std::shared_ptr<const Domain> domain;
+  std::string error;
+};
+/// What came of a tile or of rays.
+struct Traced {
+  /// As in Work.
+  std::optional<Rank> helped;
+  std::optional<std::uint16_t> on_class;
   /// TileWork: the tile.
   std::optional<std::uint32_t> tile;
   Step step;
-  /// What tracing it took; nothing where none was traced.
+  /// What tracing it took.
   WalkCounts walk;
+};
+
+struct WorkResult {
+  std::uint32_t job = 0, epoch = 0;
+  /// Seconds that building took; whoever ran the work has a clock and fills it in.
+  double build_s = 0;
+  std::variant<Built, Borrowed, Copied, Traced> what;
 };
 
 /// An evaluator thread's own: what it keeps from one piece of work to the next.
@@ -102,6 +119,7 @@ class Workbench {
     std::unique_ptr<Evaluator> evaluator;
   };
   Evaluator& evaluator_for(std::shared_ptr<const Domain> domain);
+  Traced trace(Work& work, const PixelRect* pixels, std::span<const RayTask> rays);
 
   /// The node's own regions and a copy of a neighbour's, the last used first.
   std::array<Place, 2> places_;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "coordination/termination.hpp"
 #include "regions/macro_grid.hpp"
 #include "shading/settings.hpp"
 #include "trace/contribution.hpp"
@@ -117,19 +118,6 @@ struct BatchLimits {
   std::uint32_t nodes = 0;
 };
 
-/// The token of the termination ring, as sent.
-struct TokenRecord {
-  bool black = false;
-  /// Safra's sum of messages sent minus received.
-  std::int64_t count = 0;
-  std::uint32_t round = 0;
-  std::uint32_t hops = 0;
-  /// Contribution batches sent to the frontal by the nodes passed in this round.
-  std::uint64_t contribution_batches = 0;
-
-  friend bool operator==(const TokenRecord&, const TokenRecord&) = default;
-};
-
 /// At most kMaxRaysPerBatch rays; of type kRays or kClassRays.
 std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays,
                                    BatchType type = BatchType::kRays);
@@ -141,7 +129,7 @@ std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
                                             std::span<const Contribution> contributions);
 std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t bytes);
-std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& token);
+std::vector<std::byte> encode_token(const BatchStamp& stamp, const Token& token);
 /// At most kMaxTilesPerAssignment tiles.
 std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
                                          std::span<const std::uint32_t> tiles);
@@ -186,7 +174,7 @@ bool looks_like_batch(std::span<const std::byte> message);
                                               const BatchLimits& limits,
                                               std::vector<std::uint16_t>& classes);
 [[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,
-                                       const BatchLimits& limits, TokenRecord& token);
+                                       const BatchLimits& limits, Token& token);
 [[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,
                                             const BatchLimits& limits,
                                             std::vector<std::uint32_t>& tiles);

@@ -238,7 +238,7 @@ BatchResult decode_class_credit(std::span<const std::byte> message, const BatchL
 }
 
 BatchResult decode_token(std::span<const std::byte> message, const BatchLimits& limits,
-                         TokenRecord& token) {
+                         Token& token) {
   const std::byte* at = nullptr;
   const BatchResult result = open(message, limits, BatchType::kToken, at);
   if (!std::holds_alternative<BatchHeader>(result)) return result;

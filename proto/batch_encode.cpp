@@ -155,7 +155,7 @@ std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
   return std::move(w).take();
 }
 
-std::vector<std::byte> encode_token(const BatchStamp& stamp, const TokenRecord& token) {
+std::vector<std::byte> encode_token(const BatchStamp& stamp, const Token& token) {
   ByteWriter w = begin(stamp, BatchType::kToken, 1, 0);
   w.put(static_cast<std::uint8_t>(token.black ? 1 : 0));
   w.put(token.count);

@@ -144,6 +144,7 @@ void Farm::deliver(const Frontal::Outgoing& o) {
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   if (o.to != peer_of(rank, incarnation)) return;
   if (rank.value == 0) watch_to_node(o.message);
+  if (on_sent) on_sent({}, rank, timeline_.now_s(), o.message);
   timeline_.at(machine_.arrival_s({}, rank, bytes_of(o.message), timeline_.now_s()),
                [this, rank, incarnation, message = o.message] {
                  node_receives(rank, incarnation, {}, message);
@@ -208,6 +209,7 @@ void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const
 void Farm::deliver(Rank rank, const Node::Outgoing& o) {
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   const Place to = o.to;
+  if (on_sent) on_sent(rank, to, timeline_.now_s(), o.message);
   if (to) {
     watch_batch(rank, *to, o.message.frame, true);
   } else {
@@ -278,13 +280,14 @@ double Farm::begin(Turn& turn) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
   turn.result = processes_[turn.rank.value].bench->run(std::move(*work));
   const double took_s = observe ? thread_cpu_seconds() - began_s : 0;
-  const Step& step = turn.result->step;
-  for (const std::uint64_t n : step.rays.created) doings[Unit::kRay] += static_cast<double>(n);
-  doings[Unit::kVisit] = static_cast<double>(turn.result->walk.cells_visited);
-  doings[Unit::kTest] = static_cast<double>(turn.result->walk.primitives_tested);
+  if (const auto* traced = std::get_if<Traced>(&turn.result->what)) {
+    for (const std::uint64_t n : traced->step.rays.created)
+      doings[Unit::kRay] += static_cast<double>(n);
+    doings[Unit::kVisit] = static_cast<double>(traced->walk.cells_visited);
+    doings[Unit::kTest] = static_cast<double>(traced->walk.primitives_tested);
+  }
   if (observe) observe(doings, took_s);
   turn.seconds = take(turn.rank, doings);
-  // What was measured here would make messages longer or shorter from run to run.
   if (turn.is_build) turn.result->build_s = turn.seconds;
   return waking_s + turn.seconds;
 }
@@ -297,7 +300,9 @@ void Farm::end(Turn& turn) {
   if (!turn.is_build && !turn.is_copying) p.busy_s += turn.seconds;
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();
   PerUnit doings;
-  doings[Unit::kReturn] = static_cast<double>(turn.result->step.returns.size());
+  if (const auto* traced = std::get_if<Traced>(&turn.result->what)) {
+    doings[Unit::kReturn] = static_cast<double>(traced->step.returns.size());
+  }
   in_node(turn.rank, true, doings, [&](Node& node) { node.give_result(std::move(*turn.result)); });
   ask_for_turn(turn.rank, false);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frontal/frontal.hpp"
+#include "node/class_places.hpp"
 #include "node/node.hpp"
 #include "node/wait_clock.hpp"
 #include "proto/control.hpp"
@@ -66,6 +67,8 @@ class Farm {
   /// Called with what a brain or evaluator did and the CPU seconds that it took here. Without it
   /// nothing is measured.
   std::function<void(const PerUnit&, double)> observe;
+  /// Called with each message between nodes, or between a node and the frontal, when it is sent.
+  std::function<void(Place from, Place to, double sent_s, const Message&)> on_sent;
 
  private:
   struct Process {

@@ -25,7 +25,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
   std::vector<Contribution> contributions;
   std::vector<std::uint32_t> tiles;
   std::uint64_t granted = 0, work = 0;
-  TokenRecord token;
+  Token token;
   const BatchResult results[] = {decode_rays(bytes, limits, rays),
                                  decode_contributions(bytes, limits, credits, contributions),
                                  decode_link_credit(bytes, limits, granted),

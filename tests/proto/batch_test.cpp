@@ -272,8 +272,8 @@ TEST_CASE("grants, tokens, assignments and signals come back as sent") {
   }
   CHECK(std::holds_alternative<BatchError>(
       decode_offer(encode_signal(kStamp, BatchType::kGreeting), kLimits, granted)));
-  TokenRecord token;
-  const TokenRecord sent{true, -5'000'000'000, 17, 300, 1ull << 33};
+  Token token;
+  const Token sent{true, -5'000'000'000, 17, 300, 1ull << 33};
   REQUIRE(decode_token(encode_token(kStamp, sent), kLimits, token).index() == 0);
   CHECK(token == sent);
   const std::vector<std::uint32_t> tiles{63, 0, 5};
@@ -420,7 +420,7 @@ TEST_CASE("grants, tokens and assignments with values out of range are refused")
   CHECK(error_of(decode_link_credit(encode_link_credit(kStamp, kMaxLinkCreditBytes + 1), kLimits,
                                     granted)) == BatchError::kBadValue);
   CHECK(granted == 5);
-  TokenRecord token;
+  Token token;
   CHECK(error_of(decode_token(with(encode_token(kStamp, {}), 44, std::uint8_t{2}), kLimits,
                               token)) == BatchError::kBadValue);
   std::vector<std::uint32_t> tiles(3);

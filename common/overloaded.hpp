@@ -1,0 +1,13 @@
+// One function of several, for std::visit: the compiler says which alternative was forgotten.
+#pragma once
+
+namespace graycube {
+
+template <typename... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <typename... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+}  // namespace graycube

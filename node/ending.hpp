@@ -1,0 +1,48 @@
+// How a node passes the token on that finds the end (coordination/termination.hpp): when, to whom,
+// and what rank 0 tells the frontal of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "coordination/termination.hpp"
+#include "node/mail.hpp"
+#include "node/seat.hpp"
+
+namespace graycube {
+
+class Ending {
+ public:
+  /// `never_rests`: rounds begin without waiting for what hints at the end, as in 1987.
+  Ending(const Seat& seat, bool never_rests);
+
+  /// Rays, tiles or light came from a neighbour.
+  void work_came() { token_.message_received(); }
+  /// Tiles of this node were traced by others.
+  void work_was_taken() { token_.work_was_taken(); }
+  /// No ray is left anywhere; told to rank 0.
+  void all_are_whole() { all_are_whole_ = true; }
+  /// False when it was of no use.
+  [[nodiscard]] bool on_token(std::span<const std::byte> batch, const BatchLimits& limits,
+                              Mail& mail);
+  /// Passes the token on if it is here and may go. Passive: nothing is under way on this node.
+  /// `ping`: that of the frontal which is being answered.
+  void pass(bool is_passive, std::optional<std::uint64_t> ping, Mail& mail);
+  /// A new epoch.
+  void reset();
+
+ private:
+  bool may_launch(std::optional<std::uint64_t> ping) const;
+  void tell_round(const Token& token, Mail& mail) const;
+  void tell_verdict(Mail& mail) const;
+
+  /// Across which the next node on the ring is; nothing on a ring of one.
+  std::optional<std::uint32_t> next_bit_;
+  bool never_rests_;
+  bool is_initiator_;
+  TerminationRing token_;
+  bool all_are_whole_ = false;
+};
+
+}  // namespace graycube

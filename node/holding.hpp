@@ -1,0 +1,42 @@
+// What a node holds of scene and picture while a job is on: its macro-regions, the tiles, and what
+// numbers may be.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "node/seat.hpp"
+#include "proto/batch.hpp"
+#include "proto/messages.hpp"
+#include "trace/domain.hpp"
+#include "trace/tile_plan.hpp"
+
+namespace graycube {
+
+struct Holding {
+  Seat seat;
+  std::shared_ptr<const Domain> domain;
+  TilePlan plan;
+  BatchLimits limits;
+
+  /// Of a domain that was built from what the job was loaded with.
+  static Holding of(const Seat& seat, const control::Load& load,
+                    std::shared_ptr<const Domain> domain);
+
+  bool holds(const RegionIndex& region) const { return domain->holds(region); }
+  /// The link across which a ray in that region goes on; nothing when it is to be traced here.
+  std::optional<std::uint32_t> next_link(const RegionIndex& region) const;
+  /// Whether a ray in that region may come: it is to be traced here, or on its way through this
+  /// node, from a helper to a neighbour or, where rays are finished that have left their
+  /// macro-regions, from these to what they meet.
+  bool is_due(const RegionIndex& region, bool neighbours_help) const;
+  /// Who traces it, where it isn't everybody's as in `roth`.
+  Rank owner_of_tile(std::uint32_t tile) const { return seat.owner_of(plan.owner_of_tile(tile)); }
+  bool is_own_tile(std::uint32_t tile) const { return holds(plan.owner_of_tile(tile)); }
+  /// Tiles that belong to this node; 0 where all are everybody's.
+  std::uint64_t own_tiles() const;
+  void report(control::NodeStats& stats) const;
+};
+
+}  // namespace graycube

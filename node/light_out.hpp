@@ -1,0 +1,52 @@
+// Light on its way to the picture: gathered here, sent to the frontal or to the parent in the tree
+// of sums.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "node/mail.hpp"
+#include "node/merge_buffer.hpp"
+#include "node/seat.hpp"
+
+namespace graycube {
+
+class LightOut {
+ public:
+  LightOut(const Seat& seat, SumsMode sums);
+
+  /// Of a tile's primary rays, or of rays that came from anywhere.
+  void add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
+           const TilePlan& plan, Mail& mail);
+  /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the
+  /// latest when nobody here is at work. False when the batch is broken or nobody's child sent it:
+  /// the job has failed then.
+  [[nodiscard]] bool on_sums(std::uint32_t bit, std::span<const std::byte> batch,
+                             const BatchLimits& limits, Mail& mail);
+  /// All that is here.
+  void send(Mail& mail);
+  bool is_empty() const { return merged_.is_empty(); }
+  bool holds_others_light() const { return holds_others_light_; }
+
+  /// What it has sent in this job.
+  void report(control::NodeStats& stats) const;
+  /// A new epoch.
+  void reset();
+
+ private:
+  struct Sent {
+    std::uint64_t batches = 0, bytes = 0;
+  };
+
+  MergeBuffer merged_;
+  std::optional<std::uint32_t> parent_bit_;
+  /// By bit: in the tree of sums.
+  std::vector<bool> is_child_;
+  bool has_children_ = false;
+  bool holds_others_light_ = false;
+  Sent to_frontal_, to_parent_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,135 @@
+// How rays go from node to node, so that neither memory nor the farm's progress is lost: by credit,
+// or as in 1987 by queues that block. What both do is here; credit_flow.hpp and blocking_flow.hpp
+// say how.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "node/holding.hpp"
+#include "node/mail.hpp"
+#include "node/pace.hpp"
+#include "trace/ray_task.hpp"
+
+namespace graycube {
+
+/// What a job allows.
+struct FlowRules {
+  std::uint32_t links = 0;
+  std::uint64_t link_credit_bytes = 0, batch_bytes = 0;
+  /// A node with so many rays in its outboxes is full.
+  std::uint64_t outbox_rays = 0;
+  /// Rays of each class that a link has places for beside its credit; and how many classes there
+  /// are.
+  std::uint32_t class_places = 1;
+  std::uint64_t classes = 1;
+  std::uint32_t threads = 1;
+  /// Rays that one hit may send out.
+  std::uint32_t most_children = 2;
+
+  static FlowRules of(const control::Load& load, const Holding& here);
+};
+
+/// What has left, for the report.
+struct FlowCounts {
+  std::uint64_t forwarded_shadow = 0, forwarded_secondary = 0;
+  std::uint64_t batches = 0, bytes = 0, rays = 0;
+  std::uint64_t outbox_peak = 0;
+
+  void count_forwarded(std::span<const RayTask> left);
+  void report(control::NodeStats& stats) const;
+};
+
+class RayFlow {
+ public:
+  /// The link across which a ray in that region goes on; nothing when it is in this node's.
+  using Route = std::function<std::optional<std::uint32_t>(const RegionIndex&)>;
+  /// Rays on class credit. With a class: all are of it, and the node is full.
+  struct ClassWork {
+    std::vector<RayTask> rays;
+    std::optional<std::uint16_t> on_class;
+  };
+
+  virtual ~RayFlow() = default;
+  virtual Pace pace() const = 0;
+
+  /// Rays leave across a link. `on_class`: that of the work in which they were sent, if a full node
+  /// did it.
+  virtual void leave(std::uint32_t bit, std::span<const RayTask> rays,
+                     std::optional<std::uint16_t> on_class = std::nullopt) = 0;
+  /// Rays came across one link and leave across another: at once, or when there is room. True when
+  /// an outbox got them.
+  virtual bool pass_on(std::uint32_t from_bit, std::uint32_t to_bit,
+                       std::span<const RayTask> rays) = 0;
+  virtual void pass_on_what_waits() {}
+  /// Sends what may go now; with `partial` also what doesn't fill a batch. True when rays were
+  /// stalled and no longer are.
+  virtual bool send(bool partial, Mail& mail) = 0;
+  /// Nothing is to be done here: sends all that may go, and gives back credit that is worth a
+  /// message.
+  virtual void flush(Mail& mail) = 0;
+  /// A gift, of at most gift_room() rays: they go at once.
+  virtual void give(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) = 0;
+  virtual std::size_t gift_room(std::uint32_t bit) const = 0;
+
+  /// Received rays were taken: their credit is the neighbour's again.
+  virtual void taken(std::uint32_t bit, std::size_t rays) = 0;
+  /// Gives it back, if that is worth a message while there is work.
+  virtual void grant(std::uint32_t bit, Mail& mail) = 0;
+  /// A neighbour gives credit back. As send() for that link.
+  virtual bool was_granted(std::uint32_t bit, std::uint64_t bytes, bool partial, Mail& mail) = 0;
+  bool on_link_credit(std::uint32_t bit, std::span<const std::byte> batch,
+                      const BatchLimits& limits, bool partial, Mail& mail);
+
+  /// Rays on the credit of their classes came. False when there was no place for one of them.
+  [[nodiscard]] virtual bool add_class_rays(std::uint32_t, std::span<const RayTask>) {
+    return false;
+  }
+  /// A neighbour has places again. As send() for that link.
+  virtual void was_given_places(std::uint32_t, std::span<const std::uint16_t>, bool, Mail& mail) {
+    mail.drop("class credit", "of a class that it was not due for");
+  }
+  void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch,
+                       const BatchLimits& limits, bool partial, Mail& mail);
+  virtual bool has_class_work() const { return false; }
+  /// Those that only pass through go on at once. Nothing when none is left to be traced.
+  virtual std::optional<ClassWork> take_class_work(const Route&, Mail&) { return std::nullopt; }
+  /// That work is done, but for what was set aside.
+  virtual void class_work_ended(std::uint16_t, std::span<const RayTask>) {}
+
+  /// Rays wait on this node for something that is on its way; then they leave, or are traced here.
+  void reserve(std::uint64_t rays) { reserved_ += rays; }
+  void release(std::uint64_t rays) { reserved_ -= rays; }
+
+  virtual bool is_full() const { return false; }
+  virtual bool may_start_tiles() const { return true; }
+  /// Evaluators' rays are held up, and so are the evaluators.
+  virtual bool is_stalled() const { return false; }
+  /// Rays that came and are kept here.
+  virtual std::size_t held() const { return 0; }
+  virtual bool is_empty() const { return reserved_ == 0; }
+
+  /// A piece of work is done.
+  virtual void has_moved() {}
+  /// Tells the frontal, which watches for deadlocks, who waits for whom.
+  virtual void answer_ping(std::uint64_t /*ping*/, Mail&) const {}
+  virtual void report(control::NodeStats& stats) const = 0;
+  /// A new epoch.
+  virtual void reset() { reserved_ = 0; }
+
+ protected:
+  std::uint64_t reserved() const { return reserved_; }
+  static void post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type,
+                        FlowCounts& counts, Mail& mail);
+
+ private:
+  std::uint64_t reserved_ = 0;
+};
+
+std::unique_ptr<RayFlow> make_flow(FlowMode mode, const FlowRules& rules);
+
+}  // namespace graycube

@@ -1,0 +1,402 @@
+#include "node/rendering.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "check.hpp"
+#include "overloaded.hpp"
+#include "trace/work_cost.hpp"
+
+namespace graycube {
+
+Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
+    : here_(std::move(holding)),
+      flow_(make_flow(load.flow, FlowRules::of(load, here_))),
+      queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
+      helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
+      borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
+      light_(here_.seat, load.sums) {
+  if (load.algorithm == Algorithm::kMacro)
+    ending_.emplace(here_.seat, flow_->pace().token_never_rests);
+}
+
+void Rendering::reset() {
+  flow_->reset();
+  queue_.reset();
+  helping_.reset();
+  borrowing_.reset();
+  light_.reset();
+  if (ending_) ending_->reset();
+  has_begun_ = false;
+  working_ = 0;
+}
+
+// ---- from the frontal
+
+void Rendering::on_assigned(std::span<const std::uint32_t> tiles, Mail& mail) {
+  queue_.add_tiles(tiles);
+  for (const std::uint32_t tile : tiles) {
+    if (here_.is_own_tile(tile)) {
+      queue_.expect_less(1);
+    } else if (!domain_of(tile)) {
+      return mail.fail("a tile of another macro-region was assigned");
+    } else {
+      helping_.took_over(1, 0);
+    }
+  }
+  share_work(mail);
+}
+
+void Rendering::on_relieved(std::uint64_t tiles, Mail& mail) {
+  queue_.expect_less(tiles);
+  if (ending_) ending_->work_was_taken();
+  pass_token(mail);
+}
+
+void Rendering::on_all_whole(Mail& mail) {
+  if (ending_) ending_->all_are_whole();
+  pass_token(mail);
+}
+
+void Rendering::on_lend(Rank owner, const SharedBytes& slice, Mail& mail) {
+  if (!borrowing_.is_asked(owner)) return mail.drop("lend", "not asked for");
+  if (!slice.empty()) return queue_.add_model(BorrowWork{owner, slice});
+  const std::vector<RayTask> refused = borrowing_.was_refused(owner);
+  flow_->release(refused.size());
+  const Seat& seat = here_.seat;
+  for (const RayTask& ray : refused)
+    flow_->leave(seat.bit_of(seat.owner_of(ray.region)), {&ray, 1});
+  // No evaluator may come by to send what is left.
+  send(true, mail);
+  pass_token(mail);
+}
+
+void Rendering::on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes,
+                        Mail& mail) {
+  const bool is_neighbours = here_.seat.bit_of(owner) < here_.seat.links();
+  if (!is_neighbours || here_.domain->grid() == nullptr)
+    return mail.drop("copy", "not a neighbour's");
+  queue_.add_model(CopyWork{owner, share_of(here_.seat.cube, owner), slice, horizon_bytes});
+}
+
+void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
+  pass_token(mail, ping);
+  if (has_begun_) flow_->answer_ping(ping, mail);
+}
+
+// ---- from neighbours
+
+/// For this node's regions; or the sender's own, for whom this node is to trace them; or a
+/// neighbour's: what left a copy of another neighbour's regions comes this way.
+void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
+  const Rank sender = mail.peer(bit);
+  const auto is_senders = [&](RegionIndex region) { return here_.seat.owner_of(region) == sender; };
+  const bool is_help = !rays.empty() && is_senders(rays.front().region);
+  bool is_due = !is_help || helping_.copy_of(bit);
+  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask>) {
+    is_due = is_due && (is_help ? is_senders(region) : here_.is_due(region, helping_.is_on()));
+  });
+  if (!is_due) {
+    mail.drop("rays", "for another macro-region");
+    return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
+  }
+  if (ending_) ending_->work_came();
+  tally_.rays_came(rays.size());
+  if (is_help) return on_rays_to_help(bit, rays);
+  bool go_on = false;
+  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
+    if (here_.holds(region)) return queue_.add_received(run, bit);
+    go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
+  });
+  tally_.note_queue(held());
+  share_work(mail);
+  if (!go_on) return;
+  if (all_evaluators_wait()) return flush_on_idle(mail);
+  flow_->send(false, mail);
+  flow_->grant(bit, mail);
+}
+
+void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays) {
+  helping_.took_over(0, rays.size());
+  helping_.has_given(bit);
+  queue_.add_helped(here_.seat.peer(bit), bit, rays);
+  tally_.note_queue(held());
+}
+
+void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
+  const bool are_due = std::ranges::all_of(
+      rays, [this](const RayTask& ray) { return here_.is_due(ray.region, helping_.is_on()); });
+  if (!are_due || !flow_->add_class_rays(bit, rays)) {
+    mail.drop("class rays", "for another macro-region, or without credit");
+    return mail.fail("a broken batch of class rays came from node " +
+                     std::to_string(mail.peer(bit).value));
+  }
+  if (ending_) ending_->work_came();
+  tally_.rays_came(rays.size());
+  tally_.note_queue(held());
+}
+
+/// Where all evaluators wait, none will come by to send the rest.
+void Rendering::on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  flow_->on_class_credit(bit, batch, limits(), all_evaluators_wait(), mail);
+}
+
+void Rendering::on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  const bool is_free = flow_->on_link_credit(bit, batch, limits(), all_evaluators_wait(), mail);
+  if (is_free && all_evaluators_wait()) flush_on_idle(mail);
+}
+
+/// A neighbour's, to be traced here.
+void Rendering::on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  std::vector<std::uint32_t> tiles;
+  const auto result = decode_assignment(batch, limits(), tiles);
+  const auto* error = std::get_if<BatchError>(&result);
+  const Rank sender = mail.peer(bit);
+  const auto is_senders = [&](std::uint32_t tile) { return here_.owner_of_tile(tile) == sender; };
+  if (error != nullptr || !helping_.is_on() || !helping_.copy_of(bit) ||
+      !std::ranges::all_of(tiles, is_senders)) {
+    mail.drop("tiles", error != nullptr ? to_string(*error) : "of regions that are not held here");
+    return mail.fail("node " + std::to_string(sender.value) +
+                     " sent tiles that can't be traced here");
+  }
+  if (ending_) ending_->work_came();
+  helping_.has_given(bit);
+  helping_.took_over(tiles.size(), 0);
+  queue_.add_tiles(tiles);
+}
+
+void Rendering::on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  if (light_.on_sums(bit, batch, limits(), mail) && ending_) ending_->work_came();
+}
+
+void Rendering::on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type,
+                         Mail& mail) {
+  if (helping_.on_offer(bit, batch, type, limits(), mail)) share_work(mail);
+}
+
+void Rendering::on_token(std::span<const std::byte> batch, Mail& mail) {
+  if (ending_ && ending_->on_token(batch, limits(), mail)) pass_token(mail);
+}
+
+// ---- work
+
+/// In `roth` and in replicas all tiles are everybody's; null where nothing here is good for the
+/// tile.
+std::shared_ptr<const Domain> Rendering::domain_of(std::uint32_t tile) const {
+  if (here_.is_own_tile(tile) || here_.domain->is_replica()) return here_.domain;
+  return helping_.copy_of(here_.seat.bit_of(here_.owner_of_tile(tile)));
+}
+
+/// When there is none, whatever waits to be sent goes out.
+std::optional<Work> Rendering::take_work(Mail& mail) {
+  if (!has_begun_) return std::nullopt;
+  if (!flow_->is_stalled()) {
+    flow_->pass_on_what_waits();
+    if (auto work = choose_work(mail)) {
+      ++working_;
+      return work;
+    }
+  }
+  flush_on_idle(mail);
+  return std::nullopt;
+}
+
+std::optional<Work> Rendering::choose_work(Mail& mail) {
+  const Pace pace = flow_->pace();
+  Work work;
+  work.domain = here_.domain;
+  work.most_leaving = pace.most_leaving;
+  if (auto model = queue_.take_model()) {
+    std::visit([&](auto& m) { work.what = std::move(m); }, *model);
+    return work;
+  }
+  const auto route = [this](const RegionIndex& region) { return here_.next_link(region); };
+  if (auto taken = flow_->take_class_work(route, mail)) {
+    work.on_class = taken->on_class;
+    if (work.on_class) work.most_leaving = 1;
+    work.what = RayWork{std::move(taken->rays)};
+    return work;
+  }
+  if (flow_->is_full()) return std::nullopt;
+  auto piece =
+      queue_.take(pace, flow_->may_start_tiles(), here_.plan,
+                  [this](std::uint32_t bit, std::size_t rays) { flow_->taken(bit, rays); });
+  if (!piece) return std::nullopt;
+  for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit)
+    flow_->grant(bit, mail);
+  work.helped = piece->helped;
+  if (work.helped) work.domain = helping_.copy_of(here_.seat.bit_of(*work.helped));
+  if (const auto* pixels = std::get_if<TileWork>(&piece->what)) {
+    work.domain = domain_of(pixels->tile);
+    if (work.domain != here_.domain) work.helped = here_.owner_of_tile(pixels->tile);
+  }
+  std::visit([&](auto& what) { work.what = std::move(what); }, piece->what);
+  return work;
+}
+
+// ---- results
+
+void Rendering::give_result(WorkResult& result, Mail& mail) {
+  GRAYCUBE_CHECK(working_ > 0, "a result without work");
+  --working_;
+  flow_->has_moved();
+  std::visit(Overloaded{
+                 [](Built&) { GRAYCUBE_CHECK(false, "what is being rendered was built again"); },
+                 [&](Borrowed& borrowed) { adopt(borrowed, mail); },
+                 [&](Copied& copied) { adopt(copied, mail); },
+                 [&](Traced& traced) { absorb(traced, mail); },
+             },
+             result.what);
+  pass_token(mail);
+}
+
+void Rendering::adopt(Borrowed& borrowed, Mail& mail) {
+  if (!borrowed.model) return mail.fail(borrowed.error);
+  const std::vector<RayTask> waited =
+      borrowing_.came(borrowed.from, borrowed.model->memory_bytes());
+  here_.domain =
+      here_.domain->with_borrowed(here_.seat.cube.column_of(borrowed.from),
+                                  here_.seat.cube.row_of(borrowed.from), std::move(borrowed.model));
+  flow_->release(waited.size());
+  queue_.add_own(waited);
+}
+
+void Rendering::adopt(Copied& copied, Mail& mail) {
+  if (!copied.domain) return mail.fail(copied.error);
+  helping_.adopt(here_.seat.bit_of(copied.from), std::move(copied.domain));
+}
+
+void Rendering::absorb(Traced& traced, Mail& mail) {
+  const Step& step = traced.step;
+  tally_.add(step);
+  helping_.has_traced(work_cost(step.rays.created, traced.walk), traced.tile.has_value());
+  let_leave(traced, mail);
+  keep_set_aside(traced);
+  light_.add(step.returns, traced.tile, here_.plan, mail);
+  if (!step.leaving.empty() || !step.lacking.empty()) send(false, mail);
+  // Of each tile more is known of what the others take.
+  if (traced.tile) share_work(mail);
+}
+
+/// The rays of a step that leave, or wait for a model that they lack.
+void Rendering::let_leave(const Traced& traced, Mail& mail) {
+  for_each_region(traced.step.leaving, [&](RegionIndex region, std::span<const RayTask> rays) {
+    if (traced.helped) return leave_copy(rays, *traced.helped);
+    const std::uint32_t bit = here_.seat.bit_towards(region);
+    if (!borrowing_.is_on()) return flow_->leave(bit, rays, traced.on_class);
+    for (const RayTask& ray : rays) {
+      if (ray.kind == RayKind::kShadow && waits_for_model(here_.seat.owner_of(region), ray, mail))
+        continue;
+      flow_->leave(bit, {&ray, 1}, traced.on_class);
+    }
+  });
+  for (const Step::Lacking& l : traced.step.lacking) {
+    if (waits_for_model(here_.seat.owner_of(l.region), l.task, mail)) continue;
+    flow_->leave(here_.seat.bit_of(here_.seat.owner_of(l.task.region)), {&l.task, 1},
+                 traced.on_class);
+  }
+}
+
+/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for
+/// that: then it goes on with the neighbour whose region it has entered.
+bool Rendering::waits_for_model(Rank owner, const RayTask& ray, Mail& mail) {
+  const Borrowing::Place place = borrowing_.place_of(owner, ray, mail);
+  if (place == Borrowing::Place::kHere) queue_.add_own({&ray, 1});
+  if (place == Borrowing::Place::kWaits) flow_->reserve(1);
+  return place != Borrowing::Place::kThere;
+}
+
+/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region.
+void Rendering::leave_copy(std::span<const RayTask> rays, Rank owner) {
+  const Rank next = here_.seat.owner_of(rays.front().region);
+  if (next == here_.seat.rank) return queue_.add_own(rays);
+  flow_->leave(here_.seat.bit_for_helped(owner, next), rays);
+}
+
+void Rendering::keep_set_aside(Traced& traced) {
+  std::vector<RayTask>& rays = traced.step.set_aside;
+  if (traced.on_class) return flow_->class_work_ended(*traced.on_class, rays);
+  if (rays.empty()) return;
+  if (traced.helped) return queue_.add_helped_again(*traced.helped, std::move(rays));
+  queue_.add_own(rays);
+}
+
+/// Gives neighbours that have nothing to do something of what waits here.
+void Rendering::share_work(Mail& mail) {
+  if (!helping_.is_on()) return;
+  for (std::uint32_t bit = 0; bit < here_.seat.links(); ++bit) {
+    if (!helping_.has_offer(bit)) continue;
+    const auto is_own = [this](std::uint32_t tile) { return here_.is_own_tile(tile); };
+    const Helping::Supply supply{queue_.tiles(),
+                                 queue_.own_tiles_at_end(Helping::kMostTiles, is_own),
+                                 queue_.unassigned(), queue_.received()};
+    give(helping_.gift_for(bit, supply, flow_->gift_room(bit)), bit, mail);
+  }
+}
+
+void Rendering::give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail) {
+  const auto take_from = [this](std::uint32_t from, std::size_t rays) { flow_->taken(from, rays); };
+  const auto tiles = [&](const BatchStamp& stamp) {
+    return encode_assignment(stamp, queue_.give_tiles(gift.most));
+  };
+  switch (gift.kind) {
+    case Helping::Gift::Kind::kNothing: return;
+    case Helping::Gift::Kind::kCopy:
+      return mail.to_frontal(control::Share{mail.job(), mail.epoch(), mail.peer(bit).value});
+    case Helping::Gift::Kind::kTiles: mail.work_to_neighbour(bit, tiles); return;
+    case Helping::Gift::Kind::kRays:
+      return flow_->give(bit, queue_.give_rays(gift.most, take_from), mail);
+  }
+}
+
+// ---- sending, and the end
+
+void Rendering::send(bool partial, Mail& mail) {
+  if (flow_->send(partial, mail) && all_evaluators_wait()) flush_on_idle(mail);
+}
+
+void Rendering::flush_on_idle(Mail& mail) {
+  flow_->flush(mail);
+  light_.send(mail);
+  const bool is_dry = has_begun_ && !queue_.tiles() && queue_.unassigned() == 0 &&
+                      !flow_->is_full() && all_evaluators_wait();
+  if (is_dry) helping_.offer(mail);
+  pass_token(mail);
+}
+
+/// No evaluator may come by to send on what others sent here.
+void Rendering::before_mail_leaves(Mail& mail) {
+  if (has_begun_ && light_.holds_others_light() && all_evaluators_wait()) flush_on_idle(mail);
+}
+
+void Rendering::pass_token(Mail& mail, std::optional<std::uint64_t> ping) {
+  const bool is_passive = working_ == 0 && !queue_.has_models() && !has_unfinished();
+  if (has_begun_ && ending_) ending_->pass(is_passive, ping, mail);
+}
+
+bool Rendering::has_unfinished() const {
+  return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty();
+}
+
+WaitReason Rendering::wait_reason() const {
+  if (flow_->is_stalled()) return WaitReason::kBlocked;
+  if (queue_.has_models() || flow_->has_class_work()) return WaitReason::kReady;
+  if (queue_.has_rays() || flow_->held() > 0) {
+    return flow_->is_full() ? WaitReason::kBlocked : WaitReason::kReady;
+  }
+  if (queue_.has_tiles())
+    return flow_->may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
+  return queue_.unassigned() > 0 ? WaitReason::kWindow : WaitReason::kIdle;
+}
+
+void Rendering::report(control::NodeStats& stats) const {
+  here_.report(stats);
+  tally_.report(stats);
+  flow_->report(stats);
+  helping_.report(stats);
+  borrowing_.report(stats);
+  light_.report(stats);
+}
+
+}  // namespace graycube

@@ -1,0 +1,108 @@
+// A node's part in one picture, from when its macro-regions are subdivided: which mechanism is
+// asked in which order about rays, tiles and light that come, about work for evaluators and about
+// its results.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "node/borrowing.hpp"
+#include "node/ending.hpp"
+#include "node/helping.hpp"
+#include "node/holding.hpp"
+#include "node/light_out.hpp"
+#include "node/mail.hpp"
+#include "node/ray_flow.hpp"
+#include "node/tally.hpp"
+#include "node/work.hpp"
+#include "node/work_queue.hpp"
+
+namespace graycube {
+
+/// Why an evaluator gets no work (design section 6).
+enum class WaitReason : std::uint8_t {
+  kReady,    ///< it would get some now
+  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold,
+             ///< is full
+  kWindow,   ///< there are only unstarted primary rays, and the window is closed
+  kIdle,     ///< there is neither
+};
+
+class Rendering {
+ public:
+  Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes);
+
+  const Holding& holding() const { return here_; }
+  const BatchLimits& limits() const { return here_.limits; }
+  /// The barrier is passed.
+  void begin() { has_begun_ = true; }
+  bool has_begun() const { return has_begun_; }
+  /// A new epoch: it has yet to begin, and nothing is under way.
+  void reset();
+
+  // From the frontal
+  void on_assigned(std::span<const std::uint32_t> tiles, Mail& mail);
+  void on_relieved(std::uint64_t tiles, Mail& mail);
+  void on_all_whole(Mail& mail);
+  /// Another node's model, which was asked for; empty when there is no room for it.
+  void on_lend(Rank owner, const SharedBytes& slice, Mail& mail);
+  /// A neighbour's slice.
+  void on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes, Mail& mail);
+  void on_ping(std::uint64_t ping, Mail& mail);
+
+  // From the neighbour across a link
+  void on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
+  void on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
+  void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
+  void on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
+  void on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
+  void on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
+  void on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type, Mail& mail);
+  void on_token(std::span<const std::byte> batch, Mail& mail);
+
+  // With evaluators
+  std::optional<Work> take_work(Mail& mail);
+  void give_result(WorkResult& result, Mail& mail);
+  WaitReason wait_reason() const;
+  /// Whether rays, primary ones included, or light of the picture are left here.
+  bool has_unfinished() const;
+  /// Sends what nobody may come by to send: what is asked last before mail goes out.
+  void before_mail_leaves(Mail& mail);
+
+  void report(control::NodeStats& stats) const;
+
+ private:
+  void on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays);
+  std::shared_ptr<const Domain> domain_of(std::uint32_t tile) const;
+  std::optional<Work> choose_work(Mail& mail);
+  void adopt(Borrowed& borrowed, Mail& mail);
+  void adopt(Copied& copied, Mail& mail);
+  void absorb(Traced& traced, Mail& mail);
+  void let_leave(const Traced& traced, Mail& mail);
+  bool waits_for_model(Rank owner, const RayTask& ray, Mail& mail);
+  void leave_copy(std::span<const RayTask> rays, Rank owner);
+  void keep_set_aside(Traced& traced);
+  void share_work(Mail& mail);
+  void give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail);
+  std::size_t held() const { return queue_.held() + flow_->held(); }
+  bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
+  void send(bool partial, Mail& mail);
+  void flush_on_idle(Mail& mail);
+  void pass_token(Mail& mail, std::optional<std::uint64_t> ping = std::nullopt);
+
+  Holding here_;
+  std::unique_ptr<RayFlow> flow_;
+  WorkQueue queue_;
+  Helping helping_;
+  Borrowing borrowing_;
+  LightOut light_;
+  /// Nothing in `roth`.
+  std::optional<Ending> ending_;
+  bool has_begun_ = false;
+  unsigned working_ = 0;
+  Tally tally_;
+};
+
+}  // namespace graycube
