@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "node/mail.hpp"
-#include "node/membership.hpp"
+#include "node/parts/mail.hpp"
+#include "node/parts/membership.hpp"
 #include "node/rendering.hpp"
 #include "node/work.hpp"
 #include "proto/messages.hpp"

@@ -8,13 +8,13 @@
 #include <optional>
 #include <span>
 
-#include "node/borrowing.hpp"
-#include "node/ending.hpp"
-#include "node/helping.hpp"
-#include "node/holding.hpp"
-#include "node/light_out.hpp"
-#include "node/mail.hpp"
-#include "node/ray_flow.hpp"
+#include "node/parts/borrowing.hpp"
+#include "node/parts/ending.hpp"
+#include "node/parts/helping.hpp"
+#include "node/parts/holding.hpp"
+#include "node/parts/light_out.hpp"
+#include "node/parts/mail.hpp"
+#include "node/parts/ray_flow.hpp"
 #include "node/tally.hpp"
 #include "node/work.hpp"
 #include "node/work_queue.hpp"

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "node/pace.hpp"
-#include "node/ray_store.hpp"
+#include "node/parts/pace.hpp"
+#include "node/parts/ray_store.hpp"
 #include "node/work.hpp"
 #include "trace/tile_plan.hpp"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "frontal/frontal.hpp"
-#include "node/class_places.hpp"
 #include "node/node.hpp"
+#include "node/parts/class_places.hpp"
 #include "node/wait_clock.hpp"
 #include "proto/control.hpp"
 #include "simulation/cores.hpp"

@@ -1,4 +1,4 @@
-#include "node/blocking_flow.hpp"
+#include "node/parts/blocking_flow.hpp"
 
 #include <catch2/catch.hpp>
 

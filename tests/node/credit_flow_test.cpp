@@ -1,4 +1,4 @@
-#include "node/credit_flow.hpp"
+#include "node/parts/credit_flow.hpp"
 
 #include <catch2/catch.hpp>
 

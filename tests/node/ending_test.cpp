@@ -1,4 +1,4 @@
-#include "node/ending.hpp"
+#include "node/parts/ending.hpp"
 
 #include <catch2/catch.hpp>
 

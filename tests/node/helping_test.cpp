@@ -1,4 +1,4 @@
-#include "node/helping.hpp"
+#include "node/parts/helping.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // What a node sends home: light summed per pixel, credit per tile, nothing lost, whatever comes in
 // which order.
-#include "node/merge_buffer.hpp"
+#include "node/parts/merge_buffer.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>

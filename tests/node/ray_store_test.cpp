@@ -1,4 +1,4 @@
-#include "node/ray_store.hpp"
+#include "node/parts/ray_store.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "node/outbox.hpp"
+#include "node/parts/outbox.hpp"
 
 using namespace graycube;
 

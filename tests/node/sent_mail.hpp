@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "node/mail.hpp"
+#include "node/parts/mail.hpp"
 
 namespace graycube::testing {
 

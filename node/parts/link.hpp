@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/class_places.hpp"
-#include "node/outbox.hpp"
+#include "node/parts/class_places.hpp"
+#include "node/parts/outbox.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {

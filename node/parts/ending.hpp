@@ -7,8 +7,8 @@
 #include <span>
 
 #include "coordination/termination.hpp"
-#include "node/mail.hpp"
-#include "node/seat.hpp"
+#include "node/parts/mail.hpp"
+#include "node/parts/seat.hpp"
 
 namespace graycube {
 

@@ -1,4 +1,4 @@
-#include "node/merge_buffer.hpp"
+#include "node/parts/merge_buffer.hpp"
 
 #include <algorithm>
 

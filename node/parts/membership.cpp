@@ -1,4 +1,4 @@
-#include "node/membership.hpp"
+#include "node/parts/membership.hpp"
 
 #include <algorithm>
 #include <utility>

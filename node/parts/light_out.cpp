@@ -1,4 +1,4 @@
-#include "node/light_out.hpp"
+#include "node/parts/light_out.hpp"
 
 #include <string>
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "node/mail.hpp"
+#include "node/parts/mail.hpp"
 #include "trace/domain.hpp"
 
 namespace graycube {

@@ -1,4 +1,4 @@
-#include "node/holding.hpp"
+#include "node/parts/holding.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "node/seat.hpp"
+#include "node/parts/seat.hpp"
 #include "proto/batch.hpp"
 #include "proto/messages.hpp"
 #include "transport/message.hpp"

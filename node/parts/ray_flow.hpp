@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "node/holding.hpp"
-#include "node/mail.hpp"
-#include "node/pace.hpp"
+#include "node/parts/holding.hpp"
+#include "node/parts/mail.hpp"
+#include "node/parts/pace.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {

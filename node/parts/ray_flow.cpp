@@ -1,7 +1,7 @@
-#include "node/ray_flow.hpp"
+#include "node/parts/ray_flow.hpp"
 
-#include "node/blocking_flow.hpp"
-#include "node/credit_flow.hpp"
+#include "node/parts/blocking_flow.hpp"
+#include "node/parts/credit_flow.hpp"
 
 namespace graycube {
 

@@ -1,4 +1,4 @@
-#include "node/mail.hpp"
+#include "node/parts/mail.hpp"
 
 #include <cstdio>
 

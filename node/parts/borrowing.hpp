@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/mail.hpp"
+#include "node/parts/mail.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {

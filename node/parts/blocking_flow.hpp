@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "node/ray_flow.hpp"
+#include "node/parts/ray_flow.hpp"
 
 namespace graycube {
 

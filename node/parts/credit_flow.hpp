@@ -9,9 +9,9 @@
 #include <map>
 #include <vector>
 
-#include "node/class_store.hpp"
-#include "node/link.hpp"
-#include "node/ray_flow.hpp"
+#include "node/parts/class_store.hpp"
+#include "node/parts/link.hpp"
+#include "node/parts/ray_flow.hpp"
 
 namespace graycube {
 

@@ -1,4 +1,4 @@
-#include "node/borrowing.hpp"
+#include "node/parts/borrowing.hpp"
 
 #include <algorithm>
 #include <utility>

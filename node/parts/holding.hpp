@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "node/seat.hpp"
+#include "node/parts/seat.hpp"
 #include "proto/batch.hpp"
 #include "proto/messages.hpp"
 #include "trace/domain.hpp"

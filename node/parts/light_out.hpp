@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "node/mail.hpp"
-#include "node/merge_buffer.hpp"
-#include "node/seat.hpp"
+#include "node/parts/mail.hpp"
+#include "node/parts/merge_buffer.hpp"
+#include "node/parts/seat.hpp"
 
 namespace graycube {
 
