@@ -86,8 +86,9 @@ void Planes::add_plane(std::span<const Extent> plane, const std::vector<Level>& 
   for (const Extent& e : plane) levels_.push_back(given[e.item]);
   ends_.push_back(levels_.size());
   const auto added = std::span(levels_).subspan(first);
-  const bool is_equal = std::all_of(added.begin(), added.end(),
-                                    [&](const Level& f) { return f.own == added.front().own; });
+  const bool is_equal = std::all_of(added.begin(), added.end(), [&](const Level& f) {
+    return f.own == added.front().own && !f.is_of_mesh;
+  });
   has_unequal_ = has_unequal_ || (!is_equal && is_shared(added));
 }
 

@@ -23,6 +23,8 @@ struct Level {
   bool is_backward = false;
   /// Its normal is the direction already, or its opposite, bit for bit.
   bool has_direction = false;
+  /// A flat part of a mesh: until it gets a plane, each of its triangles has one of its own.
+  bool is_of_mesh = false;
 };
 
 /// Whether the faces are of more than one primitive.

@@ -22,35 +22,32 @@ Aabb touched_part(const Model& model, std::uint32_t primitive, double tolerance)
   return touched.is_empty() ? touched : touched.grown(2 * tolerance);
 }
 
+/// The triangles near other primitives.
+std::vector<std::uint32_t> touched_triangles(const TriangleMesh& mesh, const Aabb& touched) {
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    Aabb box = Aabb::nothing();
+    for (const std::uint32_t corner : mesh.triangles[i]) box.include(mesh.points[corner]);
+    if (box.overlaps(touched)) near.push_back(i);
+  }
+  return near;
+}
+
 }  // namespace
 
 MeshFaces::MeshFaces(const Model& model, std::uint32_t primitive, const Exactness& exactness)
     : mesh_(model.meshes[model.primitives[primitive].mesh]),
       primitive_(primitive),
       exactness_(exactness),
-      near_(touched_part(model, primitive, exactness.distance())) {}
+      flats_(surface(),
+             touched_triangles(surface(), touched_part(model, primitive, exactness.distance())),
+             exactness.distance()) {}
 
-bool MeshFaces::is_near(std::uint32_t triangle) const {
-  Aabb box = Aabb::nothing();
-  for (const std::uint32_t corner : surface().triangles[triangle])
-    box.include(surface().points[corner]);
-  return box.overlaps(near_);
-}
-
-MeshFace MeshFaces::face(std::uint32_t triangle) const {
-  const Triangle& t = surface().triangles[triangle];
-  const Vec3 &a = surface().points[t[0]], &b = surface().points[t[1]], &c = surface().points[t[2]];
-  const Vec3 normal = cross(b - a, c - a);
-  const double longest = std::max(length(b - a), std::max(length(c - b), length(a - c)));
-  const double height = length(normal) / longest;
-  MeshFace f;
-  f.plane.normal = normalized(normal) + Vec3{};
-  f.middle = (1.0 / 3) * (a + b + c);
-  f.plane.offset = dot(f.plane.normal, a) + 0.0;
-  // NaN, of a triangle without an area, is no direction either.
-  const double turned = exactness_.distance() / height;
-  f.direction_tolerance = turned <= 1 ? exactness_.direction + turned : 1.0;
-  return f;
+MeshFace MeshFaces::face(std::uint32_t number) const {
+  const Flat& flat = flats_.flats()[number];
+  // NaN, of triangles without an area, is no direction either.
+  const double turned = exactness_.distance() / flat.width;
+  return {flat.plane, flat.middle, turned <= 1 ? exactness_.direction + turned : 1.0};
 }
 
 bool MeshFaces::lies_in(std::uint32_t triangle, const Plane& plane) const {
@@ -62,41 +59,19 @@ bool MeshFaces::lies_in(std::uint32_t triangle, const Plane& plane) const {
   return true;
 }
 
-void MeshFaces::set(std::uint32_t triangle, const Plane& plane) {
-  if (!lies_in(triangle, plane)) return;
-  if (plane_of_.empty()) plane_of_.assign(surface().triangles.size(), TriangleMesh::kOwnPlane);
-  // Triangles of one plane come one after the other.
-  if (planes_.empty() || !(planes_.back() == plane)) planes_.push_back(plane);
-  plane_of_[triangle] = static_cast<std::uint32_t>(planes_.size() - 1);
-}
-
-void MeshFaces::spread_to_slender() {
-  /// Corners with planes of triangles there.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> planes_at;
-  const auto& triangles = surface().triangles;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (plane_of_[i] == TriangleMesh::kOwnPlane) continue;
-    for (const std::uint32_t corner : triangles[i]) planes_at.emplace_back(corner, plane_of_[i]);
+void MeshFaces::set(std::uint32_t number, const Plane& plane) {
+  bool is_used = false;
+  for (const std::uint32_t triangle : flats_.triangles_of(flats_.flats()[number])) {
+    if (!lies_in(triangle, plane)) continue;
+    if (plane_of_.empty()) plane_of_.assign(surface().triangles.size(), TriangleMesh::kOwnPlane);
+    plane_of_[triangle] = static_cast<std::uint32_t>(planes_.size());
+    is_used = true;
   }
-  std::sort(planes_at.begin(), planes_at.end());
-  planes_at.erase(std::unique(planes_at.begin(), planes_at.end()), planes_at.end());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (plane_of_[i] != TriangleMesh::kOwnPlane || face(i).direction_tolerance <= kWorstDirection)
-      continue;
-    const std::uint32_t corner = triangles[i][0];
-    auto at =
-        std::lower_bound(planes_at.begin(), planes_at.end(), std::pair(corner, std::uint32_t{0}));
-    for (; at != planes_at.end() && at->first == corner; ++at) {
-      if (!lies_in(i, planes_[at->second])) continue;
-      plane_of_[i] = at->second;
-      break;
-    }
-  }
+  if (is_used) planes_.push_back(plane);
 }
 
 bool MeshFaces::settle(Model& model) {
   if (planes_.empty()) return false;
-  spread_to_slender();
   TriangleMesh with_planes = surface();
   with_planes.planes = std::move(planes_);
   with_planes.plane_of = std::move(plane_of_);

@@ -12,7 +12,7 @@ void PlaneUnifier::count(std::uint32_t primitive) {
   std::size_t faces = face_count(p);
   if (p.kind == PrimitiveKind::kMesh) {
     mesh_faces_.emplace_back(model_, primitive, exactness_[primitive]);
-    faces = model_.meshes[p.mesh].surface().triangles.size();
+    faces = mesh_faces_.back().count();
   }
   count_ += faces;
   distances_ += static_cast<double>(faces) * exactness_[primitive].distance();
@@ -39,8 +39,8 @@ void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit)
     visit(h, Measured{along * first + base, tolerance}, Measured{along * last + base, tolerance});
   };
   if (p.kind == PrimitiveKind::kMesh) {
-    mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t triangle, const MeshFace& f) {
-      visit_faces({f.plane.normal, f.direction_tolerance, primitive, triangle, 1}, f.plane.offset,
+    mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t number, const MeshFace& f) {
+      visit_faces({f.plane.normal, f.direction_tolerance, primitive, number, 1}, f.plane.offset,
                   f.plane.offset);
     });
     return;
@@ -158,6 +158,7 @@ Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const 
   Level level;
   level.primitive = primitive;
   level.slot = slot;
+  level.is_of_mesh = model_.primitives[primitive].kind == PrimitiveKind::kMesh;
   level.is_backward = dot(direction, face.plane.normal) < 0;
   level.own = level.is_backward ? Plane{-face.plane.normal, -face.plane.offset} : face.plane;
   level.has_direction = level.own.normal == direction;

@@ -22,7 +22,8 @@ struct Side {
   }
 };
 
-/// The side across the edge, for edges of exactly two triangles.
+}  // namespace
+
 std::vector<std::uint32_t> sides_across(std::span<const Triangle> triangles, std::uint32_t none) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
@@ -45,8 +46,6 @@ std::vector<std::uint32_t> sides_across(std::span<const Triangle> triangles, std
   }
   return across;
 }
-
-}  // namespace
 
 MeshEdges::MeshEdges(std::span<const Triangle> triangles) {
   records_.reserve(3 * triangles.size());

@@ -39,6 +39,10 @@ class MeshEdges {
   std::size_t count_ = 0, unbalanced_count_ = 0;
 };
 
+/// What lies across each side: of side 3 · triangle + i, which goes from corner i to the next, the
+/// side of the other triangle; `none` at edges that aren't of exactly two triangles.
+std::vector<std::uint32_t> sides_across(std::span<const Triangle> triangles, std::uint32_t none);
+
 /// Turns triangles over so that neighbours at edges of exactly two triangles agree, starting from
 /// what the majority of each connected part says. The edge at which that can't be done (a one-sided
 /// surface), if there is one.

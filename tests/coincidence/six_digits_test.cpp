@@ -5,6 +5,7 @@
 
 #include "coincidence/pair_models.hpp"
 #include "coincidence/six_digits.hpp"
+#include "mesh/samples.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -128,8 +129,8 @@ TEST_CASE("in six digits a turned part of 40 mm that is 57 m away keeps a floor 
     const Affine away = translation({12345.6, -54321.7, 9876.5});
     const CsgNode plate = node_of(BoxShape{{0, 0, 0}, {40, 30, kHeight}});
     const CsgNode slot = node_of(BoxShape{{20, -1, kFloor}, {30, 31, kHeight + 1}});
-    Scene scene = scene_of({transformed(
-        transformed(operation(Operation::kDifference, {plate, slot}), turned), away)});
+    Scene scene = scene_of(
+        {transformed(transformed(operation(Operation::kDifference, {plate, slot}), turned), away)});
     scene.digits = 6;
     const Model model = compile_scene(scene);
     CrossingFinder finder(model);
@@ -139,5 +140,32 @@ TEST_CASE("in six digits a turned part of 40 mm that is 57 m away keeps a floor 
     REQUIRE(found.size() == 2);
     // What lies within the digits of 57 m from each other may have become one: half a millimetre.
     CHECK(found[1].t - found[0].t == Approx(kFloor).margin(0.6));
+  }
+}
+
+TEST_CASE("pegs with ends of slender triangles cut flush holes, in the 24 bits of a file") {
+  constexpr double kHeight = 6.35;
+  const auto in_24_bits = [](double v) { return static_cast<double>(static_cast<float>(v)); };
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    const auto sides = static_cast<std::uint32_t>(16 + dice.below(120));
+    TriangleMesh drum = closed(drum_polygons(3.65, 0, kHeight, sides));
+    for (Vec3& p : drum.points) p = {in_24_bits(p.x), in_24_bits(p.y), in_24_bits(p.z)};
+    const CsgNode peg = node_of(MeshShape{std::move(drum), 7});
+    const Affine to_middle = translation({20, 10, 0});
+    const Affine map =
+        compose(translation(dice.point(100)), rotation(dice.unit_vector(), dice.between(0, 180)));
+    const CsgNode plate = node_of(BoxShape{{0, 0, 0}, {40, 20, kHeight}});
+    Scene scene = scene_of({transformed(
+        operation(Operation::kDifference, {plate, transformed(peg, to_middle)}), map)});
+    scene.digits = 6;
+    const Model model = compile_scene(scene);
+    CrossingFinder finder(model);
+    for (int i = 0; i < 40; ++i) {
+      const double x = 20 + dice.between(-2, 2), y = 10 + dice.between(-2, 2);
+      const Vec3 from = map.point({x, y, 30}), to = map.point({x, y, -30});
+      CHECK(finder.all({"", {from, normalized(to - from)}, 0, 40, false}).empty());
+    }
   }
 }

@@ -47,6 +47,26 @@ inline void append(PolygonMesh& to, const PolygonMesh& more, bool inside_out = f
   }
 }
 
+/// A prism of so many sides about z, its ends cut into triangles about their first corners, as most
+/// files have them.
+inline PolygonMesh drum_polygons(double radius, double lo, double hi, std::uint32_t sides) {
+  PolygonMesh mesh;
+  for (const double z : {lo, hi}) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 360.0 * i / sides;
+      mesh.points.push_back({radius * cos_degrees(angle), radius * sin_degrees(angle), z});
+    }
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t next = (i + 1) % sides;
+    mesh.add_face(std::array{i, next, sides + next, sides + i});
+    if (i == 0 || next == 0) continue;
+    mesh.add_face(std::array{0u, next, i});
+    mesh.add_face(std::array{sides, sides + i, sides + next});
+  }
+  return mesh;
+}
+
 /// A grid of quads, rows × columns, both ways around: a ring (torus) about z.
 inline PolygonMesh ring_polygons(double major, double minor, std::uint32_t rows,
                                  std::uint32_t columns) {
