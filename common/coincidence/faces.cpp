@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check.hpp"
 #include "csg/box.hpp"
 #include "csg/half_space.hpp"
 
@@ -12,17 +11,6 @@ namespace {
 
 bool is_upper(std::uint32_t slot) { return slot % 2 == 1; }
 int axis_of(std::uint32_t slot) { return static_cast<int>(slot / 2); }
-
-/// The lower (normal backwards) or the upper of the two planes across `normal`.
-Plane side_of(const Vec3& normal, double lower, double upper, std::uint32_t slot) {
-  return is_upper(slot) ? Plane{normal, upper} : Plane{-normal, -lower};
-}
-
-Vec3 world_axis(int axis) {
-  Vec3 e;
-  e[axis] = 1;
-  return e;
-}
 
 bool is_world_axis(const Vec3& n) {
   return (std::fabs(n.x) == 1) + (std::fabs(n.y) == 1) + (std::fabs(n.z) == 1) == 1 &&
@@ -54,20 +42,9 @@ void become_box(Primitive& p) {
 
 Face face_of(const Model& model, std::uint32_t primitive, std::uint32_t slot) {
   const Primitive& p = model.primitives[primitive];
-  const auto axis = static_cast<std::size_t>(axis_of(slot));
-  switch (p.kind) {
-    case PrimitiveKind::kBox:
-      return {side_of(world_axis(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive, slot};
-    case PrimitiveKind::kParallelepiped:
-      return {side_of(p.to_local.row(axis_of(slot)), p.v[axis], p.v[axis + 3], slot), primitive,
-              slot};
-    case PrimitiveKind::kCylinder:
-    case PrimitiveKind::kCone:
-    case PrimitiveKind::kEllipticCone:
-      return {side_of({p.v[0], p.v[1], p.v[2]}, p.v[3], p.v[4], slot), primitive, slot};
-    case PrimitiveKind::kHalfSpace: return {half_space_plane(p), primitive, slot};
-    default: return {faces_of(p, model.planes)[slot], primitive, slot};
-  }
+  const Plane along{heading_of(model, p, slot), offset_of(model, p, slot)};
+  const bool is_backward = has_opposite_faces(p) && !is_upper(slot);
+  return {is_backward ? Plane{-along.normal, -along.offset} : along, primitive, slot};
 }
 
 void set_face(Model& model, const Face& face) {

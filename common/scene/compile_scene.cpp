@@ -9,19 +9,12 @@
 #include "coincidence/exactness.hpp"
 #include "csg/build_primitive.hpp"
 #include "csg/tree.hpp"
+#include "overloaded.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
 
 namespace graycube {
 namespace {
-
-template <typename... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-// clang doesn't deduce it before version 17.
-template <typename... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 class Compiler {
  public:
