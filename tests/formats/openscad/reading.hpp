@@ -13,9 +13,9 @@
 
 namespace graycube::testing {
 
-/// A file of this folder, as OpenSCAD wrote it.
+/// A file of this folder, which the build names, as OpenSCAD wrote it.
 inline std::string fixture(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(__FILE__).parent_path() / name;
+  const std::filesystem::path path = std::filesystem::path(GRAYCUBE_FIXTURES) / name;
   std::ifstream file(path, std::ios::binary);
   INFO(path);
   REQUIRE(file.good());
