@@ -4,6 +4,7 @@
 
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/fixture.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/reading.hpp"
 #include "fuzz/openscad_fuzz.hpp"

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,17 +9,6 @@
 #include "formats/openscad/openscad.hpp"
 
 namespace graycube::testing {
-
-/// A file of this folder, which the build names, as OpenSCAD wrote it.
-inline std::string fixture(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(GRAYCUBE_FIXTURES) / name;
-  std::ifstream file(path, std::ios::binary);
-  INFO(path);
-  REQUIRE(file.good());
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 inline std::vector<std::string> errors_of(const std::string& text) {
   std::vector<std::string> lines;
