@@ -18,7 +18,8 @@
 
 namespace graycube {
 
-/// To be told of each primitive as soon as the model has it, while it lies in the processor's cache.
+/// To be told of each primitive as soon as the model has it, while it lies in the processor's
+/// cache.
 class CoincidenceUnifier {
  public:
   explicit CoincidenceUnifier(Model& model)

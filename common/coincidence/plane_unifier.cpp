@@ -64,8 +64,7 @@ void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit)
   const std::uint32_t count = face_count(p), step = has_opposite_faces(p) ? 2 : 1;
   for (std::uint32_t slot = 0; slot < count; slot += step) {
     const Vec3 normal = heading_of(model_, p, slot);
-    const double tolerance =
-        p.plane_count > 0 ? direction_tolerance(p, normal, exact) : direction;
+    const double tolerance = p.plane_count > 0 ? direction_tolerance(p, normal, exact) : direction;
     visit_faces({normal, tolerance, primitive, slot, step}, offset_of(model_, p, slot),
                 offset_of(model_, p, slot + step - 1));
   }

@@ -86,8 +86,7 @@ void SurfaceUnifier::add(std::uint32_t primitive) {
   Primitive& p = model_.primitives[primitive];
   const Exactness& exact = exactness_[primitive];
   simplify(p, exact.distance());
-  if (family_of(p) != SurfaceFamily::kNone)
-    sightings_.add(primitive, surface_number(p, exact, 0));
+  if (family_of(p) != SurfaceFamily::kNone) sightings_.add(primitive, surface_number(p, exact, 0));
 }
 
 bool SurfaceUnifier::unify() {
