@@ -1,4 +1,4 @@
-// The scene as plain values, close to the file (design contract: README, "Scene file"). Nothing
+// The scene as plain values, close to the file (docs/scene.md). Nothing
 // here is compiled, expanded or checked for meaning beyond what `read_scene` promises.
 #pragma once
 
