@@ -2,7 +2,7 @@
 // that are one sphere, ellipsoid, cylinder, cone, torus or quadric get the same numbers. Then a ray
 // crosses them at equal parameters, and what is taken together at equal t (crossings/crossings.hpp)
 // leaves no skin where a cut is flush with a face. A model's own surfaces become one where they lie
-// within how exactly they are known; docs/coincidence.md says how near that is.
+// within how exactly they are known; docs/design/coincidence.md says how near that is.
 #pragma once
 
 #include <array>
