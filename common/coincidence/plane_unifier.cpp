@@ -118,10 +118,9 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
   for (const Extent& e : cluster) {
     const Heading& h = others_[e.item];
     for (std::uint32_t slot = h.slot; slot < h.slot + h.count; ++slot) {
-      const Anchored face = anchored_face(h.primitive, slot);
-      group.push_back(level_of(h.primitive, slot, face, direction));
-      anchors.push_back(face.anchor);
-      around.include(face.anchor);
+      group.push_back(level_of(h.primitive, slot, direction));
+      anchors.push_back(anchor_of_face(h.primitive, slot));
+      around.include(anchors.back());
     }
   }
   // What faces in one plane but apart come to, seen along a direction that is a little off. It
@@ -139,34 +138,35 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
 /// The heading's faces along a direction that its own can't be told from.
 void PlaneUnifier::add_levels(const Heading& heading, const Vec3& direction,
                               std::vector<Level>& group) const {
-  for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot) {
-    const Anchored face = anchored_face(heading.primitive, slot);
-    group.push_back(level_of(heading.primitive, slot, face, direction));
-  }
+  for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot)
+    group.push_back(level_of(heading.primitive, slot, direction));
 }
 
-PlaneUnifier::Anchored PlaneUnifier::anchored_face(std::uint32_t primitive,
-                                                   std::uint32_t slot) const {
+Plane PlaneUnifier::plane_of(std::uint32_t primitive, std::uint32_t slot) const {
+  return model_.primitives[primitive].kind == PrimitiveKind::kMesh
+             ? mesh_faces_[place_of_mesh(primitive)].face(slot).plane
+             : face_of(model_, primitive, slot).plane;
+}
+
+Vec3 PlaneUnifier::anchor_of_face(std::uint32_t primitive, std::uint32_t slot) const {
   const Primitive& p = model_.primitives[primitive];
-  if (p.kind == PrimitiveKind::kMesh) {
-    const MeshFace f = mesh_faces_[place_of_mesh(primitive)].face(slot);
-    return {f.plane, f.middle};
-  }
-  const Plane plane = face_of(model_, primitive, slot).plane;
-  return {plane, anchor_of(p, plane)};
+  return p.kind == PrimitiveKind::kMesh ? mesh_faces_[place_of_mesh(primitive)].face(slot).middle
+                                        : anchor_of(p, face_of(model_, primitive, slot).plane);
 }
 
-Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const Anchored& face,
+Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot,
                              const Vec3& direction) const {
+  const Plane plane = plane_of(primitive, slot);
   Level level;
   level.primitive = primitive;
   level.slot = slot;
   level.is_of_mesh = model_.primitives[primitive].kind == PrimitiveKind::kMesh;
-  level.is_backward = dot(direction, face.plane.normal) < 0;
-  level.own = level.is_backward ? Plane{-face.plane.normal, -face.plane.offset} : face.plane;
+  level.is_backward = dot(direction, plane.normal) < 0;
+  level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
   level.has_direction = level.own.normal == direction;
   // Otherwise it is turned about its middle.
-  level.offset = level.has_direction ? level.own.offset : dot(direction, face.anchor);
+  level.offset =
+      level.has_direction ? level.own.offset : dot(direction, anchor_of_face(primitive, slot));
   const Vec3 position = exactness_[primitive].position();
   level.tolerance = std::fabs(direction.x) * position.x + std::fabs(direction.y) * position.y +
                     std::fabs(direction.z) * position.z;

@@ -35,15 +35,11 @@ class PlaneUnifier {
   template <typename Visit>
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   void collect(std::uint32_t primitive);
-  /// A face and a point of it, in its middle.
-  struct Anchored {
-    Plane plane;
-    Vec3 anchor;
-  };
-  Anchored anchored_face(std::uint32_t primitive, std::uint32_t slot) const;
+  Plane plane_of(std::uint32_t primitive, std::uint32_t slot) const;
+  /// A point of the face, in its middle.
+  Vec3 anchor_of_face(std::uint32_t primitive, std::uint32_t slot) const;
   void add_levels(const Heading& heading, const Vec3& direction, std::vector<Level>& group) const;
-  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Anchored& face,
-                 const Vec3& direction) const;
+  Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction) const;
   void unify_directions();
   void unify_direction(std::span<const Extent> cluster);
   void unify_offsets(const Vec3& direction, std::vector<Level> group);

@@ -4,12 +4,15 @@ Prints a line for each breach, "FILE:LINE: what is wrong", and fails if there is
 each folder includes only what the code map of ARCHITECTURE.md says, which names every folder, and
 only folders above its own row; a vendor is included only at home; what decides without a clock
 includes none, nor threads or sockets; folders stay small; links of Markdown files, and the files
-that they name, are there; first pages stay short, and every page of docs is linked from somewhere.
+that they name, are there; first pages stay short, and every page of docs is linked from somewhere;
+control messages are described and have examples (messages.py).
 """
 
 import os
 import re
 import sys
+
+import messages
 
 SOURCES = (".cpp", ".hpp")
 MAX_FILES = 30
@@ -302,6 +305,7 @@ def breaches_of(root):
     check_documents(tree)
     check_short(tree)
     check_linked(tree)
+    messages.check_messages(tree)
     return tree.breaches
 
 

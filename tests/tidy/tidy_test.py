@@ -171,6 +171,20 @@ class TidyTest(unittest.TestCase):
                "docs/plot.svg": ""}
         self.assertEqual(self.breaches({**page, **lab}), [])
 
+    def test_every_control_message_is_described_and_has_an_example(self):
+        house = {
+            "proto/schema/all_whole.schema.json": "{}",
+            "proto/schema/failed.schema.json": "{}",
+            "proto/FORMAT.md": "| `all_whole` | job |\n\nIt may be answered by `failed` {job}.\n",
+            "tests/proto/control_examples.hpp": "control::AllWhole{7};\ncontrol::Failed f;\n",
+        }
+        self.assertEqual(self.breaches(house), [])
+        self.expect("proto/schema/all_whole.schema.json:1: proto/FORMAT.md has no row of "
+                    "`all_whole`", {**house, "proto/FORMAT.md": "`failed`: `all_whole`\n"})
+        self.expect("proto/schema/failed.schema.json:1: tests/proto/control_examples.hpp has no "
+                    "example of a Failed",
+                    {**house, "tests/proto/control_examples.hpp": "AllWhole{7}; FailedToo f;\n"})
+
     def test_experiments_are_no_crowd(self):
         many = {f"docs/lab/{i}.md": "" for i in range(tidy.MAX_FILES + 1)}
         index = "".join(f"[{i}](docs/lab/{i}.md)\n" for i in range(tidy.MAX_FILES + 1))
