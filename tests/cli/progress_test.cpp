@@ -1,6 +1,6 @@
 #include "cli/display/progress.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 namespace graycube {
 namespace {

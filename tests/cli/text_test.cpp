@@ -1,5 +1,4 @@
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "cli/display/job_text.hpp"
 #include "cli/display/table.hpp"
 #include "cli/failure.hpp"

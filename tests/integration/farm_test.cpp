@@ -3,9 +3,9 @@
 
 #include <httplib.h>
 
-#include <catch2/catch.hpp>
 #include <thread>
 
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "integration/sandbox.hpp"
 

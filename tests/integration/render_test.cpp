@@ -1,6 +1,6 @@
 // graycube render: its files, its statistics, its progress, its limits.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "integration/sandbox.hpp"
 
