@@ -55,7 +55,7 @@ std::string job_text(const control::JobInfo& job) {
   if (job.tiles > 0) {
     line("done", percent(job.fraction) + ", " + final_parts_text(job.tiles_whole, job.tiles));
   }
-  line("checks whether all is done", std::to_string(job.rounds));
+  if (job.rounds > 0) line("checks whether all is done", std::to_string(job.rounds));
   if (job.eta_s) line("time left", duration_text(*job.eta_s));
   line("submitted", local_time(job.submitted_s));
   if (job.started_s) line("started", local_time(*job.started_s));

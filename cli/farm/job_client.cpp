@@ -132,7 +132,8 @@ std::string summary_text(const control::JobInfo& info) {
   std::string text(to_string(info.algorithm));
   text += " on " + std::to_string(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
   if (!info.choices.empty()) text += ", " + info.choices;
-  return text + ", " + end_checks_text(info.rounds);
+  if (info.rounds > 0) text += ", " + end_checks_text(info.rounds);
+  return text;
 }
 
 }  // namespace graycube

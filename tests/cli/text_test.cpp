@@ -43,6 +43,7 @@ TEST_CASE("a job's lines tell what is known of it and nothing else") {
   const std::string queued = job_text(job);
   CHECK(queued.find("state: queued\n") != std::string::npos);
   CHECK(queued.find("time left") == std::string::npos);
+  CHECK(queued.find("checks") == std::string::npos);
   CHECK(queued.find("parts") == std::string::npos);
   job.state = JobState::kRendering;
   job.tiles = 10;
