@@ -67,9 +67,9 @@ graycube, graycube\-frontal, graycube\-node \- render solid models by ray tracin
 .B graycube \-\-version
 .SH DESCRIPTION
 .B graycube
-renders solid models (unions, differences and intersections of solids) by ray tracing. Nodes, which are
-processes wired as a hypercube, each hold a part of the scene and hand rays on to their neighbours. The picture
-has the same bytes however many nodes there are.
+renders solid models (unions, differences and intersections of solids) by ray tracing.
+Nodes, which are processes wired as a hypercube, each hold a part of the scene and hand rays on to
+their neighbours. The picture has the same bytes however many nodes there are.
 .PP
 .B graycube
 starts
