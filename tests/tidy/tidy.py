@@ -2,9 +2,9 @@
 
 Prints a line for each breach, "FILE:LINE: what is wrong", and fails if there is one. The rules:
 each folder includes only what the code map of ARCHITECTURE.md says, which names every folder, and
-only folders above its own row; a vendor is included only at home; what decides without a clock
-includes none, nor threads or sockets; folders stay small; links of Markdown files, and the files
-that they name, are there.
+only folders above its own row; a vendor is included only at home, Catch2 only by catch.hpp; what
+decides without a clock includes none, nor threads or sockets; folders stay small; links of Markdown
+files, and the files that they name, are there.
 """
 
 import os
@@ -178,6 +178,16 @@ def check_vendors(tree):
                     tree.breach(path, number, f"{name} is at home in {', '.join(homes)}")
 
 
+def check_catch(tree):
+    """Tests know Catch2 by the one header that knows its versions."""
+    for path in tree.paths:
+        if not path.endswith(SOURCES) or not path.startswith("tests/") or path == "tests/catch.hpp":
+            continue
+        for number, name, _ in tree.includes(path):
+            if name.startswith("catch2/"):
+                tree.breach(path, number, f'{name}: include "catch.hpp"')
+
+
 def brain_sources(tree):
     """The .cpp files of the brains' targets, and all that these include of their folders."""
     found = []
@@ -266,6 +276,7 @@ def breaches_of(root):
     check_map(tree, rows)
     check_includes(tree, rows)
     check_vendors(tree)
+    check_catch(tree)
     check_worldly(tree)
     check_sizes(tree)
     check_documents(tree)
