@@ -1,8 +1,8 @@
 """options.py GRAYCUBE ROOT: holds every place that tells of options against `--help`.
 
-GRAYCUBE is the command. Its man page, what bash, zsh and fish complete, and the first columns of the
-tables in ROOT/docs/manual.md, where that file is, must name the options that the commands' help names,
-and no others. Prints a line for each breach, and fails if there is one.
+GRAYCUBE is the command. Of each of its commands the man page, what bash, zsh and fish complete, and the
+first columns of the tables in its section of ROOT/docs/manual.md must name the options that the command's
+help names, and no others. Prints a line for each breach, and fails if there is one.
 """
 
 import os
@@ -82,27 +82,31 @@ def compared(place, told, options):
     return breaches + [f"{place} has {name}, which --help has not" for name in sorted(told - options)]
 
 
-def breaches_of_command(texts, command):
+def breaches_of_command(texts, manual, command):
     options = help_options(texts["help"][command])
     breaches = compared(f"{command}: the man page", man_options(texts["man"], command), options)
     for shell, options_of in (("bash", bash_options), ("zsh", zsh_options), ("fish", fish_options)):
         told = options_of(texts[shell], command)
         breaches += compared(f"{command}: completion of {shell}", told, options)
+    if manual:
+        breaches += breaches_of_manual(manual, command, texts["help"][command])
     return breaches
 
 
-def breaches_of_manual(texts, manual):
-    """Commands share tables there, so all options are compared at once, by one of their names."""
-    told = manual_options(manual)
-    known, breaches = {"-h", "--help", "--version"}, []
-    for text in texts["help"].values():
-        for head in HEAD.findall(text):
-            names = set(OPTION.findall(head))
-            known |= names
-            if not names & (told | {"--help"}):
-                breaches.append(f"docs/manual.md lacks {'/'.join(sorted(names))}")
-    breaches += [f"docs/manual.md has {name}, which --help has not" for name in sorted(told - known)]
-    return sorted(set(breaches))
+def breaches_of_manual(manual, command, help_text):
+    """The manual's section of a command tells of each option by one of its names at least."""
+    section = re.search(rf"^## {re.escape(command)}\n(.*?)(?=^## |\Z)", manual,
+                        re.MULTILINE | re.DOTALL)
+    if not section:
+        return [f"{command}: docs/manual.md has no section of it"]
+    told, known = manual_options(section[1]), help_options(help_text)
+    breaches = []
+    for head in HEAD.findall(help_text):
+        names = OPTION.findall(head)
+        if "--help" not in names and not set(names) & told:
+            breaches.append(f"{command}: docs/manual.md lacks {', '.join(names)}")
+    return breaches + [f"{command}: docs/manual.md has {name}, which --help has not"
+                       for name in sorted(told - known)]
 
 
 def texts_of(graycube):
@@ -119,8 +123,8 @@ def texts_of(graycube):
 def breaches_of(texts, manual):
     breaches = [] if texts["help"] else ["--help lists no commands"]
     for command in texts["help"]:
-        breaches += breaches_of_command(texts, command)
-    return breaches + (breaches_of_manual(texts, manual) if manual else [])
+        breaches += breaches_of_command(texts, manual, command)
+    return breaches
 
 
 def main(graycube, root):

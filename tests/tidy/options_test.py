@@ -38,7 +38,9 @@ FISH = """complete -c graycube -s h -l help -d 'Print the help'
 complete -c graycube -n '__fish_seen_subcommand_from render' -s o -l output -r -F -d 'The picture'
 complete -c graycube -n '__fish_seen_subcommand_from render' -l wait -d 'Wait'
 """
-MANUAL = """| option | what |
+MANUAL = """## render
+
+| option | what |
 |---|---|
 | `-o OUT.exr` | The picture |
 | `--wait` | As `--nothing` |
@@ -46,6 +48,12 @@ MANUAL = """| option | what |
 | other | what |
 |---|---|
 | `--unrelated` | |
+
+## up
+
+| option |
+|---|
+| `--listen` |
 """
 
 
@@ -68,13 +76,17 @@ class OptionsTest(unittest.TestCase):
         self.assertEqual(self.breaches(fish=FISH.replace("-l wait", "")),
                          ["render: completion of fish lacks --wait"])
         self.assertEqual(self.breaches(manual=MANUAL.replace("-o OUT", "OUT")),
-                         ["docs/manual.md lacks --output/-o"])
+                         ["render: docs/manual.md lacks -o, --output"])
 
     def test_what_help_does_not_know_is_found(self):
         self.assertEqual(self.breaches(fish=FISH.replace("-l wait", "-l wait -l old")),
                          ["render: completion of fish has --old, which --help has not"])
         self.assertEqual(self.breaches(manual=MANUAL.replace("--wait", "--wait`, `--old")),
-                         ["docs/manual.md has --old, which --help has not"])
+                         ["render: docs/manual.md has --old, which --help has not"])
+
+    def test_a_command_has_a_section_in_the_manual(self):
+        self.assertEqual(self.breaches(manual=MANUAL.replace("## render", "## rendering")),
+                         ["render: docs/manual.md has no section of it"])
 
     def test_help_lists_commands(self):
         self.assertEqual(options.command_names("Options:\n  -h  x\n\nSubcommands:\n"
