@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs what Graycube is built from, on Debian 12 and 13: deploy/install_packages.sh [--user | --tests | --fuzz]
-# With --user also what renders use, with --tests also the tools that tests and benchmarks compare with, with
-# --fuzz what the fuzzers need. Does nothing when all is there.
+# Installs what Graycube is built from, on Debian 12 and 13:
+#   deploy/install_packages.sh [--user | --package | --tests | --fuzz]
+# With --user also what renders use, with --package also what cpack calls, with --tests also the tools that tests
+# and benchmarks compare with, with --fuzz also what the fuzzers need. Does nothing when all is there.
 set -euo pipefail
 
 fail() {
@@ -25,9 +26,10 @@ packages=(
 case "${1-}" in
   '') ;;
   --user) packages+=(openscad) ;;
+  --package) packages+=(dpkg-dev file) ;;
   --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3) ;; # spin's verifiers are C
   --fuzz) packages+=(clang "libclang-rt-$(clang_version)-dev") ;;
-  *) fail "usage: install_packages.sh [--user | --tests | --fuzz]" ;;
+  *) fail "usage: install_packages.sh [--user | --package | --tests | --fuzz]" ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
