@@ -9,6 +9,9 @@
 
 #include "cli/failure.hpp"
 #include "cli/option_values.hpp"
+#include "cli/options/completion.hpp"
+#include "cli/options/man_page.hpp"
+#include "cli/options/shared_options.hpp"
 #include "spelling.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
@@ -17,133 +20,8 @@ namespace graycube {
 namespace {
 
 constexpr std::uint32_t kMaxCores = 1u << 16;
-
-/// Declares an option whose text `take` turns into a value.
-void add(CLI::App& app, const std::string& names, const char* type, const std::string& help,
-         std::function<void(const std::string&)> take, bool is_required = false) {
-  app.add_option_function<std::string>(names, std::move(take), help)
-      ->type_name(type)
-      ->required(is_required)
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-}
-
-void add_scene(CLI::App& app, std::string& scene) {
-  add(
-      app, "SCENE", "",
-      "A scene file (.json), OpenSCAD's evaluated tree (.csg), BRL-CAD's database (.g, .asc), a "
-      "mesh (.stl, .off)",
-      [&scene](const std::string& text) { scene = text; }, true);
-}
-
-void add_facets(CLI::App& app, ModelChoice& choice) {
-  app.add_flag("--facets", choice.facets, "OpenSCAD: what is round as OpenSCAD's own facets");
-}
-
-/// What to show of a model that says nothing of that itself.
-void add_choice(CLI::App& app, ModelChoice& choice) {
-  add_facets(app, choice);
-  app.add_option_function<std::vector<std::string>>(
-         "--object",
-         [&choice](const std::vector<std::string>& names) {
-           choice.objects = names;
-           choice.is_given = true;
-         },
-         "BRL-CAD: what to show (again for more; default: all that nothing refers to)")
-      ->type_name("NAME")
-      ->expected(1)
-      ->take_all();
-  add(app, "--view", "FILE", "BRL-CAD: a view script, as rt reads it",
-      [&choice](const std::string& text) {
-        choice.view = text;
-        choice.is_given = true;
-      });
-  const auto angle = [&](const char* name, const char* help, double& value) {
-    add(app, name, "DEGREES", help, [&choice, &value, name](const std::string& text) {
-      value = parse_angle(name, text);
-      choice.is_given = true;
-    });
-  };
-  angle("--azimuth", "BRL-CAD: from where to look (default 35)", choice.azimuth_degrees);
-  angle("--elevation", "BRL-CAD: from how high to look (default 25)", choice.elevation_degrees);
-}
-
-void add_job(CLI::App& app, std::uint32_t& job) {
-  add(
-      app, "JOB", "", "The job's id, as 'submit' and 'jobs' print it",
-      [&job](const std::string& text) { job = parse_count("JOB", text, 1, 0xFFFFFFFFu); }, true);
-}
-
-void add_connect(CLI::App& app, std::string& connect) {
-  add(app, "--connect", "ENDPOINT",
-      "The farm (default: $GRAYCUBE_FRONTAL, else where 'graycube up' listens)",
-      [&connect](const std::string& text) { connect = text; });
-}
-
-void add_outputs(CLI::App& app, Outputs& outputs, bool is_exr_required, const char* exr_help) {
-  add(
-      app, "-o,--output", "OUT.exr", exr_help,
-      [&outputs](const std::string& text) { outputs.exr = text; }, is_exr_required);
-  add(app, "--png", "OUT.png", "Also a PNG: 8-bit sRGB, or 16-bit linear if named *.linear.png",
-      [&outputs](const std::string& text) { outputs.png = text; });
-  add(app, "--stats", "STATS.json", "What the render did: rays, messages, times",
-      [&outputs](const std::string& text) { outputs.stats = text; });
-}
-
-void add_threads(CLI::App& app, const char* help, std::uint32_t& threads) {
-  add(app, "--threads", "T", help, [&threads](const std::string& text) {
-    threads = parse_count("--threads", text, 1, kMaxThreads);
-  });
-}
-
 /// 100 GB of them.
 constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
-
-void add_nodes(CLI::App& app, const char* help, std::uint32_t& nodes) {
-  add(app, "-n,--nodes", "NODES", help,
-      [&nodes](const std::string& text) { nodes = parse_nodes("-n", text); });
-}
-
-/// What every way to compute the picture takes.
-void add_common_options(CLI::App& app, control::JobOptions& o) {
-  add(app, "--queue", "N", "Rays that a node's queues hold where flow is blocking (default 64)",
-      [&o](const auto& text) { o.queue = parse_count("--queue", text, 1, kMaxQueue); });
-  add(app, "--size", "WxH", "The picture's size, instead of the scene's", [&o](const auto& text) {
-    const PictureSize size = parse_size("--size", text);
-    o.width = size.width;
-    o.height = size.height;
-  });
-  add(app, "--samples", "S", "S x S rays per pixel, instead of the scene's",
-      [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, kMaxSamples); });
-  add(app, "--max-depth", "D", "Generations of rays, instead of the scene's",
-      [&o](const auto& text) { o.max_depth = parse_count("--max-depth", text, 0, kMaxDepth); });
-}
-
-/// What decides how the picture is computed.
-void add_job_options(CLI::App& app, control::JobOptions& o) {
-  add(app, "--algorithm", "NAME", "auto (default), serial, roth or macro",
-      [&o](const auto& text) { o.algorithm = parse_algorithm("--algorithm", text); });
-  add(app, "--grain", "NAME", "What 'roth' hands out: pixel, line or tile (default)",
-      [&o](const auto& text) { o.grain = parse_grain("--grain", text); });
-  add(app, "--shadows", "NAME",
-      "horizon (default), forward or local: how macro finishes shadow rays",
-      [&o](const auto& text) { o.shadows = parse_shadows("--shadows", text); });
-  add(app, "--partition", "NAME",
-      "auto (default), regular, or balanced: boundaries by a coarse pre-render",
-      [&o](const auto& text) { o.partition = parse_partition("--partition", text); });
-  add(app, "--scatter", "K", "K x K macro-regions per node, 1 to 8 (default: what suits the scene)",
-      [&o](const auto& text) { o.scatter = parse_scatter("--scatter", text); });
-  add(app, "--flow", "NAME",
-      "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
-      [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
-  add(app, "--sums", "NAME",
-      "direct (default), or tree: nodes add up each other's light on its way",
-      [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
-  add_common_options(app, o);
-  add(app, "--aov", "NAMES", "Also of each first hit, in OUT.exr: depth,normal,albedo,object",
-      [&o](const auto& text) { o.aov = parse_aov_list("--aov", text); });
-  add(app, "--timeout", "S", "Give up after so many seconds",
-      [&o](const auto& text) { o.timeout_s = parse_seconds("--timeout", text); });
-}
 
 /// All commands; the chosen one's values are in its declaration after parsing.
 class Parser {
@@ -153,9 +31,14 @@ class Parser {
     app_.set_help_flag("-h,--help", "Print this help");
     app_.require_subcommand(1);
     declare_rendering();
-    declare_client();
-    declare_files();
+    declare_up();
+    declare_submit();
+    declare_clients();
+    declare_check();
+    declare_compare();
+    declare_convert();
     declare_simulate();
+    declare_texts();
   }
 
   CLI::App& app() { return app_; }
@@ -184,132 +67,171 @@ class Parser {
   }
 
  private:
+  /// A command and where its options are declared.
   template <typename C>
-  C& declare(const char* name, const char* help, CLI::App*& sub) {
+  struct Declared {
+    C& command;
+    Declaring options;
+  };
+
+  template <typename C>
+  Declared<C> declare(const char* name, const char* help) {
     auto command = std::make_shared<C>();
-    sub = app_.add_subcommand(name, help);
+    CLI::App* sub = app_.add_subcommand(name, help);
     sub->callback([this, command] { chosen_ = [command]() -> Command { return *command; }; });
-    return *command;
+    return {*command, Declaring(*sub, described_.emplace_back(CommandDescription{name, help, {}}))};
   }
 
   void declare_rendering() {
-    CLI::App* sub = nullptr;
-    auto& render = declare<RenderCommand>("render", "Render a scene on nodes of this machine", sub);
+    auto declared = declare<RenderCommand>("render", "Render a scene on nodes of this machine");
+    RenderCommand& render = declared.command;
+    Declaring& options = declared.options;
     render.nodes = default_nodes();
-    add_scene(*sub, render.scene);
-    add_choice(*sub, render.choice);
-    add_outputs(*sub, render.outputs, false, "The picture (default: SCENE's name with .exr, here)");
-    add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
-              render.nodes);
-    add_threads(*sub, "Evaluator threads per node (default 1)", render.threads);
-    add_job_options(*sub, render.options);
-    sub->add_flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
+    add_scene(options, render.scene);
+    add_model_choice(options, render.choice);
+    add_outputs(options, render.outputs, "The picture (default: SCENE's name with .exr, here)");
+    add_nodes(options, render.nodes);
+    add_threads(options, render.threads, "Evaluator threads per node (default 1)");
+    add_job_options(options, render.options);
+    options.flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
+  }
 
-    auto& up = declare<UpCommand>("up", "Start a farm and keep it running", sub);
+  void declare_up() {
+    auto declared = declare<UpCommand>("up", "Start a farm and keep it running");
+    UpCommand& up = declared.command;
+    Declaring& options = declared.options;
     up.nodes = default_nodes();
-    add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
-              up.nodes);
-    add_threads(*sub, "Evaluator threads per node (default 1)", up.threads);
-    add(*sub, "--listen", "ENDPOINT", "ipc:///PATH or tcp://127.0.0.1:PORT",
+    add_nodes(options, up.nodes);
+    add_threads(options, up.threads, "Evaluator threads per node (default 1)");
+    options.option(
+        {.names = "--listen", .value = "ENDPOINT", .help = "ipc:///PATH or tcp://127.0.0.1:PORT"},
         [&up](const std::string& text) { up.listen = text; });
-    add(*sub, "--state", "DIR", "Keep jobs and pictures there, over restarts",
-        [&up](const std::string& text) { up.state = text; });
-    add(*sub, "--http", "HOST:PORT", "A web page of the farm at this loopback address",
-        [&up](const std::string& text) { up.http = text; });
-    add(*sub, "--outbox-rays", "N",
-        "Rays to be sent that a node may hold (default " + std::to_string(kDefaultOutboxRays) + ")",
-        [&up](const std::string& text) {
-          up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays);
-        });
+    options.option({.names = "--state",
+                    .value = "DIR",
+                    .help = "Keep jobs and pictures there, over restarts",
+                    .kind = ValueKind::kFolder},
+                   [&up](const std::string& text) { up.state = text; });
+    options.option({.names = "--http",
+                    .value = "HOST:PORT",
+                    .help = "A web page of the farm at this loopback address"},
+                   [&up](const std::string& text) { up.http = text; });
+    options.option({.names = "--outbox-rays",
+                    .value = "N",
+                    .help = "Rays to be sent that a node may hold (default " +
+                            std::to_string(kDefaultOutboxRays) + ")"},
+                   [&up](const std::string& text) {
+                     up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays);
+                   });
   }
 
-  void declare_client() {
-    CLI::App* sub = nullptr;
-    auto& submit =
-        declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id", sub);
-    add_scene(*sub, submit.scene);
-    add_choice(*sub, submit.choice);
-    add_outputs(*sub, submit.outputs, false, "The picture, with --wait");
-    add_nodes(*sub, "What the farm is expected to have", submit.nodes);
-    add_threads(*sub, "Evaluator threads per node (default: the farm's)", submit.options.threads);
-    add_job_options(*sub, submit.options);
-    sub->add_flag("--quiet,-q", submit.is_quiet, "With --wait: no progress");
-    sub->add_flag("--wait", submit.waits, "Wait for the end, with progress");
-    add_connect(*sub, submit.connect);
-
-    auto& jobs = declare<JobsCommand>("jobs", "List a farm's jobs", sub);
-    add_connect(*sub, jobs.connect);
-
-    auto& status = declare<StatusCommand>("status", "How a job is getting on", sub);
-    add_job(*sub, status.job);
-    sub->add_flag("--json", status.as_json, "As one line of JSON");
-    add_connect(*sub, status.connect);
-
-    auto& watch = declare<WatchCommand>("watch", "Follow a job to its end", sub);
-    add_job(*sub, watch.job);
-    add_connect(*sub, watch.connect);
-
-    auto& cancel = declare<CancelCommand>("cancel", "Stop a job", sub);
-    add_job(*sub, cancel.job);
-    add_connect(*sub, cancel.connect);
-
-    auto& fetch = declare<FetchCommand>("fetch", "Get a job's picture", sub);
-    add_job(*sub, fetch.job);
-    add_outputs(*sub, fetch.outputs, true, "The picture");
-    add_connect(*sub, fetch.connect);
-
-    auto& nodes = declare<NodesCommand>("nodes", "List a farm's nodes", sub);
-    add_connect(*sub, nodes.connect);
-
-    auto& down = declare<DownCommand>("down", "Stop a farm", sub);
-    add_connect(*sub, down.connect);
+  void declare_submit() {
+    auto [submit, options] =
+        declare<SubmitCommand>("submit", "Give a farm a scene; prints the job's id");
+    add_scene(options, submit.scene);
+    add_model_choice(options, submit.choice);
+    add_outputs(options, submit.outputs, "The picture, with --wait");
+    add_nodes(options, submit.nodes, "What the farm is expected to have");
+    add_threads(options, submit.options.threads,
+                "Evaluator threads per node (default: the farm's)");
+    add_job_options(options, submit.options);
+    options.flag("--quiet,-q", submit.is_quiet, "With --wait: no progress");
+    options.flag("--wait", submit.waits, "Wait for the end, with progress");
+    add_connect(options, submit.connect);
   }
 
-  void declare_files() {
-    CLI::App* sub = nullptr;
-    auto& check = declare<CheckCommand>("check", "Find every error of a scene file", sub);
-    add_scene(*sub, check.scene);
-    add_choice(*sub, check.choice);
+  /// A command that asks a farm for something, of a job or not; `add_more` declares its options
+  /// beyond those that all of them have.
+  template <typename C>
+  void declare_client(
+      const char* name, const char* help,
+      const std::function<void(Declaring&, C&)>& add_more = [](Declaring&, C&) {}) {
+    auto declared = declare<C>(name, help);
+    if constexpr (requires { declared.command.job; }) {
+      add_job(declared.options, declared.command.job);
+    }
+    add_more(declared.options, declared.command);
+    add_connect(declared.options, declared.command.connect);
+  }
 
-    auto& compare =
-        declare<CompareCommand>("compare", "Render a scene in every way, and compare", sub);
+  void declare_clients() {
+    declare_client<JobsCommand>("jobs", "List a farm's jobs");
+    declare_client<StatusCommand>("status", "How a job is getting on",
+                                  [](Declaring& options, StatusCommand& status) {
+                                    options.flag("--json", status.as_json, "As one line of JSON");
+                                  });
+    declare_client<WatchCommand>("watch", "Follow a job to its end");
+    declare_client<CancelCommand>("cancel", "Stop a job");
+    declare_client<FetchCommand>("fetch", "Get a job's picture",
+                                 [](Declaring& options, FetchCommand& fetch) {
+                                   add_outputs(options, fetch.outputs, "The picture", true);
+                                 });
+    declare_client<NodesCommand>("nodes", "List a farm's nodes");
+    declare_client<DownCommand>("down", "Stop a farm");
+  }
+
+  void declare_check() {
+    auto declared = declare<CheckCommand>("check", "Find every error of a scene file");
+    CheckCommand& check = declared.command;
+    Declaring& options = declared.options;
+    add_scene(options, check.scene);
+    add_model_choice(options, check.choice);
+  }
+
+  void declare_compare() {
+    auto declared = declare<CompareCommand>("compare", "Render a scene in every way, and compare");
+    CompareCommand& compare = declared.command;
+    Declaring& options = declared.options;
     compare.nodes = default_nodes();
-    add_scene(*sub, compare.scene);
-    add_facets(*sub, compare.choice);
-    add_nodes(*sub, "Node processes: a power of two, 1 to 1024 (default: as processors allow)",
-              compare.nodes);
-    add_common_options(*sub, compare.options);
-    sub->add_flag("--json", compare.as_json,
-                  "All statistics as one line of JSON, instead of a table");
-    sub->add_flag("--quiet,-q", compare.is_quiet, "Print nothing but the table and errors");
-    add(*sub, "--plot", "OUT.svg", "Also a picture of what each node did with its time",
-        [&compare](const std::string& text) { compare.plot = text; });
+    add_scene(options, compare.scene);
+    add_facets(options, compare.choice);
+    add_nodes(options, compare.nodes);
+    add_common_options(options, compare.options);
+    add_table_options(options, compare.as_json, compare.is_quiet, compare.plot);
+  }
 
-    auto& convert =
-        declare<ConvertCommand>("convert", "Convert a file, by the names' endings", sub);
-    add(
-        *sub, "IN", "", ".json, .cbor, .scad, .csg, .g, .asc, .stl, .off or .exr",
-        [&convert](const std::string& text) { convert.in = text; }, true);
-    add(
-        *sub, "OUT", "", "From a scene: .json or .pov; from .exr: .png",
-        [&convert](const std::string& text) { convert.out = text; }, true);
-    add_choice(*sub, convert.choice);
+  void declare_convert() {
+    auto declared = declare<ConvertCommand>("convert", "Convert a file, by the names' endings");
+    ConvertCommand& convert = declared.command;
+    Declaring& options = declared.options;
+    options.option({.names = "IN",
+                    .help = "A scene (.json, .cbor, .scad, .csg, .g, .asc, .stl, .off) or a "
+                            "picture (.exr)",
+                    .kind = ValueKind::kFile,
+                    .is_required = true},
+                   [&convert](const std::string& text) { convert.in = text; });
+    options.option({.names = "OUT",
+                    .help = "From a scene: .json, .cbor or .pov; from .exr: .png",
+                    .kind = ValueKind::kFile,
+                    .is_required = true},
+                   [&convert](const std::string& text) { convert.out = text; });
+    add_model_choice(options, convert.choice);
   }
 
   void declare_simulate() {
-    CLI::App* sub = nullptr;
-    auto& c =
-        declare<SimulateCommand>("simulate", "Predict how a scene renders on other machines", sub);
-    add_scene(*sub, c.scene);
-    add_choice(*sub, c.choice);
-    add(
-        *sub, "-n,--nodes", "N,N,...", "Numbers of nodes, each a power of two from 1 to 1024",
-        [&c](const std::string& text) { c.nodes = parse_node_list("--nodes", text); }, true);
+    auto declared =
+        declare<SimulateCommand>("simulate", "Predict how a scene renders on other machines");
+    SimulateCommand& c = declared.command;
+    Declaring& options = declared.options;
+    add_scene(options, c.scene);
+    add_model_choice(options, c.choice);
+    options.option({.names = "-n,--nodes",
+                    .value = "N,N,...",
+                    .help = "Numbers of nodes, each a power of two from 1 to 1024",
+                    .is_required = true},
+                   [&c](const std::string& text) { c.nodes = parse_node_list("--nodes", text); });
+    add_machine(options, c);
+    add_job_options(options, c.options);
+    add_table_options(options, c.as_json, c.is_quiet, c.plot);
+  }
+
+  /// What simulate takes the other machines to be.
+  void add_machine(Declaring& options, SimulateCommand& c) {
     const auto figure = [&](const char* name, const char* type, const char* help, auto& value,
                             double least, double most) {
-      add(*sub, name, type, help, [&value, name, least, most](const std::string& text) {
-        value = parse_number(name, text, least, most);
-      });
+      options.option({.names = name, .value = type, .help = help},
+                     [&value, name, least, most](const std::string& text) {
+                       value = parse_number(name, text, least, most);
+                     });
     };
     figure("--link-gbps", "G", "Bandwidth of a link, 10^9 bits a second (default 10)", c.link_gbps,
            1e-6, 1e6);
@@ -320,13 +242,31 @@ class Parser {
            c.message_us, 0, 1e9);
     figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale,
            1e-6, 1e9);
-    add(*sub, "--cores", "C", "Cores that all processes share (default: one each)",
+    options.option(
+        {.names = "--cores",
+         .value = "C",
+         .help = "Cores that all processes share (default: one each)"},
         [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
-    add_job_options(*sub, c.options);
-    sub->add_flag("--json", c.as_json, "All statistics as one line of JSON, instead of a table");
-    sub->add_flag("--quiet,-q", c.is_quiet, "Print nothing but the table and errors");
-    add(*sub, "--plot", "OUT.svg", "Also a picture of what each node did with its time",
-        [&c](const std::string& text) { c.plot = text; });
+  }
+
+  /// Texts made of these very declarations.
+  void declare_texts() {
+    const char* help = "Print what makes a shell complete this command's options";
+    CLI::App* sub = app_.add_subcommand("completion", help);
+    const auto shell = std::make_shared<Shell>();
+    sub->callback([this, shell] {
+      chosen_ = [this, shell] { return PrintCommand{completion_text(*shell, described_)}; };
+    });
+    Declaring options(*sub, described_.emplace_back(CommandDescription{"completion", help, {}}));
+    options.option({.names = "SHELL",
+                    .help = "bash, zsh or fish",
+                    .kind = ValueKind::kChoice,
+                    .choices = names_of(kShellChoices),
+                    .is_required = true},
+                   [shell](const std::string& text) { *shell = parse_shell("SHELL", text); });
+    // Only for the build, which installs it: users have it as `man graycube`.
+    CLI::App* page = app_.add_subcommand("man-page", "Print the man page")->group("");
+    page->callback([this] { chosen_ = [this] { return PrintCommand{man_page(described_)}; }; });
   }
 
   /// An argument that no option of the command takes.
@@ -350,6 +290,7 @@ class Parser {
 
   CLI::App app_{"Graycube renders solid models by ray tracing, on a hypercube of processes.",
                 "graycube"};
+  CommandLineDescription described_;
   std::function<Command()> chosen_;
 };
 

@@ -1,4 +1,4 @@
-// What the command line asks for. The only file that knows CLI11 is command_line.cpp.
+// What the command line asks for. Only command_line.cpp and options/declaring.cpp know CLI11.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,6 @@
 #include "cli/option_values.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -118,26 +117,19 @@ double parse_seconds(std::string_view option, std::string_view text) {
 }
 
 Algorithm parse_algorithm(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{Algorithm::kAuto, Algorithm::kSerial, Algorithm::kRoth,
-                                      Algorithm::kMacro};
-  return parse_choice<Algorithm>(option, text, choices);
+  return parse_choice<Algorithm>(option, text, kAlgorithmChoices);
 }
 
 Grain parse_grain(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{Grain::kPixel, Grain::kLine, Grain::kTile};
-  return parse_choice<Grain>(option, text, choices);
+  return parse_choice<Grain>(option, text, kGrainChoices);
 }
 
 ShadowMode parse_shadows(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{ShadowMode::kHorizon, ShadowMode::kForward,
-                                      ShadowMode::kLocal};
-  return parse_choice<ShadowMode>(option, text, choices);
+  return parse_choice<ShadowMode>(option, text, kShadowChoices);
 }
 
 PartitionMode parse_partition(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{PartitionMode::kAuto, PartitionMode::kRegular,
-                                      PartitionMode::kBalanced};
-  return parse_choice<PartitionMode>(option, text, choices);
+  return parse_choice<PartitionMode>(option, text, kPartitionChoices);
 }
 
 std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
@@ -145,13 +137,15 @@ std::uint32_t parse_scatter(std::string_view option, std::string_view text) {
 }
 
 FlowMode parse_flow(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{FlowMode::kCredit, FlowMode::kBlocking};
-  return parse_choice<FlowMode>(option, text, choices);
+  return parse_choice<FlowMode>(option, text, kFlowChoices);
 }
 
 SumsMode parse_sums(std::string_view option, std::string_view text) {
-  static constexpr std::array choices{SumsMode::kDirect, SumsMode::kTree};
-  return parse_choice<SumsMode>(option, text, choices);
+  return parse_choice<SumsMode>(option, text, kSumsChoices);
+}
+
+Shell parse_shell(std::string_view option, std::string_view text) {
+  return parse_choice<Shell>(option, text, kShellChoices);
 }
 
 double parse_angle(std::string_view option, std::string_view text) {

@@ -2,12 +2,14 @@
 // what was expected and what was found.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cli/options/completion.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
@@ -32,6 +34,26 @@ double parse_number(std::string_view option, std::string_view text, double least
 /// More than 0, at most a year.
 double parse_seconds(std::string_view option, std::string_view text);
 
+// What the options below take, in the order in which errors and completion list it.
+inline constexpr std::array kAlgorithmChoices{Algorithm::kAuto, Algorithm::kSerial,
+                                              Algorithm::kRoth, Algorithm::kMacro};
+inline constexpr std::array kGrainChoices{Grain::kPixel, Grain::kLine, Grain::kTile};
+inline constexpr std::array kShadowChoices{ShadowMode::kHorizon, ShadowMode::kForward,
+                                           ShadowMode::kLocal};
+inline constexpr std::array kPartitionChoices{PartitionMode::kAuto, PartitionMode::kRegular,
+                                              PartitionMode::kBalanced};
+inline constexpr std::array kFlowChoices{FlowMode::kCredit, FlowMode::kBlocking};
+inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree};
+inline constexpr std::array kShellChoices{Shell::kBash, Shell::kZsh, Shell::kFish};
+
+/// How choices are spelled.
+template <typename Value, std::size_t N>
+std::vector<std::string> names_of(const std::array<Value, N>& choices) {
+  std::vector<std::string> names;
+  for (const Value v : choices) names.emplace_back(to_string(v));
+  return names;
+}
+
 Algorithm parse_algorithm(std::string_view option, std::string_view text);
 Grain parse_grain(std::string_view option, std::string_view text);
 ShadowMode parse_shadows(std::string_view option, std::string_view text);
@@ -39,6 +61,7 @@ PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
+Shell parse_shell(std::string_view option, std::string_view text);
 
 /// A finite number.
 double parse_angle(std::string_view option, std::string_view text);

@@ -74,6 +74,10 @@ std::string pointer_word(const std::string& name) {
   return word;
 }
 
+bool is_own_format(const fs::path& path) {
+  return path.extension() == ".json" || path.extension() == ".cbor";
+}
+
 void read_json(const fs::path& path, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
   ReadResult read = read_scene_text(text, mesh_files_beside(path));
@@ -195,6 +199,15 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options,
 
 }  // namespace
 
+std::string scene_endings_text() {
+  std::string text;
+  for (std::size_t i = 0; i < kSceneEndings.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == kSceneEndings.size() ? " or " : ", ";
+    text += kSceneEndings[i];
+  }
+  return text;
+}
+
 bool is_openscad(const fs::path& path) {
   return path.extension() == ".csg" || path.extension() == ".scad";
 }
@@ -229,13 +242,12 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     import_openscad(path, options, choice, input);
   } else if (is_brlcad(path)) {
     import_brlcad(path, options, choice, input);
-  } else if (path.extension() == ".json" || path.extension() == ".cbor") {
+  } else if (is_own_format(path)) {
     read_json(path, input);
   } else if (is_mesh_file(path)) {
     import_mesh(path, options, input);
   } else {
-    throw bad_scene(path,
-                    "expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off");
+    throw bad_scene(path, "expected a name ending in " + scene_endings_text());
   }
   return input;
 }

@@ -1,8 +1,10 @@
 // Scenes as files: read, imported, checked, and as the text that goes to a farm.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/failure.hpp"
@@ -41,6 +43,12 @@ struct SceneInput {
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {},
                             const ModelChoice& choice = {});
+
+/// How the names of files end that read_scene_input reads.
+inline constexpr std::array<std::string_view, 8> kSceneEndings{".json", ".cbor", ".scad", ".csg",
+                                                               ".g",    ".asc",  ".stl",  ".off"};
+/// All of them: ".json, .cbor, … .stl or .off".
+std::string scene_endings_text();
 
 /// Whether the file is OpenSCAD's, by its name's ending.
 bool is_openscad(const std::filesystem::path& path);

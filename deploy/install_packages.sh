@@ -1,12 +1,21 @@
 #!/usr/bin/env bash
-# Installs what Graycube is built from, on Debian 12: deploy/install_packages.sh [--tests | --fuzz]
-# With --tests also the tools that tests and benchmarks compare with, with --fuzz what the fuzzers need.
-# Does nothing when all is there.
+# Installs what Graycube is built from, on Debian 12 and 13:
+#   deploy/install_packages.sh [--user | --package | --tests | --fuzz]
+# With --user also what renders use, with --package also what cpack calls, with --tests also the tools that tests
+# and benchmarks compare with, with --fuzz also what the fuzzers need. Does nothing when all is there.
 set -euo pipefail
 
 fail() {
   printf 'install_packages: %s\n' "$*" >&2
   exit 1
+}
+
+# The version of clang that `clang` stands for; its run-time library has it in its name.
+clang_version() {
+  case $(. /etc/os-release 2>/dev/null && printf '%s' "${VERSION_ID-}") in
+    13) printf 19 ;;
+    *) printf 14 ;;
+  esac
 }
 
 packages=(
@@ -16,9 +25,11 @@ packages=(
 )
 case "${1-}" in
   '') ;;
-  --tests) packages+=(spin openscad povray libbenchmark-dev curl python3) ;;
-  --fuzz) packages+=(clang libclang-rt-14-dev) ;;
-  *) fail "usage: install_packages.sh [--tests | --fuzz]" ;;
+  --user) packages+=(openscad) ;;
+  --package) packages+=(dpkg-dev file) ;;
+  --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3) ;; # spin's verifiers are C
+  --fuzz) packages+=(clang "libclang-rt-$(clang_version)-dev") ;;
+  *) fail "usage: install_packages.sh [--user | --package | --tests | --fuzz]" ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -37,8 +48,15 @@ fi
 
 as_root=()
 if (($(id -u) != 0)); then
-  command -v sudo >/dev/null || fail "run as root, or install sudo; missing: ${missing[*]}"
-  sudo -n true 2>/dev/null || fail "sudo asks for a password; run as root; missing: ${missing[*]}"
+  if ! sudo -n true 2>/dev/null; then
+    printf 'Some packages are not installed yet, and that needs your password. Run this, then start again:\n\n'
+    if command -v sudo >/dev/null; then
+      printf '  sudo apt-get update && sudo apt-get install --yes --no-install-recommends %s\n' "${missing[*]}"
+    else
+      printf '  su -c "apt-get update && apt-get install --yes --no-install-recommends %s"\n' "${missing[*]}"
+    fi
+    exit 1
+  fi >&2
   as_root=(sudo -n)
 fi
 

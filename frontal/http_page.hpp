@@ -26,7 +26,7 @@ inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
 <h1>Graycube</h1>
 <div id="note" role="status"></div>
 <h2>Jobs</h2>
-<table><thead><tr><th>Job<th>Scene<th>State<th>Progress<th>Token rounds<th>Picture</tr></thead>
+<table><thead><tr><th>Job<th>Scene<th>State<th>Progress<th>Checks whether all is done<th>Picture</tr></thead>
 <tbody id="jobs"></tbody></table>
 <h2>Nodes</h2>
 <table><thead><tr><th>Rank<th>Label<th>Process<th>State<th>Threads</tr></thead>
@@ -49,7 +49,7 @@ function showJob(body, job) {
   bar.value = job.state === "done" ? 1 : job.fraction;
   bar.setAttribute("aria-label", "progress of job " + job.job);
   const progress = cell(row, "");
-  progress.append(bar, " " + job.tiles_whole + " of " + job.tiles + " tiles");
+  progress.append(bar, " " + job.tiles_whole + " of " + job.tiles + " parts are final");
   cell(row, job.rounds);
   const picture = cell(row, "");
   if (job.state !== "done") return;

@@ -233,7 +233,8 @@ std::string RenderJob::add_contributions(std::span<const std::byte> batch,
         break;
       case CreditResult::kOverflow:
       case CreditResult::kUnknownTile:
-        return "tile " + std::to_string(c.tile) + " got back more credit than it gave out";
+        return "internal error: more was done of part " + std::to_string(c.tile) +
+               " of the picture than there is of it";
     }
   }
   return {};
@@ -250,8 +251,9 @@ bool RenderJob::is_complete() const {
 
 std::string RenderJob::contradiction() const {
   if (is_roth() || !all_batches_in() || ledger_.all_whole()) return {};
-  return "internal error: the token found nothing left, but " +
-         std::to_string(ledger_.tile_count() - ledger_.whole_count()) + " tiles are open";
+  return "internal error: no node has anything left to do, but " +
+         std::to_string(ledger_.tile_count() - ledger_.whole_count()) +
+         " parts of the picture are not final";
 }
 
 void RenderJob::set_report(const control::NodeReport& report) {

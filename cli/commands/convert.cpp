@@ -60,10 +60,9 @@ ExitStatus run(const ConvertCommand& command) {
   const bool is_known = (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) ||
                         (from == ".exr" && to == ".png");
   if (!is_known) {
-    throw usage_failure("convert",
-                        "expected .json, .cbor, .scad, .csg, .g, .asc, .stl or .off to .json, "
-                        ".cbor or .pov, or .exr to .png; found " +
-                            in.string() + " to " + out.string());
+    throw usage_failure("convert", "expected " + scene_endings_text() +
+                                       " to .json, .cbor or .pov, or .exr to .png; found " +
+                                       in.string() + " to " + out.string());
   }
   check_output("", out, in);
   is_scene ? convert_scene(in, out, command.choice) : convert_picture(in, out);

@@ -1,4 +1,4 @@
-// graycube watch: a job's progress, the token's rounds included, until it ends.
+// graycube watch: a job's progress, until it ends.
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"

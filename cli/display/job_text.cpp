@@ -32,7 +32,7 @@ std::string time_taken(const control::JobInfo& job) {
 
 std::string jobs_text(const std::vector<control::JobInfo>& jobs) {
   std::vector<std::vector<std::string>> rows{
-      {"JOB", "STATE", "DONE", "ALGORITHM", "ROUNDS", "SUBMITTED", "TOOK", "SCENE", "MESSAGE"}};
+      {"JOB", "STATE", "DONE", "ALGORITHM", "CHECKS", "SUBMITTED", "TOOK", "SCENE", "MESSAGE"}};
   for (const control::JobInfo& job : jobs) {
     rows.push_back({std::to_string(job.job), std::string(to_string(job.state)),
                     percent(job.fraction), std::string(to_string(job.algorithm)),
@@ -53,11 +53,10 @@ std::string job_text(const control::JobInfo& job) {
   line("algorithm", std::string(to_string(job.algorithm)) + ", " + std::to_string(job.nodes) +
                         (job.nodes == 1 ? " node" : " nodes"));
   if (job.tiles > 0) {
-    line("tiles", std::to_string(job.tiles_whole) + " of " + std::to_string(job.tiles) +
-                      " whole (" + percent(job.fraction) + ")");
+    line("done", percent(job.fraction) + ", " + final_parts_text(job.tiles_whole, job.tiles));
   }
-  line("token rounds", std::to_string(job.rounds));
-  if (job.eta_s) line("ETA", duration_text(*job.eta_s));
+  if (job.rounds > 0) line("checks whether all is done", std::to_string(job.rounds));
+  if (job.eta_s) line("time left", duration_text(*job.eta_s));
   line("submitted", local_time(job.submitted_s));
   if (job.started_s) line("started", local_time(*job.started_s));
   if (job.finished_s) line("finished", local_time(*job.finished_s));

@@ -24,16 +24,27 @@ std::string percent(double fraction) {
 
 bool is_rendering(const control::Progress& p) { return p.state == JobState::kRendering; }
 
-/// What follows the percentage.
+std::string time_left(const control::Progress& p) {
+  return p.eta_s && p.fraction < 1 ? ", " + duration_text(*p.eta_s) + " left" : "";
+}
+
+/// What follows the percentage on a line of its own.
 std::string details(const control::Progress& p) {
-  std::string text;
-  if (p.eta_s && p.fraction < 1) text += ", ETA " + duration_text(*p.eta_s);
+  std::string text = time_left(p);
+  if (p.tiles > 0) text += ", " + final_parts_text(p.tiles_whole, p.tiles);
+  if (p.rounds > 0) text += ", " + end_checks_text(p.rounds);
+  return text;
+}
+
+/// The same behind a bar, in words so few that a terminal of 80 columns has room for them.
+std::string short_details(const control::Progress& p) {
+  std::string text = time_left(p);
   if (p.tiles > 0) {
     text +=
-        ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) + " tiles whole";
+        ", " + std::to_string(p.tiles_whole) + " of " + std::to_string(p.tiles) + " parts final";
   }
   if (p.rounds > 0) {
-    text += ", " + std::to_string(p.rounds) + (p.rounds == 1 ? " token round" : " token rounds");
+    text += ", " + std::to_string(p.rounds) + (p.rounds == 1 ? " end check" : " end checks");
   }
   return text;
 }
@@ -61,6 +72,15 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+std::string final_parts_text(std::uint32_t final_parts, std::uint32_t parts) {
+  return std::to_string(final_parts) + " of " + std::to_string(parts) +
+         " parts of the picture are final";
+}
+
+std::string end_checks_text(std::uint32_t rounds) {
+  return std::to_string(rounds) + (rounds == 1 ? " check" : " checks") + " whether all is done";
+}
+
 std::string progress_text(const control::Progress& p) {
   std::string text(to_string(p.state));
   if (is_rendering(p)) text += " " + percent(p.fraction);
@@ -70,7 +90,7 @@ std::string progress_text(const control::Progress& p) {
 std::string progress_bar(const control::Progress& p, std::size_t columns) {
   const double fraction = is_rendering(p) ? std::clamp(p.fraction, 0.0, 1.0) : 0.0;
   const std::string tail =
-      is_rendering(p) ? percent(fraction) + details(p) : std::string(to_string(p.state));
+      is_rendering(p) ? percent(fraction) + short_details(p) : std::string(to_string(p.state));
   // Of fixed length, lest it jump about as the text behind it grows.
   const std::size_t length = std::clamp(columns / 4, kMinBar, kMaxBar);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(length));

@@ -10,10 +10,17 @@
 
 namespace graycube {
 
-/// "rendering 47 %, ETA 3 s, 30 of 64 tiles whole, 2 token rounds": what is known of it.
+/// "30 of 64 parts of the picture are final": parts are tiles, final when no ray of theirs is left.
+std::string final_parts_text(std::uint32_t final_parts, std::uint32_t parts);
+
+/// "2 checks whether all is done": rounds of the token.
+std::string end_checks_text(std::uint32_t rounds);
+
+/// "rendering 47 %, 3 s left, 30 of 64 parts of the picture are final, 2 checks whether all is
+/// done": what is known of it.
 std::string progress_text(const control::Progress& progress);
 
-/// The same behind a bar, for a terminal of so many columns.
+/// Nearly the same behind a bar, for a terminal of so many columns.
 std::string progress_bar(const control::Progress& progress, std::size_t columns);
 
 /// "850 ms", "3.4 s", "12 s", "3 min 20 s", "2 h 5 min".

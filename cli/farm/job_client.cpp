@@ -132,8 +132,7 @@ std::string summary_text(const control::JobInfo& info) {
   std::string text(to_string(info.algorithm));
   text += " on " + std::to_string(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
   if (!info.choices.empty()) text += ", " + info.choices;
-  text +=
-      ", " + std::to_string(info.rounds) + (info.rounds == 1 ? " token round" : " token rounds");
+  if (info.rounds > 0) text += ", " + end_checks_text(info.rounds);
   return text;
 }
 

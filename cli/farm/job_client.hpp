@@ -37,7 +37,7 @@ Picture fetch_picture(FarmClient& farm, std::uint32_t job);
 std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint32_t job,
                                                      const Outputs& outputs, const ImageSize& size);
 
-/// "roth on 8 nodes, 4 token rounds".
+/// "roth on 8 nodes, grain tile, 4 checks whether all is done".
 std::string summary_text(const control::JobInfo& info);
 
 }  // namespace graycube

@@ -213,7 +213,7 @@ Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, Sh
 
 /// Among what each surface sends out and its own contribution.
 void Evaluator::share_credit() {
-  const auto split = [this](const SurfacePoint& at) {
+  const auto split = [](const SurfacePoint& at) {
     return CreditSplit(at.ray->task.credit_exponent, at.lights, at.secondary_rays);
   };
   for (const SurfacePoint& at : surfaces_) split(at).add_own_to(open_[at.ray->slot].credit);

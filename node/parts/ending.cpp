@@ -77,8 +77,8 @@ void Ending::tell_round(const Token& token, Mail& mail) const {
 void Ending::tell_verdict(Mail& mail) const {
   const Verdict& v = *token_.verdict();
   if (v.outcome == Verdict::Outcome::kLost) {
-    return mail.fail("the token counts " + std::to_string(v.missing) +
-                     " batches sent but never received");
+    return mail.fail(std::to_string(v.missing) +
+                     " batches of rays were sent by nodes but never received by any");
   }
   mail.to_frontal(
       control::Terminated{mail.job(), mail.epoch(), v.rounds, v.hops, v.contribution_batches});

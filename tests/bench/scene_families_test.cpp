@@ -2,9 +2,9 @@
 #include "bench/scene_families.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "scene/compile_scene.hpp"

@@ -1,9 +1,9 @@
 // Guards speed without a clock: work per ray on fixed scenes, which is the same on every machine.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <string>
 
 #include "bench/scene_families.hpp"
+#include "catch.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
 

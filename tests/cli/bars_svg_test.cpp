@@ -1,7 +1,6 @@
 #include "cli/display/bars_svg.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "proto/statistics.hpp"
 
 namespace graycube {

@@ -138,10 +138,37 @@ TEST_CASE("a command line that means nothing is refused in one line") {
   }
 }
 
+TEST_CASE("help names every ending of a scene's name") {
+  for (const char* command : {"render", "submit", "check", "compare", "simulate", "convert"}) {
+    const auto help = std::get<PrintCommand>(parsed({command, "--help"})).text;
+    for (const std::string_view ending : kSceneEndings) {
+      INFO(command << " " << ending);
+      CHECK(help.find(ending) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("completion and the man page tell a command's options and their values") {
+  const auto text = [](std::vector<const char*> arguments) {
+    return std::get<PrintCommand>(parsed(std::move(arguments))).text;
+  };
+  CHECK_THAT(text({"completion", "bash"}),
+             Catch::Contains("--shadows) _graycube_words 'horizon forward local'") &&
+                 Catch::Contains("-o | --output) _graycube_paths -f"));
+  CHECK_THAT(text({"completion", "zsh"}), Catch::Contains("'(--shadows)--shadows[") &&
+                                              Catch::Contains(":NAME:(horizon ") &&
+                                              Catch::Contains("'*--object[BRL-CAD\\: what"));
+  CHECK_THAT(text({"completion", "fish"}),
+             Catch::Contains("-s o -l output -r -F -d ") && Catch::Contains("OpenSCAD'\\''s"));
+  CHECK_THAT(text({"man-page"}), Catch::Contains("\\fB\\-o\\fR, \\fB\\-\\-output\\fR"));
+  CHECK_THAT(refused({"completion", "bahs"}), Catch::Contains("did you mean \"bash\"?"));
+}
+
 TEST_CASE("help names every command, and a command's help its options") {
   const auto all = std::get<PrintCommand>(parsed({"--help"})).text;
-  for (const char* name : {"render", "up", "submit", "jobs", "status", "watch", "cancel", "fetch",
-                           "nodes", "down", "check", "compare", "simulate", "convert"}) {
+  for (const char* name :
+       {"render", "up", "submit", "jobs", "status", "watch", "cancel", "fetch", "nodes", "down",
+        "check", "compare", "simulate", "convert", "completion"}) {
     CHECK(all.find(name) != std::string::npos);
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
@@ -150,6 +177,7 @@ TEST_CASE("help names every command, and a command's help its options") {
                              "--max-depth", "--stats", "--timeout", "--quiet"}) {
     CHECK(render.find(option) != std::string::npos);
   }
+  CHECK(all.find("man-page") == std::string::npos);
   CHECK(std::get<PrintCommand>(parsed({"--version"})).text.starts_with("graycube "));
 }
 

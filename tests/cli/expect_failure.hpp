@@ -1,9 +1,9 @@
 // The failures that functions of the command throw, as their lines.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 
+#include "catch.hpp"
 #include "cli/failure.hpp"
 
 namespace graycube {

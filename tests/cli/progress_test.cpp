@@ -1,6 +1,6 @@
 #include "cli/display/progress.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 namespace graycube {
 namespace {
@@ -43,9 +43,10 @@ TEST_CASE("durations are told in the units that matter") {
   CHECK(duration_text(7500) == "2 h 5 min");
 }
 
-TEST_CASE("progress tells the share, the time left, whole tiles and token rounds") {
+TEST_CASE("progress tells the share, the time left, final parts and checks for the end") {
   CHECK(progress_text(halfway()) ==
-        "rendering 50 %, ETA 1 min 15 s, 32 of 64 tiles whole, 1 token round");
+        "rendering 50 %, 1 min 15 s left, 32 of 64 parts of the picture are final, "
+        "1 check whether all is done");
   control::Progress queued;
   CHECK(progress_text(queued) == "queued");
 }
@@ -56,11 +57,15 @@ TEST_CASE("a hundred per cent is shown only when it is reached") {
   CHECK(progress_text(p).starts_with("rendering 99 %"));
   p.fraction = 1;
   CHECK(progress_text(p).starts_with("rendering 100 %"));
-  CHECK(progress_text(p).find("ETA") == std::string::npos);
+  CHECK(progress_text(p).find("left") == std::string::npos);
+}
+
+TEST_CASE("what is behind the bar is not cut off on a terminal of 80 columns") {
+  CHECK(progress_bar(halfway(), 80).ends_with("left, 32 of 64 parts final, 1 end check"));
 }
 
 TEST_CASE("the bar is half full at half time, and never as wide as the terminal") {
-  CHECK(progress_bar(halfway(), 100).starts_with("[############-------------] 50 %, ETA"));
+  CHECK(progress_bar(halfway(), 100).starts_with("[############-------------] 50 %, 1 min"));
   for (std::size_t columns = 0; columns < 200; ++columns) {
     CHECK(progress_bar(halfway(), columns).size() <= (columns == 0 ? 0 : columns - 1));
   }

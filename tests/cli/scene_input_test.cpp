@@ -171,6 +171,16 @@ TEST_CASE("OpenSCAD is killed when its time is up, and its files go") {
   CHECK_FALSE(std::filesystem::exists(std::filesystem::path(output).parent_path()));
 }
 
+TEST_CASE("every ending that is told of is read, and no other") {
+  for (const std::string_view ending : kSceneEndings) {
+    CHECK_THAT(refusal([&] { read_scene_input("/nowhere/part" + std::string(ending)); }),
+               !Catch::Contains("expected a name ending in"));
+  }
+  CHECK(refusal([&] { read_scene_input("part.step"); }) ==
+        "graycube: scene: part.step: expected a name ending in .json, .cbor, .scad, .csg, .g, "
+        ".asc, .stl or .off");
+}
+
 TEST_CASE("what only serial can render is refused before a farm is asked") {
   SceneInput input;
   input.name = "deep.json";

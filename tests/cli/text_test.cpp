@@ -1,5 +1,4 @@
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "cli/display/job_text.hpp"
 #include "cli/display/table.hpp"
 #include "cli/failure.hpp"
@@ -43,8 +42,9 @@ TEST_CASE("a job's lines tell what is known of it and nothing else") {
   job.nodes = 8;
   const std::string queued = job_text(job);
   CHECK(queued.find("state: queued\n") != std::string::npos);
-  CHECK(queued.find("ETA") == std::string::npos);
-  CHECK(queued.find("tiles:") == std::string::npos);
+  CHECK(queued.find("time left") == std::string::npos);
+  CHECK(queued.find("checks") == std::string::npos);
+  CHECK(queued.find("parts") == std::string::npos);
   job.state = JobState::kRendering;
   job.tiles = 10;
   job.tiles_whole = 5;
@@ -52,9 +52,9 @@ TEST_CASE("a job's lines tell what is known of it and nothing else") {
   job.eta_s = 2.0;
   job.rounds = 2;
   const std::string running = job_text(job);
-  CHECK(running.find("tiles: 5 of 10 whole (50 %)\n") != std::string::npos);
-  CHECK(running.find("token rounds: 2\n") != std::string::npos);
-  CHECK(running.find("ETA: 2.0 s\n") != std::string::npos);
+  CHECK(running.find("done: 50 %, 5 of 10 parts of the picture are final\n") != std::string::npos);
+  CHECK(running.find("checks whether all is done: 2\n") != std::string::npos);
+  CHECK(running.find("time left: 2.0 s\n") != std::string::npos);
 }
 
 TEST_CASE("jobs and nodes are tables with a header") {

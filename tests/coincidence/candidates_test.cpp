@@ -1,7 +1,8 @@
 #include "coincidence/candidates.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
+
+#include "catch.hpp"
 
 namespace graycube::csg {
 namespace {

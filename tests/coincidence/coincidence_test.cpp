@@ -3,12 +3,12 @@
 #include "coincidence/coincidence.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "catch.hpp"
 #include "coincidence/candidates.hpp"
 #include "coincidence/clusters.hpp"
 #include "coincidence/levels.hpp"

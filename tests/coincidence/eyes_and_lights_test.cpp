@@ -1,9 +1,9 @@
 // Eyes and lights that lie exactly on faces, and on what would be a face if a flush cut left a
 // skin.
-#include <catch2/catch.hpp>
 #include <limits>
 #include <optional>
 
+#include "catch.hpp"
 #include "coincidence/pair_rays.hpp"
 #include "coincidence/touching_objects.hpp"
 

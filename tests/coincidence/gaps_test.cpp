@@ -1,8 +1,8 @@
 // What is meant apart stays apart: sheets, slits and thin walls just above the rounding of numbers,
 // on parts of 100 mm and of 100 m, turned and unturned.
-#include <catch2/catch.hpp>
 #include <functional>
 
+#include "catch.hpp"
 #include "coincidence/pair_rays.hpp"
 #include "coincidence/touching_objects.hpp"
 

@@ -1,9 +1,9 @@
 // Along random rays a scene of touching surfaces shows what the same solids show without any.
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <sstream>
 #include <string>
 
+#include "catch.hpp"
 #include "coincidence/pair_models.hpp"
 
 using namespace graycube;

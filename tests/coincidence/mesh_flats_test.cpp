@@ -1,11 +1,11 @@
 #include "coincidence/mesh_flats.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 #include "mesh/samples.hpp"
 

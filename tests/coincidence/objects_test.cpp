@@ -1,7 +1,7 @@
 // Faces shared by different objects, under turns: the first object in the file wins everywhere, and
 // whatever starts on such a face goes on as it does where all coordinates are short.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "coincidence/touching_objects.hpp"
 #include "trace/machine.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "catch.hpp"
 #include "coincidence/pair_maker.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"

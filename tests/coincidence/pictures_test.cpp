@@ -1,11 +1,11 @@
 // Pictures of scenes whose surfaces touch: the same solids without touching surfaces give the same
 // ones, and every way of rendering gives the same bytes.
-#include <catch2/catch.hpp>
 
+#include "simulation/pictures.hpp"
+#include "catch.hpp"
 #include "coincidence/pair_pictures.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "geometry/simd.hpp"
-#include "simulation/pictures.hpp"
 #include "trace/machine.hpp"
 
 using namespace graycube;

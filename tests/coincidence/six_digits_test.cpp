@@ -1,8 +1,8 @@
 // Scenes made from numbers of six significant digits, as OpenSCAD's trees have: what was flush
 // before they were rounded stays flush, and what was not stays apart.
-#include <catch2/catch.hpp>
 #include <string>
 
+#include "catch.hpp"
 #include "coincidence/pair_models.hpp"
 #include "coincidence/six_digits.hpp"
 #include "mesh/samples.hpp"

@@ -1,8 +1,9 @@
 #include "coordination/credit.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <vector>
+
+#include "catch.hpp"
 
 namespace graycube {
 namespace {

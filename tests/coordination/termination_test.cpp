@@ -1,6 +1,5 @@
 #include "coordination/termination.hpp"
 
-#include <catch2/catch.hpp>
 #include <deque>
 #include <map>
 #include <random>
@@ -8,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "catch.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {

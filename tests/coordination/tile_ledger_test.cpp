@@ -1,10 +1,11 @@
 #include "coordination/tile_ledger.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <random>
 #include <utility>
 #include <vector>
+
+#include "catch.hpp"
 
 namespace graycube {
 namespace {

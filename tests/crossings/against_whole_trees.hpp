@@ -2,13 +2,13 @@
 // trees.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "crossings/bsp.hpp"
 #include "crossings/crossings.hpp"
 #include "csg/random_model.hpp"

@@ -2,10 +2,10 @@
 // neighbour links lead where the walk must go on.
 #include "crossings/bsp.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "csg/tree.hpp"
 #include "csg/whole_tree.hpp"

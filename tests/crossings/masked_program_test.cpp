@@ -1,10 +1,10 @@
 // Programs as operations on bits against the trees that they come from.
 #include "crossings/masked_program.hpp"
 
-#include <catch2/catch.hpp>
 #include <span>
 #include <vector>
 
+#include "catch.hpp"
 #include "crossings/crossings.hpp"
 #include "csg/dice.hpp"
 

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "against_whole_trees.hpp"
+#include "catch.hpp"
 #include "geometry/simd.hpp"
 
 using namespace graycube;

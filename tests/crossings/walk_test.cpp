@@ -2,11 +2,11 @@
 #include "crossings/walk.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "against_whole_trees.hpp"
+#include "catch.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

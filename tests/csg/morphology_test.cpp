@@ -3,9 +3,9 @@
 #include "csg/morphology.hpp"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "csg/tree.hpp"
 

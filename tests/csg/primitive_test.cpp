@@ -1,11 +1,11 @@
 // Properties that every kind of primitive has, checked on random ones.
 #include "csg/primitive.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 #include <string>
 
+#include "catch.hpp"
 #include "csg/one_primitive.hpp"
 
 using namespace graycube;

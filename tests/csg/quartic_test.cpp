@@ -1,9 +1,9 @@
 // The quartic of elliptic cones, in fewer operations.
 #include "csg/quartic.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "dice.hpp"
 
 using namespace graycube::csg;

@@ -1,9 +1,9 @@
 // Solids as wholes: laws of set algebra along rays, faces that coincide, maps, the space outside.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
+#include "catch.hpp"
 #include "crossings/walk.hpp"
 #include "csg/one_primitive.hpp"
 #include "csg/random_rays.hpp"

@@ -1,10 +1,10 @@
 // Single primitives where solvers go wrong: tangents, apexes, edges, thin shapes, great distances.
 // Expected parameters are worked out by hand.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/one_primitive.hpp"
 
 using namespace graycube;

@@ -2,9 +2,9 @@
 // trees.
 #include "csg/tree.hpp"
 
-#include <catch2/catch.hpp>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "csg/whole_tree.hpp"
 #include "formats/pov/scene_membership.hpp"

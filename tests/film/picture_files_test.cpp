@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -21,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "catch.hpp"
 #include "check.hpp"
 #include "transport/temporary_folder.hpp"
 

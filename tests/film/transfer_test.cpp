@@ -1,10 +1,11 @@
 #include "film/transfer.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

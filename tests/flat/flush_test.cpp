@@ -1,9 +1,9 @@
 #include "flat/flush.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 
 namespace graycube {

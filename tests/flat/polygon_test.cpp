@@ -1,8 +1,8 @@
 #include "flat/polygon.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 
 namespace graycube {

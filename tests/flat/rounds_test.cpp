@@ -1,10 +1,10 @@
 // Disks and polygons: hulls, and offsets with exact arcs.
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "catch.hpp"
 #include "flat/offset.hpp"
 #include "flat/rounds.hpp"
 

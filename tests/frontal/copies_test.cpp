@@ -1,7 +1,7 @@
 // Which nodes get copies of their neighbours' slices, and when.
-#include <catch2/catch.hpp>
 #include <numeric>
 
+#include "catch.hpp"
 #include "frontal/prepared.hpp"
 #include "frontal/render_job.hpp"
 #include "frontal/slices.hpp"

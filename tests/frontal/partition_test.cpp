@@ -1,9 +1,9 @@
 // What is picked where a command leaves the macro-regions' boundaries open.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
+#include "catch.hpp"
 #include "frontal/prepared.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/corner_scene.hpp"

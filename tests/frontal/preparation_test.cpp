@@ -1,7 +1,7 @@
 // Scenes come as text, or compiled by who read them: both are cut alike.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "frontal/prepared.hpp"

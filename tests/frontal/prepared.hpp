@@ -1,8 +1,7 @@
 // A scene as the frontal cuts it for its nodes.
 #pragma once
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "frontal/preparation.hpp"
 

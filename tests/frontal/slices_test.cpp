@@ -1,10 +1,10 @@
 // What each node gets of a scene.
 #include "frontal/slices.hpp"
 
-#include <catch2/catch.hpp>
 #include <optional>
 #include <variant>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "frontal/prepared.hpp"
 #include "proto/bounds_bytes.hpp"

@@ -1,6 +1,6 @@
 // How many tiles nodes have open at a time.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "frontal/prepared.hpp"
 #include "frontal/render_job.hpp"
 #include "trace/corner_scene.hpp"

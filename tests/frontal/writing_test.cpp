@@ -1,6 +1,6 @@
 // Who may have the frontal write files.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "frontal/frontal.hpp"
 #include "proto/control.hpp"
 

@@ -1,6 +1,5 @@
 // Replays the fuzzers' corpora: seeds, and every input that a fuzzer has found a fault with.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "catch.hpp"
 #include "fuzz/brlcad_fuzz.hpp"
 #include "fuzz/cbor_fuzz.hpp"
 #include "fuzz/json_fuzz.hpp"

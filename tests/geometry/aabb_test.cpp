@@ -1,6 +1,6 @@
 #include "geometry/aabb.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using namespace graycube;
 

@@ -1,9 +1,10 @@
 #include "geometry/affine.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

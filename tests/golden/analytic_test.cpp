@@ -1,10 +1,10 @@
 // Pictures against a second renderer in closed form: silhouettes, normals, shades, shadows,
 // reflections.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 
 #include "analytic_scene.hpp"
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "trace/render_serial.hpp"
 

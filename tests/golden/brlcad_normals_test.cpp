@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "formats/brlcad/brlcad.hpp"
 #include "scene/compile_scene.hpp"

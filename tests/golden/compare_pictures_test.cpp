@@ -1,12 +1,12 @@
 #include <sys/wait.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "transport/temporary_folder.hpp"
 

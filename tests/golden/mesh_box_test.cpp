@@ -1,6 +1,6 @@
 // A box as a mesh against the box itself: the same depths, normals and shades, pixel by pixel.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "mesh/samples.hpp"
 #include "trace/render_serial.hpp"

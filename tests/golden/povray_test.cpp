@@ -2,7 +2,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "film/transfer.hpp"
 #include "formats/graycube/read_scene.hpp"

@@ -1,8 +1,7 @@
 // Bad scenes and bad usage: status 2, one line each, at once and without a trace.
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "integration/sandbox.hpp"
 
 namespace graycube {

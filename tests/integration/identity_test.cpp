@@ -1,8 +1,8 @@
 // One scene, one picture: byte for byte, whatever computes it.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "catch.hpp"
 #include "geometry/simd.hpp"
 #include "integration/sandbox.hpp"
 

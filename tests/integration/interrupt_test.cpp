@@ -1,10 +1,10 @@
 // Signals at any moment leave no process, no socket, no file.
 #include <signal.h>
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <thread>
 
+#include "catch.hpp"
 #include "integration/sandbox.hpp"
 
 namespace graycube {

@@ -1,8 +1,7 @@
 // Models from OpenSCAD, through to pictures.
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "integration/sandbox.hpp"
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cctype>
 #include <cstring>
 #include <fstream>
@@ -15,6 +14,8 @@
 #include <sstream>
 #include <thread>
 #include <utility>
+
+#include "catch.hpp"
 
 namespace graycube {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <sys/resource.h>
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "catch.hpp"
 #include "memory/kept_heap.hpp"
 
 namespace graycube {

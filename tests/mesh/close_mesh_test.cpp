@@ -1,9 +1,9 @@
 // From polygons to closed meshes.
 #include "mesh/close_mesh.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "catch.hpp"
 #include "mesh/cut_face.hpp"
 #include "mesh/samples.hpp"
 

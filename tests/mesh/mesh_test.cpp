@@ -1,8 +1,7 @@
 // Meshes as solids.
 #include "mesh/mesh.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "csg/dice.hpp"
 #include "csg/one_primitive.hpp"
 #include "mesh/line.hpp"

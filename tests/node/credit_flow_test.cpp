@@ -1,7 +1,6 @@
 #include "node/parts/credit_flow.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "node/sent_mail.hpp"
 
 using namespace graycube;

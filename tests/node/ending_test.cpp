@@ -1,7 +1,6 @@
 #include "node/parts/ending.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "node/sent_mail.hpp"
 
 using namespace graycube;
@@ -98,7 +97,7 @@ TEST_CASE("what was sent and never came is told after enough rounds, one for eac
     errors = SentMail(first.mail).told<control::NodeError>();
   }
   REQUIRE(errors.size() == 1);
-  CHECK(errors.front().message == "the token counts 1 batches sent but never received");
+  CHECK(errors.front().message == "1 batches of rays were sent by nodes but never received by any");
   CHECK(round == 33);
 }
 

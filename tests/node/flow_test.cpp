@@ -1,7 +1,7 @@
 // When rays and credit go out: full batches, parts of them on quiet links, what is left when
 // nothing else is to do; and how a full node goes on.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"

@@ -1,8 +1,8 @@
 // Neighbours that help each other: what a node says, gives away and takes.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"

@@ -1,6 +1,6 @@
 #include "node/parts/membership.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using namespace graycube;
 

@@ -2,9 +2,10 @@
 // which order.
 #include "node/parts/merge_buffer.hpp"
 
-#include <catch2/catch.hpp>
 #include <map>
 #include <random>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

@@ -1,11 +1,11 @@
 #include "node/parts/ray_store.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 #include <random>
 #include <vector>
 
+#include "catch.hpp"
 #include "node/parts/outbox.hpp"
 
 using namespace graycube;

@@ -1,8 +1,8 @@
 // Rays that begin where their node finished another, links away from their own macro-region's: they
 // are sent there.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/bounds_bytes.hpp"

@@ -1,6 +1,6 @@
 // A node in the tree of sums: what it does with the light that others send it.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "node/node_at_work.hpp"
 #include "proto/model_slice.hpp"

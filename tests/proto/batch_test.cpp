@@ -1,10 +1,10 @@
 #include "proto/batch.hpp"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
 
+#include "catch.hpp"
 #include "fuzz/proto_fuzz.hpp"
 #include "proto/bytes.hpp"
 #include "proto/random.hpp"

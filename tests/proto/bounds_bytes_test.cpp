@@ -1,10 +1,10 @@
 // Foreign bounds over the wire.
 #include "proto/bounds_bytes.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "catch.hpp"
 #include "proto/bytes.hpp"
 #include "proto/random.hpp"
 

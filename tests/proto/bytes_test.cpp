@@ -1,7 +1,6 @@
 #include "proto/bytes.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "proto/messages.hpp"
 #include "proto/picture_rows.hpp"
 

@@ -1,9 +1,9 @@
 #include "proto/control.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 #include <stdexcept>
 
+#include "catch.hpp"
 #include "fuzz/proto_fuzz.hpp"
 #include "proto/control_examples.hpp"
 #include "proto/random.hpp"

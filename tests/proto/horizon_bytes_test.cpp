@@ -2,8 +2,8 @@
 #include "proto/horizon_bytes.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "proto/random.hpp"
 
 using namespace graycube;

@@ -1,8 +1,8 @@
 #include "proto/model_slice.hpp"
 
-#include <catch2/catch.hpp>
 #include <functional>
 
+#include "catch.hpp"
 #include "fuzz/proto_fuzz.hpp"
 #include "proto/bytes.hpp"
 #include "proto/random.hpp"

@@ -1,9 +1,9 @@
 // proto/schema and the decoder must say the same: each is checked against the other.
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include "catch.hpp"
 #include "proto/control.hpp"
 #include "proto/control_examples.hpp"
 #include "proto/json_schema.hpp"

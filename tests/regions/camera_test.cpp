@@ -1,7 +1,8 @@
 #include "regions/camera.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "catch.hpp"
 
 namespace graycube {
 namespace {

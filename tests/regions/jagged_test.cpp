@@ -1,9 +1,9 @@
 #include "regions/jagged.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <numeric>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 
 using namespace graycube;

@@ -1,7 +1,6 @@
 #include "regions/macro_grid.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "catch.hpp"
 #include "geometry/simd.hpp"
 
 namespace graycube {

@@ -1,7 +1,6 @@
 #include "regions/own_pixels.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
 

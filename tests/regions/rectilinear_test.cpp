@@ -1,9 +1,10 @@
 #include "regions/rectilinear.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <limits>
 #include <random>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

@@ -1,9 +1,9 @@
 // The part of a model that a macro-region needs: it must look the same from inside the region.
 #include "regions/restrict.hpp"
 
-#include <catch2/catch.hpp>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "csg/whole_tree.hpp"
 

@@ -1,8 +1,8 @@
 // Prisms and turned polygons against the plane's own even-odd rule, and the rays that might slip
 // through a seam.
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 #include "csg/whole_tree.hpp"
 #include "flat/pieces.hpp"

@@ -1,8 +1,9 @@
 #include "scene/sparse_optional.hpp"
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <utility>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

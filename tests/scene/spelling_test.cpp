@@ -1,8 +1,9 @@
 #include "spelling.hpp"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <string_view>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

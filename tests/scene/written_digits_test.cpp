@@ -1,11 +1,11 @@
 #include "written_digits.hpp"
 
-#include <catch2/catch.hpp>
 #include <charconv>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/mesh/mesh_file.hpp"
 #include "formats/openscad/reading.hpp"
 #include "mesh/samples.hpp"

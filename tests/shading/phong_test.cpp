@@ -1,10 +1,10 @@
 // Directions and the Phong model by hand.
 #include "shading/phong.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 
 using namespace graycube;

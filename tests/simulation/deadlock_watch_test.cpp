@@ -1,6 +1,6 @@
 #include "frontal/deadlock_watch.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using namespace graycube;
 

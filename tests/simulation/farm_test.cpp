@@ -1,8 +1,8 @@
 #include "simulation/random_machine.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "proto/model_slice.hpp"
 #include "scene/compile_scene.hpp"

@@ -1,7 +1,7 @@
 // What predictions are made of: costs per unit, cores, links.
-#include <catch2/catch.hpp>
 #include <random>
 
+#include "catch.hpp"
 #include "simulation/cost_fit.hpp"
 #include "simulation/modelled_machine.hpp"
 #include "simulation/pictures.hpp"

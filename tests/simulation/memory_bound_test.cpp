@@ -1,11 +1,11 @@
 // What a node holds is bounded by the windows of open tiles, however deep the rays' trees and
 // however slow the links.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <numeric>
 #include <vector>
 
+#include "catch.hpp"
 #include "proto/batch.hpp"
 #include "simulation/pictures.hpp"
 

@@ -3,11 +3,11 @@
 // records the new numbers. GRAYCUBE_SEEDS=2000 compares so many seeds, GRAYCUBE_SEED=S prints the
 // number of that one.
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <span>
 
+#include "catch.hpp"
 #include "proto/control.hpp"
 #include "simulation/pictures.hpp"
 #include "simulation/random_trial.hpp"

@@ -1,9 +1,9 @@
 // Every way in which macro can work, on simulated farms, by seed: the serial picture each time.
-#include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "catch.hpp"
 #include "simulation/modelled_machine.hpp"
 #include "simulation/pictures.hpp"
 #include "topology/hypercube.hpp"

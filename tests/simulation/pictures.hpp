@@ -2,9 +2,9 @@
 // it.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "scene/compile_scene.hpp"
 #include "simulation/random_machine.hpp"

@@ -2,9 +2,9 @@
 // a deadlock, never an early end, the bounds on rays kept, and always the serial picture.
 // GRAYCUBE_SEEDS=N runs N of them, GRAYCUBE_SEED=S only that one.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 
+#include "catch.hpp"
 #include "proto/batch.hpp"
 #include "simulation/pictures.hpp"
 #include "simulation/random_trial.hpp"

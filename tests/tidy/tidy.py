@@ -2,10 +2,10 @@
 
 Prints a line for each breach, "FILE:LINE: what is wrong", and fails if there is one. The rules:
 each folder includes only what the code map of ARCHITECTURE.md says, which names every folder, and
-only folders above its own row; a vendor is included only at home; what decides without a clock
-includes none, nor threads or sockets; folders stay small; links of Markdown files, and the files
-that they name, are there; first pages stay short, and every page of docs is linked from somewhere;
-control messages are described and have examples (messages.py).
+only folders above its own row; a vendor is included only at home, Catch2 only by catch.hpp; what
+decides without a clock includes none, nor threads or sockets; folders stay small; links of Markdown
+files, and the files that they name, are there; first pages stay short, and every page of docs is
+linked from somewhere; control messages are described and have examples (messages.py).
 """
 
 import os
@@ -27,7 +27,7 @@ GENERATED = {"version.hpp"}
 
 # Where a vendor's header, by its beginning, may be included. Tests may include all.
 VENDORS = {
-    "CLI/": ("cli/command_line.cpp", "frontal/main.cpp", "node/main.cpp"),
+    "CLI/": ("cli/command_line.cpp", "cli/options/declaring.cpp", "frontal/main.cpp", "node/main.cpp"),
     "Imf": ("common/film/exr_file.cpp",),
     "OpenEXR/": ("common/film/exr_file.cpp",),
     "benchmark/": ("bench/",),
@@ -189,6 +189,16 @@ def check_vendors(tree):
                     tree.breach(path, number, f"{name} is at home in {', '.join(homes)}")
 
 
+def check_catch(tree):
+    """Tests know Catch2 by the one header that knows its versions."""
+    for path in tree.paths:
+        if not path.endswith(SOURCES) or not path.startswith("tests/") or path == "tests/catch.hpp":
+            continue
+        for number, name, _ in tree.includes(path):
+            if name.startswith("catch2/"):
+                tree.breach(path, number, f'{name}: include "catch.hpp"')
+
+
 def brain_sources(tree):
     """The .cpp files of the brains' targets, and all that these include of their folders."""
     found = []
@@ -300,6 +310,7 @@ def breaches_of(root):
     check_map(tree, rows)
     check_includes(tree, rows)
     check_vendors(tree)
+    check_catch(tree)
     check_worldly(tree)
     check_sizes(tree)
     check_documents(tree)

@@ -114,6 +114,11 @@ class TidyTest(unittest.TestCase):
                     "formats/json/parser.cpp, formats/json/cbor_parser.cpp, proto/",
                     {"common/high/high.hpp": "#include <nlohmann/json.hpp>\n"})
 
+    def test_tests_know_catch_by_one_header(self):
+        self.assertEqual(self.breaches({"tests/catch.hpp": "#include <catch2/catch.hpp>\n"}), [])
+        self.expect('tests/low/low_test.cpp:1: catch2/catch.hpp: include "catch.hpp"',
+                    {"tests/low/low_test.cpp": "#include <catch2/catch.hpp>\n"})
+
     def test_what_decides_knows_no_clock_thread_or_socket(self):
         for header in ("chrono", "thread", "sys/socket.h", "mutex", "unistd.h"):
             self.expect(f"common/high/high.hpp:1: {header}: no clocks, threads and sockets here",

@@ -1,10 +1,10 @@
 #include "topology/hypercube.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <set>
 
+#include "catch.hpp"
 #include "topology/gray.hpp"
 
 namespace graycube {

@@ -1,10 +1,10 @@
 #include "trace/coarse_load.hpp"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "trace/corner_scene.hpp"
 

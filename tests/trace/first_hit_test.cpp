@@ -1,8 +1,8 @@
 #include "trace/first_hit.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"

@@ -1,8 +1,8 @@
 // Nodes that know of what they do not hold finish rays wherever these go: the picture is that of
 // the whole.
-#include <catch2/catch.hpp>
 #include <memory>
 
+#include "catch.hpp"
 #include "trace/machine.hpp"
 
 using namespace graycube;

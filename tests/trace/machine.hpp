@@ -2,12 +2,12 @@
 // from one to the other.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <deque>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "regions/own_pixels.hpp"
 #include "regions/restrict.hpp"

@@ -1,10 +1,10 @@
 // Macro-regions against the whole: rays handed from domain to domain must give the same picture bit
 // for bit, the same counts, and all credit back.
-#include <catch2/catch.hpp>
 #include <map>
 #include <memory>
 #include <vector>
 
+#include "catch.hpp"
 #include "trace/machine.hpp"
 #include "trace/render_serial.hpp"
 #include "visibility/light_depths.hpp"

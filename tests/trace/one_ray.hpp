@@ -1,10 +1,10 @@
 // One primary ray, along +z from z = −10, into a small scene: what light comes back.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "trace/step.hpp"
 

@@ -1,8 +1,8 @@
 // The light of a hit, of shadow, reflected and refracted rays: section "Shading" of the scene
 // format, worked out by hand.
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "one_ray.hpp"
 
 using namespace graycube;

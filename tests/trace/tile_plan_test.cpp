@@ -1,9 +1,9 @@
 // Every pixel in exactly one tile.
 #include "trace/tile_plan.hpp"
 
-#include <catch2/catch.hpp>
 #include <vector>
 
+#include "catch.hpp"
 #include "csg/dice.hpp"
 #include "csg/random_model.hpp"
 #include "regions/own_pixels.hpp"

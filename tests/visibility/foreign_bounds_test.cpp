@@ -2,8 +2,7 @@
 // foreign crosses.
 #include "visibility/foreign_bounds.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 #include "geometry/simd.hpp"
 #include "regions/camera.hpp"

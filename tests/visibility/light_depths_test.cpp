@@ -1,9 +1,9 @@
 // What depths promise, light or darkness, must be what brute force finds.
 #include "visibility/light_depths.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "csg/random_model.hpp"
 
 using namespace graycube;

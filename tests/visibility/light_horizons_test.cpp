@@ -1,9 +1,9 @@
 // A horizon must never promise light where brute force finds something in the way.
 #include "visibility/light_horizons.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
 

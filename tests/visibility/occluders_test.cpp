@@ -2,9 +2,9 @@
 // something foreign blocks.
 #include "visibility/occluders.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "crossings/surface_tree.hpp"
 #include "csg/random_model.hpp"
 #include "geometry/simd.hpp"

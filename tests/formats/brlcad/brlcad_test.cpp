@@ -2,9 +2,9 @@
 
 #include <zlib.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "formats/brlcad/database.hpp"
 #include "formats/brlcad/model.hpp"
 #include "formats/brlcad/reading.hpp"

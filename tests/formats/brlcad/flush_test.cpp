@@ -1,10 +1,10 @@
 // Cuts that are flush with faces, in regions that are turned: as the same solids with longer cuts.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <sstream>
 
+#include "catch.hpp"
 #include "crossings/surface_tree.hpp"
 #include "formats/brlcad/reading.hpp"
 #include "geometry/affine.hpp"

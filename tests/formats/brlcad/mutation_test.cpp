@@ -1,7 +1,7 @@
 // Hostile input: whatever happens to a database, reading it ends with a scene or with errors.
-#include <catch2/catch.hpp>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/brlcad/model.hpp"
 #include "fuzz/brlcad_fuzz.hpp"
 

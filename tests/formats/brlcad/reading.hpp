@@ -1,11 +1,11 @@
 // What the tests ask of a BRL-CAD database.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "catch.hpp"
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"

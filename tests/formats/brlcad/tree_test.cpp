@@ -1,9 +1,9 @@
 // Combinations: members, their order, and trees of any shape.
 #include "formats/brlcad/tree.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/brlcad/database.hpp"
 #include "formats/brlcad/reading.hpp"
 

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "scene/limits.hpp"
 #include "scene_text.hpp"

@@ -1,11 +1,11 @@
 // Meshes in scene files, and the files that hold one mesh.
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/scene_text.hpp"
 #include "formats/graycube/write_scene.hpp"

@@ -1,6 +1,5 @@
 #include "formats/graycube/read_scene.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "catch.hpp"
 #include "scene_text.hpp"
 
 using namespace graycube;

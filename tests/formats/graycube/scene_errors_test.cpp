@@ -1,10 +1,10 @@
 // Every kind of error a scene file can hold: a snippet, where it is complained of, and in which
 // words.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "scene_text.hpp"
 

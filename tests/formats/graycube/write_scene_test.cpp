@@ -1,9 +1,9 @@
 #include "formats/graycube/write_scene.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "random_scene.hpp"
 #include "scene_text.hpp"

@@ -1,8 +1,8 @@
 // Scenes in CBOR mean what they mean in JSON, and what isn't theirs is refused with its place.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/graycube/random_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "fuzz/cbor_fuzz.hpp"

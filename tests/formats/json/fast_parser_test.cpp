@@ -1,5 +1,4 @@
 #include <array>
-#include <catch2/catch.hpp>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "catch.hpp"
 #include "fuzz/json_fuzz.hpp"
 
 using namespace graycube;

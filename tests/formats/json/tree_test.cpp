@@ -1,13 +1,14 @@
 #include "formats/json/tree.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "catch.hpp"
 
 using namespace graycube;
 

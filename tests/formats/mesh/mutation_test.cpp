@@ -1,8 +1,8 @@
 // Hostile input: whatever happens to a mesh file, reading it ends with a mesh or with a fault.
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
 
+#include "catch.hpp"
 #include "fuzz/mesh_fuzz.hpp"
 #include "mesh/samples.hpp"
 

@@ -1,11 +1,11 @@
 #include "formats/openscad/language/exact.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <random>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 
 namespace graycube {

@@ -1,10 +1,9 @@
 // What is round takes the facets of the hull that it is flush with.
-#include <catch2/catch.hpp>
-
 #include <limits>
 #include <random>
 #include <string>
 
+#include "catch.hpp"
 #include "crossings/surface_tree.hpp"
 #include "formats/openscad/reading.hpp"
 #include "scene/compile_scene.hpp"

@@ -1,11 +1,12 @@
 // Files of this folder.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "catch.hpp"
 
 namespace graycube::testing {
 

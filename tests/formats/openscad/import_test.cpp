@@ -1,5 +1,4 @@
-#include <catch2/catch.hpp>
-
+#include "catch.hpp"
 #include "formats/openscad/fixture.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/reading.hpp"

@@ -1,12 +1,12 @@
 #include "formats/openscad/hulls/mesh.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
 
+#include "catch.hpp"
 #include "geometry/affine.hpp"
 
 namespace graycube {

@@ -1,7 +1,7 @@
 // Hostile input: whatever happens to a file, reading it ends with a scene or with errors.
-#include <catch2/catch.hpp>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/openscad/fixture.hpp"

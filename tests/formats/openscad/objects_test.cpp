@@ -1,6 +1,6 @@
 // How the solids of a .csg file become objects, and its colours materials.
-#include <catch2/catch.hpp>
 
+#include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/openscad/fixture.hpp"

@@ -1,10 +1,10 @@
 // offset() and other flat shapes with exact arcs, as OpenSCAD means them.
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/within.hpp"
 

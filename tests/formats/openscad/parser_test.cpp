@@ -1,8 +1,8 @@
 #include "formats/openscad/language/parser.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 
 namespace graycube {

@@ -1,10 +1,10 @@
 // Small vocabulary of the tests of the OpenSCAD reader.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "formats/openscad/membership.hpp"
 #include "formats/openscad/openscad.hpp"
 

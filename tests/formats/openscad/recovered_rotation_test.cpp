@@ -1,13 +1,13 @@
 #include "formats/openscad/language/recovered_rotation.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 
 namespace graycube {

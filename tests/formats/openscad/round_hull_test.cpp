@@ -1,9 +1,9 @@
 // Hulls of balls and of level discs: against an oracle, and without slits between their pieces.
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <random>
 
+#include "catch.hpp"
 #include "convex_oracle.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"

@@ -1,10 +1,10 @@
 // hull() and minkowski() of what is round, as OpenSCAD means them.
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "catch.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/within.hpp"

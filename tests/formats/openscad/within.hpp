@@ -1,14 +1,13 @@
 // Scenes that are all within a distance of something.
 #pragma once
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 #include "formats/pov/scene_membership.hpp"
 

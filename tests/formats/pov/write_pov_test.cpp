@@ -1,10 +1,10 @@
 #include "formats/pov/write_pov.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
 
+#include "catch.hpp"
 #include "formats/graycube/random_scene.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/scene_text.hpp"

@@ -1,8 +1,8 @@
 #include "formats/view/framing.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "catch.hpp"
 #include "formats/openscad/reading.hpp"
 
 namespace graycube {
