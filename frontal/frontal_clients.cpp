@@ -132,8 +132,9 @@ void Frontal::on_watch(const PeerId& peer, std::uint32_t job) {
   for (const EndedJob& e : ended_) {
     if (e.info.job != job) continue;
     if (e.info.state == JobState::kDone) return send(peer, control::Done{job, {e.stats_json}});
-    const FailureCode code =
-        e.info.state == JobState::kCancelled ? FailureCode::kCancelled : FailureCode::kFailed;
+    FailureCode code = FailureCode::kFailed;
+    if (e.info.state == JobState::kCancelled) code = FailureCode::kCancelled;
+    if (e.is_deadlocked) code = FailureCode::kDeadlock;
     control::Failed failed{job, code, {{"", e.info.message}}, {}};
     if (e.has_stats()) failed.stats = RawObject{e.stats_json};
     return send(peer, failed);
@@ -161,7 +162,7 @@ void Frontal::on_cancel(const PeerId& peer, std::uint32_t job) {
 
 void Frontal::end_queued(std::size_t index, JobState state, FailureCode code,
                          const std::string& why) {
-  EndedJob job{queue_[index].info, "{}"};
+  EndedJob job{queue_[index].info, "{}", false};
   queue_.erase(queue_.begin() + static_cast<std::ptrdiff_t>(index));
   job.info.state = state;
   job.info.finished_s = unix_s_;

@@ -160,7 +160,7 @@ void Frontal::watch_for_deadlock(Rank rank, const control::WaitReport& m) {
 }
 
 void Frontal::end_as_deadlocked() {
-  end_job(JobState::kFailed, FailureCode::kFailed, {{"--flow blocking", running_->deadlock}});
+  end_job(JobState::kFailed, FailureCode::kDeadlock, {{"--flow blocking", running_->deadlock}});
 }
 
 void Frontal::finish_when_complete() {
@@ -179,19 +179,20 @@ void Frontal::complete() {
   running_->info.state = JobState::kDone;
   running_->info.finished_s = unix_s_;
   running_->info.fraction = 1;
-  const EndedJob job{running_->info, statistics()};
+  EndedJob job{running_->info, statistics(), false};
   running_.reset();
-  keep(job, std::move(picture));
+  keep(std::move(job), std::move(picture));
 }
 
 /// Ends the running job without a picture; the nodes drop it. One that is deadlocked ends as that,
 /// whatever else happens while it waits for reports.
 void Frontal::end_job(JobState state, FailureCode code, std::vector<control::ErrorItem> errors) {
   if (running_->is_loaded) send_to_nodes(control::Finish{running_->info.job});
-  EndedJob job{running_->info, "{}"};
+  EndedJob job{running_->info, "{}", false};
   if (!running_->deadlock.empty()) {
     state = JobState::kFailed;
-    code = FailureCode::kFailed;
+    code = FailureCode::kDeadlock;
+    job.is_deadlocked = true;
     errors = {{"--flow blocking", running_->deadlock}};
     job.stats_json = statistics(running_->deadlock);
   }
