@@ -130,7 +130,7 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
 
 void Farm::prepare(const PreparationWork& work) {
   const double began_s = thread_cpu_seconds();
-  auto result = std::make_shared<PreparationResult>(run(work));
+  auto result = std::make_shared<PreparationResult>(graycube::prepare(work, thread_cpu_seconds));
   outcome_.preparation_cpu_s += thread_cpu_seconds() - began_s;
   timeline_.after(
       0, [this, result] { in_frontal({}, [&] { frontal_->give_result(std::move(*result)); }); });

@@ -17,7 +17,7 @@ inline PreparedScene prepared(const Scene& scene, const control::JobOptions& opt
   work.options = options;
   work.options.algorithm = algorithm;
   work.cube = *Hypercube::of_size(nodes);
-  PreparationResult result = run(work);
+  PreparationResult result = prepare(work, [] { return 0.0; });
   REQUIRE(result.scene);
   return *std::move(result.scene);
 }
