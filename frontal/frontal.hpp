@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "frontal/deadlock_watch.hpp"
-#include "frontal/job_store.hpp"
-#include "frontal/preparation.hpp"
-#include "frontal/render_job.hpp"
+#include "frontal/rendering/deadlock_watch.hpp"
+#include "frontal/parts/job_store.hpp"
+#include "frontal/preparation/preparation.hpp"
+#include "frontal/rendering/render_job.hpp"
 #include "transport/message.hpp"
 
 namespace graycube {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube {

@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "frontal/prepared.hpp"
-#include "frontal/render_job.hpp"
-#include "frontal/slices.hpp"
+#include "frontal/rendering/render_job.hpp"
+#include "frontal/preparation/slices.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "formats/graycube/write_scene.hpp"
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 
 namespace graycube::testing {
 

@@ -1,4 +1,4 @@
-#include "frontal/render_job.hpp"
+#include "frontal/rendering/render_job.hpp"
 
 #include <algorithm>
 #include <numeric>

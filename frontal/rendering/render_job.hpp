@@ -9,7 +9,7 @@
 
 #include "coordination/tile_ledger.hpp"
 #include "film/film.hpp"
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 #include "proto/batch.hpp"
 
 namespace graycube {

@@ -1,11 +1,11 @@
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 
 #include <algorithm>
 #include <memory>
 
 #include "formats/graycube/read_scene.hpp"
-#include "frontal/partition.hpp"
-#include "frontal/slices.hpp"
+#include "frontal/preparation/partition.hpp"
+#include "frontal/preparation/slices.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/tile_shape.hpp"

@@ -1,4 +1,4 @@
-#include "frontal/job_store.hpp"
+#include "frontal/parts/job_store.hpp"
 
 #include <algorithm>
 #include <fstream>
