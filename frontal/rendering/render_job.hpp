@@ -1,47 +1,23 @@
-// A job while it is on the nodes: tiles, credit, light, reports.
+// A job while it is on the nodes: who has which slice and which tiles, what light has come of them,
+// what the token says, and what the nodes report.
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "coordination/tile_ledger.hpp"
-#include "film/film.hpp"
 #include "frontal/preparation/preparation.hpp"
-#include "proto/batch.hpp"
+#include "frontal/rendering/flow_limits.hpp"
+#include "frontal/rendering/light_intake.hpp"
+#include "frontal/rendering/node_reports.hpp"
+#include "frontal/rendering/roll_call.hpp"
+#include "frontal/rendering/slice_stock.hpp"
+#include "frontal/rendering/tile_handout.hpp"
 
 namespace graycube {
 
-/// What bounds the rays in the machine; other values are for tests.
-struct FlowLimits {
-  /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all
-  /// their light. All rays in the machine descend from them (design section 10).
-  std::uint32_t window_tiles = 256;
-  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not
-  /// fewer than the least.
-  double window_rays = 300'000;
-  std::uint32_t least_window_tiles = 8;
-  /// What may be under way on a link and in its receiver's inbox.
-  std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
-  std::uint32_t batch_bytes = std::uint32_t{256} << 10;
-  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places
-  /// for such rays behind a node's links are a quarter of it, or one for each class and link.
-  std::uint64_t outbox_rays = kDefaultOutboxRays;
-};
-/// Tiles are handed out again once this part of the window is free.
-inline constexpr std::uint32_t kPartOfWindow = 4;
-/// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of
-/// those that are left, so that light comes in fewer messages; pixels and lines are handed out as
-/// in 1987.
-inline constexpr std::uint32_t kRothTilesPerThread = 2;
-inline constexpr std::uint32_t kMostRothTilesPerThread = 16;
-inline constexpr std::uint32_t kPartOfRothShare = 4;
-/// Where nodes hold replicas, a node has at least so many tiles open per evaluator thread, and
-/// otherwise this part of those that are left: the fewer, the more of them can still be taken over.
-inline constexpr std::uint32_t kLeastTilesPerThread = 4;
-inline constexpr std::uint32_t kPartOfTilesLeft = 4;
 /// Shadows local: what a node may use for other nodes' models.
 inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 
@@ -49,6 +25,9 @@ class RenderJob {
  public:
   RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
             const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
+  /// Parts refer to the plan of its scene.
+  RenderJob(const RenderJob&) = delete;
+  RenderJob& operator=(const RenderJob&) = delete;
 
   std::uint32_t id() const { return job_; }
   std::uint32_t epoch() const { return epoch_; }
@@ -58,94 +37,64 @@ class RenderJob {
   }
   const PreparedScene& scene() const { return scene_; }
   SumsMode sums() const { return sums_; }
-  /// The slice for a node; given away once the node has it.
-  SharedBytes take_slice(Rank rank);
-  /// Shadows local: a node's slice for another node; null where there is none.
-  const SharedBytes* slice_to_lend(std::uint32_t rank) const;
-  /// A node's slice for a neighbour that is to help it; null where that has no room for it, or has
-  /// one.
-  const SharedBytes* slice_to_copy(Rank owner, Rank helper);
+  std::uint32_t threads() const { return threads_; }
+  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
   control::Load load() const;
+  SliceStock& slices() { return slices_; }
+  const SliceStock& slices() const { return slices_; }
 
-  void set_ready(Rank rank);
-  bool all_ready() const { return ready_count_ == nodes_; }
+  void set_ready(Rank rank) { ready_.note(rank); }
+  bool all_ready() const { return ready_.is_complete(); }
 
-  /// Tiles to hand to a node now, as its window allows: its own, and when there are none left those
-  /// of the neighbour that has most, where nodes hold replicas.
-  std::vector<std::uint32_t> next_tiles(Rank rank);
+  /// Tiles to hand to a node now.
+  std::vector<std::uint32_t> next_tiles(Rank rank) { return tiles_.next(rank); }
+  std::uint64_t next_assignment_sequence(Rank rank) { return tiles_.next_sequence(rank); }
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
   /// nodes whose windows opened are appended to `opened`.
   std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
-  /// How many of each node's tiles neighbours have traced and brought back since this was last
-  /// asked.
-  std::vector<std::uint32_t> take_relief();
-  std::uint64_t next_assignment_sequence(Rank rank) { return assignments_sent_[rank.value]++; }
+  /// By rank, how many of its tiles neighbours have made whole since this was last asked.
+  std::vector<std::uint32_t> take_relief() { return tiles_.take_relief(); }
 
   void set_terminated(const control::Terminated& verdict) { verdict_ = verdict; }
-  void set_round(std::uint32_t round, std::uint32_t hops) {
-    rounds_ = round;
-    hops_ = hops;
-  }
-  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
-  std::uint32_t rounds() const { return rounds_; }
-  std::uint32_t hops() const { return hops_; }
-  std::size_t tiles() const { return ledger_.tile_count(); }
-  std::size_t tiles_whole() const { return ledger_.whole_count(); }
+  /// How far the token is.
+  void set_token(const control::TokenProgress& token) { token_ = token; }
+  const control::TokenProgress& token() const { return token_; }
+  std::size_t tiles() const { return light_.tiles().tile_count(); }
+  std::size_t tiles_whole() const { return light_.tiles().whole_count(); }
   bool is_complete() const;
   /// What contradicts what, when the token says that nothing is left but a tile is open; else
   /// empty.
   std::string contradiction() const;
+  const Film& film() const { return light_.film(); }
 
-  void set_report(const control::NodeReport& report);
-  bool all_reported() const { return report_count_ == nodes_; }
-  /// By rank; of a node that has not reported only who it is.
-  const std::vector<control::NodeStats>& reports() const { return reports_; }
-  const Film& film() const { return film_; }
-  std::uint32_t threads() const { return threads_; }
+  NodeReports& reports() { return reports_; }
+  const NodeReports& reports() const { return reports_; }
 
  private:
   /// Whether nodes may ask for each other's slices.
   bool lends() const {
     return !is_roth() && scene_.shadows == ShadowMode::kLocal && !scene_.has_replicas;
   }
-  /// Whether a helper has room for a copy of the owner's slice.
-  bool has_room(Rank helper, Rank owner) const;
-  /// Whether any neighbour ever can have a copy of a node's slice.
-  bool may_be_copied(Rank owner) const;
-  bool all_batches_in() const;
-  /// Tiles that a node may have open at a time in `macro`, at most.
-  std::uint32_t most_open_tiles() const;
-  /// The same, when so many are left of those that it takes from.
-  std::uint32_t window(std::size_t left) const;
-  Rank owner_of(std::uint32_t tile) const;
-  /// The tiles of the neighbour that has most left, where a node that has none left may help.
-  std::deque<std::uint32_t>* tiles_to_take_over(Rank helper);
+  bool all_batches_in() const {
+    return verdict_ && light_.batches() == verdict_->contribution_batches;
+  }
+  TileHandout::Way way() const;
+  void set_class_places(control::Load& m) const;
 
   std::uint32_t job_;
   std::uint32_t epoch_ = 0;
   PreparedScene scene_;
   Hypercube cube_;
-  std::uint32_t nodes_, threads_;
+  std::uint32_t threads_;
   FlowLimits limits_;
   SumsMode sums_;
-  Film film_;
-  TileLedger ledger_;
-  std::vector<Rank> holder_;                          // of each tile handed out
-  std::vector<std::deque<std::uint32_t>> own_tiles_;  // by rank, macro: not handed out yet
-  std::vector<std::uint32_t> open_, relief_;          // by rank
-  std::vector<std::uint32_t> copies_;  // by rank: bits of the neighbours whose slice it has
-  std::vector<std::uint64_t> slice_bytes_,
-      held_bytes_;               // by rank: of each slice; of what a node holds
-  std::uint32_t next_tile_ = 0;  // roth: one queue for all
-  std::vector<bool> ready_, reported_;
-  std::uint32_t ready_count_ = 0, report_count_ = 0;
-  std::vector<std::uint64_t> batches_received_, assignments_sent_;
-  /// Of the batch that is taken in.
-  std::vector<TileCredit> credits_;
-  std::vector<Contribution> contributions_;
+  SliceStock slices_;
+  TileHandout tiles_;
+  LightIntake light_;
+  RollCall ready_;
+  NodeReports reports_;
   std::optional<control::Terminated> verdict_;
-  std::uint32_t rounds_ = 0, hops_ = 0;
-  std::vector<control::NodeStats> reports_;
+  control::TokenProgress token_;
 };
 
 }  // namespace graycube

@@ -28,8 +28,8 @@ struct Seat {
   }
   /// Whether all these rays are in that node's regions.
   bool owns_all(Rank owner, std::span<const RayTask> rays) const {
-    return std::ranges::all_of(
-        rays, [&](const RayTask& ray) { return owner_of(ray.region) == owner; });
+    return std::ranges::all_of(rays,
+                               [&](const RayTask& ray) { return owner_of(ray.region) == owner; });
   }
   /// The link across which a ray goes to another node's region.
   std::uint32_t bit_towards(const RegionIndex& region) const {
