@@ -2,7 +2,7 @@
 """Measures what a farm costs beside serial: CPU time, of which the start of its processes, and balance.
 
 For each scene and number of nodes, in turns: `render --algorithm serial`, `render --algorithm macro`, which starts a farm of its
-own, and jobs on a farm that is up. Medians of `cpu_s` (README.md, "Statistics"), so ratios mean something on a busy machine,
+own, and jobs on a farm that is up. Medians of `cpu_s` (docs/statistics.md), so ratios mean something on a busy machine,
 too. A first turn isn't counted. Pictures must be the same to the byte. Status: 0 done, 1 something failed, 2 bad usage.
 """
 

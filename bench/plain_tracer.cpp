@@ -1,6 +1,6 @@
 // plain_tracer SCENE [--size N] [--exr OUT.exr]: a plain tracer of CSG scenes to measure Graycube
 // by, and to check it: Embree over the objects' bounds, Roth's interval lists within them, the
-// photometric model of the README. One thread. Prints one JSON object; trace_cpu_s leaves out
+// photometric model of docs/scene.md. One thread. Prints one JSON object; trace_cpu_s leaves out
 // loading and building.
 #include <embree3/rtcore.h>
 

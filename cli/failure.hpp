@@ -7,7 +7,7 @@
 
 namespace graycube {
 
-/// The command's exit status (README, "Exit status").
+/// The command's exit status (docs/manual.md, "Exit status").
 enum class ExitStatus : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 /// One line on standard error: `graycube: WHAT: WHERE: WHY`. An empty part is left out.

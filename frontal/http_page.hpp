@@ -15,7 +15,8 @@ inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
   h1 { font-size: 1.5rem; margin: 0 0 1rem; }
   h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
   table { border-collapse: collapse; width: 100%; background: #fff; }
-  th, td { text-align: left; padding: .4rem .7rem; border-bottom: 1px solid #ddd; vertical-align: top; }
+  th, td { text-align: left; padding: .4rem .7rem; border-bottom: 1px solid #ddd;
+           vertical-align: top; }
   th { font-weight: 600; background: #eceae4; }
   progress { width: 8rem; }
   img { max-width: 12rem; max-height: 9rem; display: block; }
@@ -42,7 +43,8 @@ function showJob(body, job) {
   const row = body.insertRow();
   cell(row, job.job);
   cell(row, job.scene);
-  cell(row, job.message ? job.state + ": " + job.message : job.state, job.state === "failed" ? "failed" : "");
+  cell(row, job.message ? job.state + ": " + job.message : job.state,
+       job.state === "failed" ? "failed" : "");
   const bar = document.createElement("progress");
   bar.value = job.state === "done" ? 1 : job.fraction;
   bar.setAttribute("aria-label", "progress of job " + job.job);

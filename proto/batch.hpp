@@ -57,7 +57,7 @@ enum class BatchType : std::uint8_t {
   /// The sender has nothing to do; and it holds a copy of the receiver's slice.
   kIdle = 10,
   kIdleWithCopy = 11,
-  /// Rays on the credit of their classes, and that credit given back (ARCHITECTURE.md, "Flow").
+  /// Rays on the credit of their classes, and that credit given back (docs/design/flow.md).
   kClassRays = 12,
   kClassCredit = 13,
 };

@@ -1,4 +1,4 @@
-// The statistics file: one JSON object for each render (README, "Statistics").
+// The statistics file: one JSON object for each render (docs/statistics.md).
 #pragma once
 
 #include <array>

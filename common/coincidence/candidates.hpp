@@ -36,19 +36,25 @@ class Candidates {
       }
       return;
     }
-    const std::size_t bucket = bucket_of(step_of(m.value));
-    const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
-    twice_[bucket / 64] |= once_[bucket / 64] & bit;
-    once_[bucket / 64] |= bit;
+    for_each_step(m, [&](std::int64_t step) {
+      const std::size_t bucket = bucket_of(step);
+      const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
+      twice_[bucket / 64] |= once_[bucket / 64] & bit;
+      once_[bucket / 64] |= bit;
+    });
   }
 
-  /// False only where no other's values come within its own and that one's tolerance: values that
-  /// may be one are in one step, or in steps side by side.
+  /// False only where no other's values come within its own and that one's tolerance: such values
+  /// have a step in common.
   bool may_meet(const Measured& m) const {
     if (!is_number(m)) return false;
     if (is_crowded_ || m.tolerance > widest_) return true;
-    const std::int64_t step = step_of(m.value);
-    if (has(twice_, step) || has(once_, step - 1) || has(once_, step + 1)) return true;
+    bool is_shared = false;
+    for_each_step(m, [&](std::int64_t step) {
+      const std::size_t bucket = bucket_of(step);
+      is_shared |= (twice_[bucket / 64] >> (bucket % 64) & 1) != 0;
+    });
+    if (is_shared || wide_.empty()) return is_shared;
     return std::any_of(wide_.begin(), wide_.end(), [&](const Measured& w) {
       return std::fabs(m.value - w.value) <= m.tolerance + w.tolerance;
     });
@@ -65,17 +71,22 @@ class Candidates {
     // What isn't finite makes this NaN.
     return m.tolerance >= 0 && (m.value - m.value) + (m.tolerance - m.tolerance) == 0;
   }
-  bool has(const Bits& bits, std::int64_t step) const {
-    const std::size_t bucket = bucket_of(step);
-    return (bits[bucket / 64] >> (bucket % 64) & 1) != 0;
-  }
-  /// The floor, without a call of the library.
-  std::int64_t step_of(double v) const {
+  /// Calls visit(step) for the one or two steps that the value may lie in.
+  template <typename Visit>
+  void for_each_step(const Measured& m, const Visit& visit) const {
     constexpr double kFarthest = 0x1p+62;
-    const double at = v * scale_;
+    const double at = m.value * scale_;
     const double near = at < kFarthest ? (at > -kFarthest ? at : -kFarthest) : kFarthest;
-    const auto step = static_cast<std::int64_t>(near);
-    return static_cast<double>(step) > near ? step - 1 : step;
+    // The floor, without a call of the library.
+    const auto whole = static_cast<std::int64_t>(near);
+    const std::int64_t step = static_cast<double>(whole) > near ? whole - 1 : whole;
+    visit(step);
+    // Scaling rounds; where that is as much as a tolerance, steps are larger than values by far.
+    constexpr double kRounding = 0x1p-50;
+    const double within = near - static_cast<double>(step),
+                 tolerance = m.tolerance * scale_ + kRounding * std::fabs(near);
+    if (within <= tolerance) visit(step - 1);
+    if (within >= 1 - tolerance) visit(step + 1);
   }
   /// Fibonacci hashing (Knuth, volume 3, 6.4): steps side by side part.
   std::size_t bucket_of(std::int64_t step) const {

@@ -21,6 +21,32 @@ struct Extent {
   std::uint32_t item;
 };
 
+/// Cuts extents that overlap like the links of a chain, but have no point in common, into runs that
+/// have one: what is nearest is put together first, as far as that goes.
+class ChainCutter {
+ public:
+  explicit ChainCutter(std::span<Extent> chain);
+  /// One after the other. Neither the order given nor the items' numbers matter for what makes a
+  /// run.
+  std::vector<std::span<Extent>> runs() const { return runs_; }
+
+ private:
+  /// Extents side by side, from `first` to before `end`, and the interval that they have in common.
+  struct Piece {
+    std::size_t first, end;
+    double most_lo, least_hi;
+    bool is_run;
+  };
+  void join(std::size_t gap);
+  void keep(const Piece& piece);
+
+  std::span<Extent> chain_;
+  std::vector<Piece> pieces_;
+  /// By extent: the piece that it is the first or the last of; without meaning for those between.
+  std::vector<std::size_t> piece_of_;
+  std::vector<std::span<Extent>> runs_;
+};
+
 /// Sorts the extents and calls visit(run) for each run of them that have a point in common. What is
 /// one has its true value in common, so it is in one run, if nothing else is as near; and nothing
 /// grows by chaining: all of a run are within tolerance of each other. Neither the order given nor
@@ -36,12 +62,19 @@ void for_each_run(std::span<Extent> extents, Visit&& visit) {
     return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.item < b.item;
   });
   for (std::size_t first = 0; first < extents.size();) {
-    double common = std::numeric_limits<double>::infinity();
-    std::size_t end = first;
-    for (; end < extents.size() && extents[end].lo <= common; ++end)
+    double reached = extents[first].hi, common = reached;
+    std::size_t end = first + 1;
+    for (; end < extents.size() && extents[end].lo <= reached; ++end) {
+      reached = std::max(reached, extents[end].hi);
       common = std::min(common, extents[end].hi);
-    visit(extents.subspan(first, end - first));
+    }
+    const std::span<Extent> chain = extents.subspan(first, end - first);
     first = end;
+    if (chain.back().lo <= common) {
+      visit(chain);
+    } else {
+      for (const std::span<Extent> run : ChainCutter(chain).runs()) visit(run);
+    }
   }
 }
 

@@ -1,38 +1,56 @@
 #include "coincidence/coincidence.hpp"
 
+#include <algorithm>
+
 #include "check.hpp"
-#include "coincidence/plane_unifier.hpp"
-#include "coincidence/surface_unifier.hpp"
 
 namespace graycube {
+
+void CoincidenceUnifier::reserve(std::size_t primitives) {
+  exactness_.reserve(primitives);
+  planes_.reserve(primitives);
+  surfaces_.reserve(primitives);
+}
+
+void CoincidenceUnifier::add(const Exactness& exactness) {
+  const auto primitive = static_cast<std::uint32_t>(exactness_.size());
+  GRAYCUBE_CHECK(primitive < model_.primitives.size(), "%u", primitive);
+  exactness_.push_back(exactness);
+  const Primitive& p = model_.primitives[primitive];
+  const bool is_bounded = p.bounds.is_finite();
+  if (is_bounded) {
+    for (std::size_t a = 0; a < 3; ++a) worst_[a] = std::max(worst_[a], exactness.along[a]);
+  }
+  if (!is_bounded || p.kind == PrimitiveKind::kMesh) return late_.push_back(primitive);
+  planes_.add(primitive);
+  surfaces_.add(primitive);
+}
+
+bool CoincidenceUnifier::unify() {
+  GRAYCUBE_CHECK(exactness_.size() == model_.primitives.size(), "%zu of %zu", exactness_.size(),
+                 model_.primitives.size());
+  for (const std::uint32_t i : late_) {
+    // A half-space has no size to measure its offset by, which may be what is left of larger
+    // numbers: that of the others does.
+    constexpr float kPart = 1.0f / 8;
+    if (!model_.primitives[i].bounds.is_finite()) {
+      auto& along = exactness_[i].along;
+      for (std::size_t a = 0; a < 3; ++a) along[a] = std::max(along[a], kPart * worst_[a]);
+    }
+    planes_.add(i);
+    surfaces_.add(i);
+  }
+  if (exactness_.size() < 2) return false;
+  const bool has_moved_planes = planes_.unify();
+  return surfaces_.unify() || has_moved_planes;
+}
 
 bool unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness) {
   GRAYCUBE_CHECK(exactness.size() == model.primitives.size(), "%zu of %zu", exactness.size(),
                  model.primitives.size());
-  const auto count = static_cast<std::uint32_t>(model.primitives.size());
-  if (count < 2) return false;
-  csg::PlaneUnifier planes(model, exactness);
-  csg::SurfaceUnifier surfaces(model, exactness);
-  double reach = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    planes.count(i);
-    surfaces.count(i);
-    const Aabb& bounds = model.primitives[i].bounds;
-    const double own = larger(max_abs(bounds.lo), max_abs(bounds.hi));
-    if (own > reach && bounds.is_finite()) reach = own;
-  }
-  planes.begin_marking(reach);
-  surfaces.begin_marking();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    planes.mark(i);
-    surfaces.mark(i);
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    planes.collect(i);
-    surfaces.collect(i);
-  }
-  const bool has_moved_planes = planes.unify();
-  return surfaces.unify() || has_moved_planes;
+  CoincidenceUnifier unifier(model);
+  for (const Exactness& e : exactness) unifier.add(e);
+  return unifier.unify();
 }
 
 }  // namespace graycube

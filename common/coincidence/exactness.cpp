@@ -78,7 +78,16 @@ double share_of_digits(std::uint32_t digits) {
 }
 
 MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
-  MeasuredMap r{compose(then.map, first), compose(then.magnitude, magnitude_of(first)), 1};
+  MeasuredMap r{first, magnitude_of(first), 1, false};
+  if (!then.is_identity) {
+    r.map = compose(then.map, r.map);
+    r.magnitude = compose(then.magnitude, r.magnitude);
+  } else {
+    // As composing does: maps that are equal have equal bits.
+    for (auto& row : r.map.m) {
+      for (double& x : row) x += 0.0;
+    }
+  }
   if (!keeps_directions(r.map)) r.turn = turn_of(r.map, r.magnitude);
   return r;
 }

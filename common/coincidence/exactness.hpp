@@ -31,6 +31,8 @@ struct MeasuredMap {
   Affine magnitude;
   /// How many times worse the directions of normals are known under it than its entries.
   double turn = 1;
+  /// Nothing is composed yet.
+  bool is_identity = true;
 };
 /// The map that applies `first`, then `then`.
 MeasuredMap compose(const MeasuredMap& then, const Affine& first);

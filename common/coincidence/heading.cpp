@@ -31,12 +31,6 @@ int world_axis_of(const Heading& heading) {
   return 3;
 }
 
-Vec3 world_axis(int axis) {
-  Vec3 e;
-  e[axis] = 1;
-  return e;
-}
-
 Vec3 turned_first(const Vec3& direction) {
   const Vec3& n = direction;
   const bool is_backward = n.x != 0 ? n.x < 0 : n.y != 0 ? n.y < 0 : n.z < 0;

@@ -30,7 +30,11 @@ Measured direction_number(const Heading& heading, int which);
 
 /// The world's axis that the heading is along, to within its tolerance; 3 for none.
 int world_axis_of(const Heading& heading);
-Vec3 world_axis(int axis);
+inline Vec3 world_axis(int axis) {
+  Vec3 e;
+  e[axis] = 1;
+  return e;
+}
 
 /// Of a direction and its opposite the one that comes first; a choice among bits, not a
 /// measurement.

@@ -7,79 +7,81 @@
 
 namespace graycube::csg {
 
-void PlaneUnifier::count(std::uint32_t primitive) {
-  const Primitive& p = model_.primitives[primitive];
-  std::size_t faces = face_count(p);
-  if (p.kind == PrimitiveKind::kMesh) {
-    mesh_faces_.emplace_back(model_, primitive, exactness_[primitive]);
-    faces = mesh_faces_.back().count();
-  }
-  count_ += faces;
-  distances_ += static_cast<double>(faces) * exactness_[primitive].distance();
-  directions_ += static_cast<double>(faces) * double{exactness_[primitive].direction};
+namespace {
+
+/// Faces through the origin are told apart by their directions, which weigh as much as an offset of
+/// so many units.
+constexpr double kDirectionWeight = 1;
+
+/// How far off the number of a face is that lies no farther from the origin than `reach`.
+double number_tolerance(double distance, double direction, double reach) {
+  return 2 * distance + 8 * (reach + kDirectionWeight) * direction;
 }
 
-void PlaneUnifier::begin_marking(double reach) {
-  reach_ = reach;
-  const double count = static_cast<double>(std::max<std::size_t>(count_, 1));
-  candidates_.emplace(number_tolerance(distances_ / count, directions_ / count, reach), count_);
+/// The largest coordinate of what is bounded.
+double reach_of(const Aabb& bounds) {
+  return bounds.is_finite() ? larger(max_abs(bounds.lo), max_abs(bounds.hi)) : 0.0;
 }
 
-/// Calls visit(heading, the first and the last of its faces' numbers).
+}  // namespace
+
+/// Calls visit(heading, the first and the last of its faces' numbers): a number, the same whichever
+/// way the plane's normal looks, that differs for nearly all planes that differ. It is the plane's
+/// place along a generic direction, seen along its normal.
 template <typename Visit>
 void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit) const {
   const Primitive& p = model_.primitives[primitive];
   const Exactness& exact = exactness_[primitive];
-  const double distance = exact.distance();
+  const double distance = exact.distance(), reach = reach_of(p.bounds);
   const auto visit_faces = [&](const Heading& h, double first, double last) {
     const double along = dot(kGenericDirection, h.normal);
-    const double reach = larger(reach_, larger(std::fabs(first), std::fabs(last)));
-    const double tolerance = number_tolerance(distance, h.tolerance, reach),
-                 base = along * (reach_ * along);
+    const double farthest = larger(reach, larger(std::fabs(first), std::fabs(last)));
+    const double tolerance = number_tolerance(distance, h.tolerance, farthest),
+                 base = kDirectionWeight * along * along;
     visit(h, Measured{along * first + base, tolerance}, Measured{along * last + base, tolerance});
   };
-  if (p.kind == PrimitiveKind::kMesh) {
-    mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t number, const MeshFace& f) {
-      visit_faces({f.plane.normal, f.direction_tolerance, primitive, number, 1}, f.plane.offset,
-                  f.plane.offset);
-    });
-    return;
-  }
-  // The kinds that there are most of need no planes looked up.
-  if (p.kind == PrimitiveKind::kParallelepiped) {
-    for (std::uint32_t a = 0; a < 3; ++a) {
-      visit_faces(
-          {p.to_local.row(static_cast<int>(a)), double{exact.direction}, primitive, 2 * a, 2},
-          p.v[a], p.v[a + 3]);
-    }
-    return;
+  const double direction{exact.direction};
+  switch (p.kind) {
+    case PrimitiveKind::kMesh:
+      mesh_faces_[place_of_mesh(primitive)].for_each([&](std::uint32_t number, const MeshFace& f) {
+        visit_faces({f.plane.normal, f.direction_tolerance, primitive, number, 1}, f.plane.offset,
+                    f.plane.offset);
+      });
+      return;
+    // The kinds that there are most of need no planes looked up.
+    case PrimitiveKind::kBox:
+      for (std::uint32_t a = 0; a < 3; ++a)
+        visit_faces({world_axis(static_cast<int>(a)), direction, primitive, 2 * a, 2}, p.v[a],
+                    p.v[a + 3]);
+      return;
+    case PrimitiveKind::kParallelepiped:
+      for (std::uint32_t a = 0; a < 3; ++a)
+        visit_faces({p.to_local.row(static_cast<int>(a)), direction, primitive, 2 * a, 2}, p.v[a],
+                    p.v[a + 3]);
+      return;
+    default: break;
   }
   const std::uint32_t count = face_count(p), step = has_opposite_faces(p) ? 2 : 1;
   for (std::uint32_t slot = 0; slot < count; slot += step) {
     const Vec3 normal = heading_of(model_, p, slot);
-    const double tolerance =
-        p.plane_count > 0 ? direction_tolerance(p, normal, exact) : double{exact.direction};
+    const double tolerance = p.plane_count > 0 ? direction_tolerance(p, normal, exact) : direction;
     visit_faces({normal, tolerance, primitive, slot, step}, offset_of(model_, p, slot),
                 offset_of(model_, p, slot + step - 1));
   }
 }
 
-/// Of a number of a plane, whichever way its normal looks, that differs for nearly all planes that
-/// differ: its place along a generic direction, and that direction's along it.
-double PlaneUnifier::number_tolerance(double distance, double direction, double reach) {
-  return 2 * distance + 8 * reach * direction;
-}
-
-void PlaneUnifier::mark(std::uint32_t primitive) {
+void PlaneUnifier::add(std::uint32_t primitive) {
+  if (model_.primitives[primitive].kind == PrimitiveKind::kMesh)
+    mesh_faces_.emplace_back(model_, primitive, exactness_[primitive]);
   for_each_heading(primitive, [&](const Heading& h, const Measured& first, const Measured& last) {
-    candidates_->mark(first);
-    if (h.count == 2) candidates_->mark(last);
+    sightings_.add(primitive, first);
+    if (h.count == 2) sightings_.add(primitive, last);
   });
 }
 
 void PlaneUnifier::collect(std::uint32_t primitive) {
   for_each_heading(primitive, [&](const Heading& h, const Measured& first, const Measured& last) {
-    if (!candidates_->may_meet(first) && (h.count == 1 || !candidates_->may_meet(last))) return;
+    if (!sightings_.may_meet(first) && (h.count == 1 || !sightings_.may_meet(last))) return;
     const int axis = world_axis_of(h);
     if (axis == 3) return others_.push_back(h);
     add_levels(h, world_axis(axis), along_[static_cast<std::size_t>(axis)]);
@@ -87,6 +89,7 @@ void PlaneUnifier::collect(std::uint32_t primitive) {
 }
 
 bool PlaneUnifier::unify() {
+  sightings_.for_each_candidate([&](std::uint32_t primitive) { collect(primitive); });
   for (int a = 0; a < 3; ++a)
     unify_offsets(world_axis(a), std::move(along_[static_cast<std::size_t>(a)]));
   unify_directions();
@@ -115,10 +118,9 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
   for (const Extent& e : cluster) {
     const Heading& h = others_[e.item];
     for (std::uint32_t slot = h.slot; slot < h.slot + h.count; ++slot) {
-      const Anchored face = anchored_face(h.primitive, slot);
-      group.push_back(level_of(h.primitive, slot, face, direction));
-      anchors.push_back(face.anchor);
-      around.include(face.anchor);
+      group.push_back(level_of(h.primitive, slot, direction));
+      anchors.push_back(anchor_of_face(h.primitive, slot));
+      around.include(anchors.back());
     }
   }
   // What faces in one plane but apart come to, seen along a direction that is a little off. It
@@ -136,34 +138,35 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
 /// The heading's faces along a direction that its own can't be told from.
 void PlaneUnifier::add_levels(const Heading& heading, const Vec3& direction,
                               std::vector<Level>& group) const {
-  for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot) {
-    const Anchored face = anchored_face(heading.primitive, slot);
-    group.push_back(level_of(heading.primitive, slot, face, direction));
-  }
+  for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot)
+    group.push_back(level_of(heading.primitive, slot, direction));
 }
 
-PlaneUnifier::Anchored PlaneUnifier::anchored_face(std::uint32_t primitive,
-                                                   std::uint32_t slot) const {
+Plane PlaneUnifier::plane_of(std::uint32_t primitive, std::uint32_t slot) const {
+  return model_.primitives[primitive].kind == PrimitiveKind::kMesh
+             ? mesh_faces_[place_of_mesh(primitive)].face(slot).plane
+             : face_of(model_, primitive, slot).plane;
+}
+
+Vec3 PlaneUnifier::anchor_of_face(std::uint32_t primitive, std::uint32_t slot) const {
   const Primitive& p = model_.primitives[primitive];
-  if (p.kind == PrimitiveKind::kMesh) {
-    const MeshFace f = mesh_faces_[place_of_mesh(primitive)].face(slot);
-    return {f.plane, f.middle};
-  }
-  const Plane plane = face_of(model_, primitive, slot).plane;
-  return {plane, anchor_of(p, plane)};
+  return p.kind == PrimitiveKind::kMesh ? mesh_faces_[place_of_mesh(primitive)].face(slot).middle
+                                        : anchor_of(p, face_of(model_, primitive, slot).plane);
 }
 
-Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot, const Anchored& face,
+Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot,
                              const Vec3& direction) const {
+  const Plane plane = plane_of(primitive, slot);
   Level level;
   level.primitive = primitive;
   level.slot = slot;
   level.is_of_mesh = model_.primitives[primitive].kind == PrimitiveKind::kMesh;
-  level.is_backward = dot(direction, face.plane.normal) < 0;
-  level.own = level.is_backward ? Plane{-face.plane.normal, -face.plane.offset} : face.plane;
+  level.is_backward = dot(direction, plane.normal) < 0;
+  level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
   level.has_direction = level.own.normal == direction;
   // Otherwise it is turned about its middle.
-  level.offset = level.has_direction ? level.own.offset : dot(direction, face.anchor);
+  level.offset =
+      level.has_direction ? level.own.offset : dot(direction, anchor_of_face(primitive, slot));
   const Vec3 position = exactness_[primitive].position();
   level.tolerance = std::fabs(direction.x) * position.x + std::fabs(direction.y) * position.y +
                     std::fabs(direction.z) * position.z;

@@ -82,35 +82,18 @@ void take_surface(const Primitive& from, Primitive& p) {
 
 }  // namespace
 
-void SurfaceUnifier::count(std::uint32_t primitive) {
+void SurfaceUnifier::add(std::uint32_t primitive) {
   Primitive& p = model_.primitives[primitive];
-  simplify(p, exactness_[primitive].distance());
-  if (family_of(p) == SurfaceFamily::kNone) return;
-  ++count_;
-  distances_ += exactness_[primitive].distance();
-}
-
-void SurfaceUnifier::begin_marking() {
-  candidates_.emplace(4 * distances_ / static_cast<double>(std::max<std::size_t>(count_, 1)),
-                      count_);
-}
-
-void SurfaceUnifier::mark(std::uint32_t primitive) {
-  const Primitive& p = model_.primitives[primitive];
-  if (family_of(p) != SurfaceFamily::kNone)
-    candidates_->mark(surface_number(p, exactness_[primitive], 0));
-}
-
-void SurfaceUnifier::collect(std::uint32_t primitive) {
-  const Primitive& p = model_.primitives[primitive];
-  const SurfaceFamily family = family_of(p);
-  if (family == SurfaceFamily::kNone ||
-      !candidates_->may_meet(surface_number(p, exactness_[primitive], 0)))
-    return;
-  families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
+  const Exactness& exact = exactness_[primitive];
+  simplify(p, exact.distance());
+  if (family_of(p) != SurfaceFamily::kNone) sightings_.add(primitive, surface_number(p, exact, 0));
 }
 
 bool SurfaceUnifier::unify() {
+  sightings_.for_each_candidate([&](std::uint32_t primitive) {
+    const SurfaceFamily family = family_of(model_.primitives[primitive]);
+    families_[static_cast<std::size_t>(family)].push_back({0, 0, primitive});
+  });
   const auto measure = [&](std::uint32_t i, int which) {
     return surface_number(model_.primitives[i], exactness_[i], which);
   };

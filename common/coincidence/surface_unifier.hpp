@@ -4,30 +4,29 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "coincidence/candidates.hpp"
+#include "coincidence/clusters.hpp"
 #include "coincidence/exactness.hpp"
+#include "coincidence/sightings.hpp"
 #include "coincidence/surface_numbers.hpp"
 #include "csg/model.hpp"
 
 namespace graycube::csg {
 
-/// To be shown all primitives three times, as PlaneUnifier.
+/// As PlaneUnifier: each surface is measured when it is added, and few are looked at again.
 class SurfaceUnifier {
  public:
-  SurfaceUnifier(Model& model, std::span<const Exactness> exactness)
+  /// `exactness` has an element for each primitive of the model by the time that it is added.
+  SurfaceUnifier(Model& model, const std::vector<Exactness>& exactness)
       : model_(model), exactness_(exactness) {}
 
-  /// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a
-  /// cylinder what they are.
-  void count(std::uint32_t primitive);
-  void begin_marking();
-  void mark(std::uint32_t primitive);
-  void collect(std::uint32_t primitive);
-  /// Changes the surfaces of what was collected; whether any surface differs now.
+  void reserve(std::size_t primitives) { sightings_.reserve(primitives); }
+  /// Each primitive once. Makes a cone whose ends are equal, an elliptic torus that is round, and a
+  /// quadric that is a cylinder what they are.
+  void add(std::uint32_t primitive);
+  /// Changes the surfaces that are one; whether any differ now.
   bool unify();
 
  private:
@@ -35,12 +34,9 @@ class SurfaceUnifier {
   void unify_cluster(std::span<const Extent> cluster);
 
   Model& model_;
-  std::span<const Exactness> exactness_;
-  std::size_t count_ = 0;
+  const std::vector<Exactness>& exactness_;
+  Sightings sightings_;
   bool has_changed_ = false;
-  /// The sum of how far surfaces may be off.
-  double distances_ = 0;
-  std::optional<Candidates> candidates_;
   std::array<std::vector<Extent>, kSurfaceFamilies> families_;
 };
 

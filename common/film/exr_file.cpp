@@ -110,8 +110,8 @@ AovSet aovs_among(const Imf::ChannelList& channels) {
 
 /// Shading is noise to a compressor: ZIP takes 200 to 300 ms for a megapixel of it, a good part of
 /// what tracing takes, to halve the file. Where three quarters repeat the pixel before, as on a
-/// plain background, it is fast and shrinks the file to a fraction. ARCHITECTURE.md has the
-/// figures.
+/// plain background, it is fast and shrinks the file to a fraction
+/// (docs/lab/2026-11-22-files.md).
 Imf::Compression compression_for(const Picture& picture) {
   constexpr std::size_t kStep = 3;
   std::size_t repeats = 0;

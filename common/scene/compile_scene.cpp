@@ -16,6 +16,36 @@
 namespace graycube {
 namespace {
 
+/// Counts the leaves of all objects, refs expanded; a prism as one, whatever it becomes.
+class LeafCounter {
+ public:
+  explicit LeafCounter(const Scene& scene) : scene_(scene), shapes_(scene.shapes.size()) {}
+
+  std::size_t count(const CsgNode& node) {
+    if (const auto* operation = std::get_if<OperationNode>(&node.value)) {
+      std::size_t sum = 0;
+      for (const CsgNode& child : operation->children) sum += count(child);
+      return sum;
+    }
+    const auto* reference = std::get_if<ReferenceNode>(&node.value);
+    if (reference == nullptr) return 1;
+    std::optional<std::size_t>& known = shapes_[reference->shape];
+    if (!known) known = count(scene_.shapes[reference->shape].node);
+    return *known;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<std::optional<std::size_t>> shapes_;
+};
+
+std::size_t leaf_count(const Scene& scene) {
+  LeafCounter counter(scene);
+  std::size_t sum = 0;
+  for (const SceneObject& object : scene.objects) sum += counter.count(object.csg);
+  return sum;
+}
+
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene), share_(share_of_digits(scene.digits)) {}
@@ -23,17 +53,13 @@ class Compiler {
   Model run() {
     model_.settings = scene_.settings;
     for (const NamedMaterial& m : scene_.materials) model_.materials.push_back(m.material);
-    // One leaf an object at least, mostly one; growing further doubles as usual.
+    const std::size_t leaves = leaf_count(scene_);
     model_.objects.reserve(scene_.objects.size());
-    model_.nodes.reserve(scene_.objects.size());
-    model_.primitives.reserve(scene_.objects.size());
-    exactness_.reserve(scene_.objects.size());
+    model_.nodes.reserve(leaves);
+    model_.primitives.reserve(leaves);
+    unifier_.reserve(leaves);
     for (const SceneObject& object : scene_.objects) add_object(object);
-    measure_unbounded();
-    if (unify_coincident_surfaces(model_, exactness_)) {
-      for (Object& object : model_.objects)
-        object.bounds = bounds_of(model_.tree(object), model_.primitives);
-    }
+    if (unifier_.unify()) measure_again();
     model_.delta = delta();
     return std::move(model_);
   }
@@ -108,8 +134,9 @@ class Compiler {
     const auto kind = context.inverted ? TreeNode::Kind::kInvertedLeaf : TreeNode::Kind::kLeaf;
     model_.nodes.push_back({kind, static_cast<std::uint32_t>(model_.primitives.size()), 1});
     model_.primitives.push_back(primitive);
+    include(primitive.bounds);
     const LeafReach reach = reach_of(leaf, primitive, context.to_world.map);
-    exactness_.push_back(exactness_of(context.to_world, reach.most, reach.turn, share_of(leaf)));
+    unifier_.add(exactness_of(context.to_world, reach.most, reach.turn, share_of(leaf)));
   }
 
   double share_of(const CsgNode& leaf) const {
@@ -117,20 +144,19 @@ class Compiler {
     return mesh == nullptr ? share_ : std::max(share_, share_of_digits(mesh->digits));
   }
 
-  /// A half-space has no size to measure its offset by, which may be what is left of larger
-  /// numbers: that of the others does.
-  void measure_unbounded() {
-    constexpr float kPart = 1.0f / 8;
-    std::array<float, 3> most{};
-    const auto raise = [](std::array<float, 3>& to, const std::array<float, 3>& from,
-                          float factor) {
-      for (std::size_t a = 0; a < 3; ++a) to[a] = std::max(to[a], factor * from[a]);
-    };
-    for (std::size_t i = 0; i < exactness_.size(); ++i) {
-      if (model_.primitives[i].bounds.is_finite()) raise(most, exactness_[i].along, 1);
-    }
-    for (std::size_t i = 0; i < exactness_.size(); ++i) {
-      if (!model_.primitives[i].bounds.is_finite()) raise(exactness_[i].along, most, kPart);
+  /// After bounds of primitives have changed.
+  void measure_again() {
+    for (Object& object : model_.objects)
+      object.bounds = bounds_of(model_.tree(object), model_.primitives);
+    largest_ = 0;
+    for (const Primitive& p : model_.primitives) include(p.bounds);
+  }
+
+  void include(const Aabb& bounds) {
+    for (int a = 0; a < 3; ++a) {
+      for (const double x : {bounds.lo[a], bounds.hi[a]}) {
+        if (std::isfinite(x)) largest_ = std::fmax(largest_, std::fabs(x));
+      }
     }
   }
 
@@ -173,24 +199,18 @@ class Compiler {
   }
 
   double delta() const {
-    double largest = max_abs(scene_.settings.camera.eye);
-    for (const PointLight& l : scene_.settings.lights) {
+    double largest = std::fmax(largest_, max_abs(scene_.settings.camera.eye));
+    for (const PointLight& l : scene_.settings.lights)
       largest = std::fmax(largest, max_abs(l.position));
-    }
-    for (const Primitive& p : model_.primitives) {
-      for (int a = 0; a < 3; ++a) {
-        if (std::isfinite(p.bounds.lo[a])) largest = std::fmax(largest, std::fabs(p.bounds.lo[a]));
-        if (std::isfinite(p.bounds.hi[a])) largest = std::fmax(largest, std::fabs(p.bounds.hi[a]));
-      }
-    }
     return 1e-9 * largest;
   }
 
   const Scene& scene_;
   double share_;
   Model model_;
-  /// Of each primitive.
-  std::vector<Exactness> exactness_;
+  CoincidenceUnifier unifier_{model_};
+  /// The largest finite coordinate of the primitives' bounds so far.
+  double largest_ = 0;
 };
 
 }  // namespace

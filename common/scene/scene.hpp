@@ -1,4 +1,4 @@
-// The scene as plain values, close to the file (design contract: README, "Scene file"). Nothing
+// The scene as plain values, close to the file (docs/scene.md). Nothing
 // here is compiled, expanded or checked for meaning beyond what `read_scene` promises.
 #pragma once
 
@@ -161,7 +161,7 @@ struct Scene {
   std::vector<NamedShape> shapes;
   std::vector<SceneObject> objects;
   /// Significant decimal digits of the numbers that the scene was made from; 0: all that a double
-  /// has. What coincides within them coincides (docs/coincidence.md).
+  /// has. What coincides within them coincides (docs/design/coincidence.md).
   std::uint32_t digits = 0;
   friend bool operator==(const Scene&, const Scene&) = default;
 };

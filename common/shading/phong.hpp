@@ -1,4 +1,4 @@
-// The photometric model at a point of a surface (README, "Shading").
+// The photometric model at a point of a surface (docs/scene.md, "Shading").
 #pragma once
 
 #include <cmath>

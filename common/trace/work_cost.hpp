@@ -13,7 +13,7 @@ namespace graycube {
 
 /// What things cost beside a test of a primitive: a ray that is created, by kind, with what is
 /// shaded for it, a cell that a packet visits, and what a test takes longer for a quartic. Fitted
-/// to the time that evaluators took on 18 farms (ARCHITECTURE.md).
+/// to the time that evaluators took on 18 farms (docs/lab/2026-11-29-work-costs.md).
 inline constexpr std::array<double, kRayKinds> kCreatedCost{6, 10, 38, 38};
 inline constexpr double kCellCost = 7;
 inline constexpr double kQuarticCost = 50;

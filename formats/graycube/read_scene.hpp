@@ -29,7 +29,7 @@ struct ReadResult {
   bool was_read_in_pieces = false;
 };
 
-/// Reads a scene file's text (README, "Scene file"). Never throws for what the text holds. `load`
+/// Reads a scene file's text (docs/scene.md). Never throws for what the text holds. `load`
 /// opens the files that meshes name; without one such a mesh is an error.
 ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load = nullptr);
 /// As above, copying the text. Large ones are best padded where they are read.

@@ -6,7 +6,7 @@
 
 namespace graycube {
 
-/// The scene as a scene file (README, "Scene file"): materials, shapes, lights and objects one to a
+/// The scene as a scene file (docs/scene.md): materials, shapes, lights and objects one to a
 /// line, so that files diff well; transforms as matrices; every number in the fewest digits that
 /// read back to the same double. What is written reads back to an equal scene, provided that the
 /// scene is one that the reader could have given: finite, indices in range, names unique and in

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "formats/openscad/faceted_rounds.hpp"
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
@@ -81,10 +82,11 @@ int dimension_of(const std::vector<ScadModule>& modules) {
 class Importer {
  public:
   Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
-           OpenscadReport& report)
+           FacetedRounds faceted, OpenscadReport& report)
       : directions_(directions),
         report_(report),
-        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}} {}
+        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}},
+        faceted_(std::move(faceted)) {}
 
   /// Appends the operands of the union of `modules`.
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
@@ -239,7 +241,8 @@ class Importer {
 
   void add_primitive(const ScadModule& module, const Surroundings& around,
                      std::vector<Part>& parts) {
-    std::optional<ScadSolid> solid = openscad_primitive(module, report_, import_.options.facets);
+    const bool facets = import_.options.facets || faceted_.contains(module, around.to_world);
+    std::optional<ScadSolid> solid = openscad_primitive(module, report_, facets);
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
   }
 
@@ -265,7 +268,9 @@ class Importer {
   }
 
   void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    if (add_exact(module, exact_hull(module, import_), around, parts)) return;
+    if (!faceted_.touch(module, around.to_world) &&
+        add_exact(module, exact_hull(module, import_), around, parts))
+      return;
     std::vector<Vec3> corners;
     if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
     ScadMesh mesh = convex_hull(corners);
@@ -346,6 +351,7 @@ class Importer {
   ReachDirections directions_;
   OpenscadReport& report_;
   ScadImport import_;
+  FacetedRounds faceted_;
   Palette palette_;
 };
 
@@ -353,7 +359,8 @@ class Importer {
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
                              std::uint32_t digits, OpenscadReport& report) {
-  Importer importer(reach_directions(options.frame), options, digits, report);
+  Importer importer(reach_directions(options.frame), options, digits,
+                    FacetedRounds(modules, options, digits), report);
   OpenscadParts result;
   importer.add_all(modules, {}, result.parts);
   result.materials = importer.take_materials();

@@ -165,6 +165,20 @@ std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadRe
   return polyhedron(arguments);
 }
 
+std::optional<ScadRound> openscad_round(const ScadModule& module) {
+  if (module.name != "sphere" && module.name != "cylinder") return std::nullopt;
+  OpenscadReport unread;
+  const std::optional<ScadSolid> solid = openscad_primitive(module, unread);
+  if (!solid) return std::nullopt;
+  ScadArguments arguments(module, unread);
+  const ScadFineness fineness = fineness_of(arguments);
+  if (const auto* ball = std::get_if<SphereShape>(&solid->leaf.value))
+    return ScadRound{true, ball->radius, fragments(ball->radius, fineness)};
+  if (const auto* cylinder = std::get_if<CylinderShape>(&solid->leaf.value))
+    return ScadRound{false, cylinder->radius, fragments(cylinder->radius, fineness)};
+  return std::nullopt;
+}
+
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {
   ScadArguments arguments(module, report);
   ScadColor color;

@@ -29,6 +29,16 @@ bool is_openscad_primitive(const ScadModule& module);
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
                                             bool facets = false);
 
+/// A sphere, or a cylinder as wide at both ends, that may stay round.
+struct ScadRound {
+  bool is_ball = false;
+  double radius = 0;
+  /// OpenSCAD's.
+  int sides = 0;
+};
+/// Nothing, unreported, for all else.
+std::optional<ScadRound> openscad_round(const ScadModule& module);
+
 /// The colour of a color(); components are clamped to at most 1. Nothing with an error.
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);
 

@@ -16,8 +16,8 @@ struct PovScene {
   std::vector<std::string> errors;
 };
 
-/// The scene for POV-Ray. On what both can represent the two compute the same light (README, "Scene
-/// file"). The scene must be one that the reader could have given.
+/// The scene for POV-Ray. On what both can represent the two compute the same light (docs/scene.md,
+/// "Shading"). The scene must be one that the reader could have given.
 PovScene write_pov(const Scene& scene);
 
 }  // namespace graycube

@@ -17,7 +17,7 @@ namespace graycube {
 namespace {
 
 /// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded,
-/// which costs more than the better balance brings: measured, see ARCHITECTURE.md.
+/// which costs more than the better balance brings (docs/lab/2026-11-22-scattered-regions.md).
 constexpr std::uint32_t kAutoScatter = 1;
 
 /// Depths beside light horizons: there must be this many primary rays to each primitive, since two

@@ -1,5 +1,5 @@
 // Rays that came on the credit of their classes, and what descends from them on this node: a full
-// node traces nothing else (ARCHITECTURE.md, "Flow"). A ray's class is the number of links crossed,
+// node traces nothing else (docs/design/flow.md). A ray's class is the number of links crossed,
 // RayTask::hops.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The flow of rays by credit (ARCHITECTURE.md, "Flow"): batches go out as far as the neighbours'
+// The flow of rays by credit (docs/design/flow.md): batches go out as far as the neighbours'
 // credit reaches, what waits for it lies in outboxes, and where these hold all that they may, the
 // node is full. Then evaluators trace only rays that came on the credit of their classes, of one
 // class at a time, and only while there is room for what may descend from them: its class is one

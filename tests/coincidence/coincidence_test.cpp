@@ -150,6 +150,33 @@ TEST_CASE("numbers each within tolerance of the next don't carry the first to th
   for (const auto& run : runs_of(chain, names)) CHECK(run.size() <= 2);
 }
 
+TEST_CASE("what is nearest stays together, whatever comes within tolerance of one of them") {
+  // The first and the second are within tolerance, but the second and the third are the pair.
+  const std::vector<Measured> numbers{{0, 1e-3}, {1.5e-3, 1e-3}, {1.5e-3 + 1e-3, 1e-3}};
+  CHECK(runs_of(numbers, {0, 1, 2}) == std::set<std::vector<int>>{{0}, {1, 2}});
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    INFO("seed " << seed);
+    Dice dice(seed);
+    std::vector<Measured> pairs;
+    std::vector<int> names;
+    for (int i = 0; i < 100; ++i) {
+      // Known much worse than they differ, and mostly within tolerance of others.
+      const double at = dice.between(0, 1);
+      for (int k = 0; k < 2; ++k) {
+        pairs.push_back({at + dice.between(0, 1e-9), 1e-2});
+        names.push_back(i);
+      }
+    }
+    std::multiset<int> seen;
+    for (const auto& run : runs_of(pairs, names)) {
+      const std::set<int> once(run.begin(), run.end());
+      CHECK(run.size() == 2 * once.size());
+      seen.insert(run.begin(), run.end());
+    }
+    CHECK(seen.size() == pairs.size());
+  }
+}
+
 TEST_CASE("opposite faces of one solid stay apart, and others go to the nearer of them") {
   Level lower, upper, third;
   lower.offset = lower.own.offset = 1;

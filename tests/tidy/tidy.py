@@ -4,18 +4,23 @@ Prints a line for each breach, "FILE:LINE: what is wrong", and fails if there is
 each folder includes only what the code map of ARCHITECTURE.md says, which names every folder, and
 only folders above its own row; a vendor is included only at home; what decides without a clock
 includes none, nor threads or sockets; folders stay small; links of Markdown files, and the files
-that they name, are there.
+that they name, are there; first pages stay short, and every page of docs is linked from somewhere;
+control messages are described and have examples (messages.py).
 """
 
 import os
 import re
 import sys
 
+import messages
+
 SOURCES = (".cpp", ".hpp")
 MAX_FILES = 30
 
-# One file a message, and one a case: these don't count as crowded.
-DATA_FOLDERS = ("proto/schema", "scenes", "tests/fuzz/corpus")
+# One file a message, a case or an experiment: these don't count as crowded.
+DATA_FOLDERS = ("proto/schema", "scenes", "tests/fuzz/corpus", "docs/lab")
+# The most bytes of what everybody reads first.
+MAX_BYTES = {"README.md": 7 * 1024, "ARCHITECTURE.md": 12 * 1024}
 # Where the compiler looks for what quotes name, after the root itself.
 INCLUDE_ROOTS = ("common/", "tests/")
 GENERATED = {"version.hpp"}
@@ -91,6 +96,11 @@ class Tree:
                 yield number, found[2], found[1] == '"'
 
 
+def full_name(tree, name):
+    """What a row calls a folder that it includes: those of common go by their last name."""
+    return name if tree.exists(name) or "/" in name else "common/" + name
+
+
 def code_map(tree):
     """The rows of ARCHITECTURE.md's code map, in order: folder to what it may include."""
     rows = {}
@@ -100,7 +110,8 @@ def code_map(tree):
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         folders = re.findall(r"`([^`]+)`", cells[0]) if line.startswith("| `") else []
         if len(cells) == 3:
-            named = re.findall(r"`([^`]+)`", cells[2])
+            named = [full_name(tree, name) for spans in re.findall(r"`([^`]+)`", cells[2])
+                     for name in spans.split()]
             for folder in folders:
                 rows[folder] = (number, named)
         if line.startswith("## ") and number > start + 1:
@@ -259,6 +270,29 @@ def check_documents(tree):
                     tree.breach(path, number, f"there is no {name}")
 
 
+def check_short(tree):
+    for path, most in MAX_BYTES.items():
+        size = os.path.getsize(os.path.join(tree.root, path)) if tree.exists(path) else 0
+        if size > most:
+            tree.breach(path, 1, f"has {size} bytes, {most} at most")
+
+
+def check_linked(tree):
+    """Every page of docs can be reached: another document links it."""
+    linked = set()
+    for path in tree.paths:
+        if not path.endswith(".md"):
+            continue
+        for line in tree.lines(path):
+            for link in re.findall(r"\]\(([^)\s#]+)", line):
+                target = os.path.normpath(os.path.join(os.path.dirname(path), link))
+                if target != path:
+                    linked.add(target)
+    for path in tree.paths:
+        if path.startswith("docs/") and path not in linked:
+            tree.breach(path, 1, "no document links it")
+
+
 def breaches_of(root):
     tree = Tree(root)
     rows = code_map(tree)
@@ -268,6 +302,9 @@ def breaches_of(root):
     check_worldly(tree)
     check_sizes(tree)
     check_documents(tree)
+    check_short(tree)
+    check_linked(tree)
+    messages.check_messages(tree)
     return tree.breaches
 
 

@@ -85,6 +85,17 @@ class TidyTest(unittest.TestCase):
         found = self.breaches(self.map_with("| low | – |", "| low | `common/high` |"))
         self.assertIn("ARCHITECTURE.md:8: common/high is no row above that of common/low", found)
 
+    def test_a_row_may_call_folders_of_common_by_their_last_name(self):
+        short = self.map_with("| high | `common/low` |", "| high | `low` |")
+        self.assertEqual(self.breaches(short), [])
+        self.expect("ARCHITECTURE.md:9: common/high includes nothing of common/low",
+                    {**short, "common/high/high.cpp": ""})
+
+    def test_a_row_may_name_many_folders_together(self):
+        wide = self.map_with("| brains | `common/high` |", "| brains | `low high` |")
+        both = {"node/node.hpp": '#include "high/high.hpp"\n#include "low/low.hpp"\n'}
+        self.expect("ARCHITECTURE.md:10: frontal includes nothing of common/low", {**wide, **both})
+
     def test_a_row_is_of_a_folder(self):
         self.expect("ARCHITECTURE.md:9: there is no folder common/mid",
                     self.map_with("| `common/high` | high",
@@ -144,6 +155,40 @@ class TidyTest(unittest.TestCase):
     def test_a_document_names_files_that_are_there(self):
         self.expect("README.md:3: there is no low/lower.hpp",
                     {"README.md": "# House\n## First steps\n`low/low.hpp`, `low/lower.hpp`\n"})
+
+    def test_first_pages_stay_short(self):
+        for page, most in tidy.MAX_BYTES.items():
+            room = most - len(HOUSE[page].encode())
+            self.assertEqual(self.breaches({page: HOUSE[page] + "…" * (room // 3)}), [])
+            longer = HOUSE[page] + "." * (room + 1)
+            self.expect(f"{page}:1: has {most + 1} bytes, {most} at most", {page: longer})
+
+    def test_every_page_of_docs_is_linked(self):
+        page = {"docs/lab/trial.md": "# A trial\n\n[Here](trial.md).\n"}
+        self.expect("docs/lab/trial.md:1: no document links it", page)
+        lab = {"docs/lab.md": "[Trial](lab/trial.md#a-trial)\n",
+               "README.md": HOUSE["README.md"] + "[Lab](docs/lab.md), ![plot](docs/plot.svg)\n",
+               "docs/plot.svg": ""}
+        self.assertEqual(self.breaches({**page, **lab}), [])
+
+    def test_every_control_message_is_described_and_has_an_example(self):
+        house = {
+            "proto/schema/all_whole.schema.json": "{}",
+            "proto/schema/failed.schema.json": "{}",
+            "proto/FORMAT.md": "| `all_whole` | job |\n\nIt may be answered by `failed` {job}.\n",
+            "tests/proto/control_examples.hpp": "control::AllWhole{7};\ncontrol::Failed f;\n",
+        }
+        self.assertEqual(self.breaches(house), [])
+        self.expect("proto/schema/all_whole.schema.json:1: proto/FORMAT.md has no row of "
+                    "`all_whole`", {**house, "proto/FORMAT.md": "`failed`: `all_whole`\n"})
+        self.expect("proto/schema/failed.schema.json:1: tests/proto/control_examples.hpp has no "
+                    "example of a Failed",
+                    {**house, "tests/proto/control_examples.hpp": "AllWhole{7}; FailedToo f;\n"})
+
+    def test_experiments_are_no_crowd(self):
+        many = {f"docs/lab/{i}.md": "" for i in range(tidy.MAX_FILES + 1)}
+        index = "".join(f"[{i}](docs/lab/{i}.md)\n" for i in range(tidy.MAX_FILES + 1))
+        self.assertEqual(self.breaches({**many, "README.md": HOUSE["README.md"] + index}), [])
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ function graycube_number(x) =
   abs(x) < 1e5 && x == floor(x) ? x :
   abs(x) < 1e-290 ? undef :
   let(a = abs(x), e = floor(ln(a) / ln(2)), m = a / pow(2, e) * 4096, p = floor(m),
-      n = (m - p) * 65536, q = floor(n), o = (n - q) * 65536, r = floor(o), s = floor((o - r) * 65536))
+      n = (m - p) * 65536, q = floor(n), o = (n - q) * 65536, r = floor(o),
+      s = floor((o - r) * 65536))
   [e, x < 0 ? -p : p, q, r, s];
 function graycube_named(name, v) =
   str(name, "=", is_list(v) ? [for (x = v) graycube_number(x)] : [graycube_number(v)], "|");
@@ -36,7 +37,8 @@ function graycube_turns(x, y, z) =
   graycube_matrix([c * e, b * d * e - a * f, a * d * e + b * f],
                   [c * f, b * d * f + a * e, a * d * f - b * e], [-d, b * c, a * c]);
 function graycube_turn(angle, v) =
-  let(n = norm(v), x = v[0] / n, y = v[1] / n, z = v[2] / n, s = sin(angle), c = cos(angle), k = 1 - c)
+  let(n = norm(v), x = v[0] / n, y = v[1] / n, z = v[2] / n,
+      s = sin(angle), c = cos(angle), k = 1 - c)
   n == 0 ? graycube_turns(0, 0, 0) :
   graycube_matrix([x * x * k + c, x * y * k - z * s, x * z * k + y * s],
                   [y * x * k + z * s, y * y * k + c, y * z * k - x * s],
@@ -53,7 +55,9 @@ function graycube_fineness() =
 function graycube_round(r, d) =
   str(graycube_fineness(), graycube_named("r", graycube_radius(r, d, 1)));
 module graycube_note(name, lists) { text(str("graycube|", name, "|", lists)); }
-module cube(size, center) { graycube_note("cube", graycube_named("size", graycube_three(size, 1))); }
+module cube(size, center) {
+  graycube_note("cube", graycube_named("size", graycube_three(size, 1)));
+}
 module sphere(r, d) { graycube_note("sphere", graycube_round(r, d)); }
 module cylinder(h, r1, r2, center, r, d, d1, d2) {
   both = graycube_radius(r, d, 1);
@@ -64,7 +68,9 @@ module cylinder(h, r1, r2, center, r, d, d1, d2) {
 module polyhedron(points, faces, convexity, triangles) {
   graycube_note("polyhedron", graycube_points(points));
 }
-module square(size, center) { graycube_note("square", graycube_named("size", graycube_pair(size))); }
+module square(size, center) {
+  graycube_note("square", graycube_named("size", graycube_pair(size)));
+}
 module circle(r, d) { graycube_note("circle", graycube_round(r, d)); }
 module polygon(points, paths, convexity) { graycube_note("polygon", graycube_points(points)); }
 module translate(v) {

@@ -24,7 +24,10 @@ struct ScadImport {
   }
   /// Of a module that gives facets to what is round in it.
   void warn_of_sides(const std::string& name, int line) {
-    const char* around = options.facets ? "" : "; what is round around it is exact";
+    const char* around = options.facets   ? ""
+                         : name == "hull" ? "; what is round around it is "
+                                            "exact, unless it is flush with it"
+                                          : "; what is round around it is exact";
     warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
   }
 };

@@ -177,7 +177,7 @@ TEST_CASE(
       "hull() { sphere(r = 1); " + kMoved + "cylinder(h = 2, r1 = 1, r2 = 1); }";
   CHECK(warnings_of(mixed) ==
         std::vector<std::string>{"line 1: hull() takes what is round by OpenSCAD's sides; "
-                                 "what is round around it is exact"});
+                                 "what is round around it is exact, unless it is flush with it"});
   const Scene few =
       scene_of("hull() { cylinder(h = 1, r1 = 2, r2 = 2, $fn = 6); " + kMoved + "cube(1); }");
   CHECK(std::holds_alternative<PolyhedronShape>(few.objects[0].csg.value));

@@ -1,0 +1,101 @@
+// What is round takes the facets of the hull that it is flush with.
+#include <catch2/catch.hpp>
+
+#include <limits>
+#include <random>
+#include <string>
+
+#include "crossings/surface_tree.hpp"
+#include "formats/openscad/reading.hpp"
+#include "scene/compile_scene.hpp"
+
+namespace graycube {
+namespace {
+
+using namespace graycube::testing;
+
+const std::string kPost = "cylinder($fn = 40, h = 8, r1 = 10, r2 = 10); ";
+const std::string kBall = "sphere($fn = 24, r = 6); ";
+/// A cylinder across: with one that stands upright there is no exact hull.
+const std::string kAcross =
+    "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
+    "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); ";
+/// rotate([20, 0, 30]) in six digits.
+const std::string kTurned =
+    "multmatrix([[0.866025, -0.469846, 0.17101, 0], [0.5, 0.813798, -0.296198, 0], "
+    "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
+const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
+
+/// Of so many rays at random through the origin's neighbourhood, how many meet anything.
+int rays_that_hit(const std::string& text) {
+  INFO(text);
+  const Model model = compile_scene(scene_of(text));
+  const SurfaceTree tree = SurfaceTree::build(model);
+  TreeScratch scratch;
+  constexpr std::uint64_t kSeed = 5;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> place(-16, 16);
+  const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
+  int hits = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 at = point(), from = at + 10.0 * point();
+    const Ray ray{from, normalized(at - from)};
+    hits += tree.first_crossing(ray, 0, std::numeric_limits<double>::infinity(), scratch) ? 1 : 0;
+  }
+  return hits;
+}
+
+bool has_round(const CsgNode& node) {
+  if (const auto* inner = std::get_if<OperationNode>(&node.value))
+    return std::any_of(inner->children.begin(), inner->children.end(), has_round);
+  return std::holds_alternative<SphereShape>(node.value) ||
+         std::holds_alternative<CylinderShape>(node.value);
+}
+bool has_round(const std::string& text) {
+  const Scene scene = scene_of(text);
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const SceneObject& o) { return has_round(o.csg); });
+}
+
+TEST_CASE("nothing is left of a round part that a faceted hull of it is taken from") {
+  for (const std::string& part : {kPost, kBall}) {
+    const std::string hull = "hull() { " + part + kAcross + "} ";
+    for (const std::string& turn : {std::string{}, kTurned}) {
+      CHECK(rays_that_hit(turn + "difference() { " + part + hull + "}") == 0);
+      // As exact as it is, it is there.
+      CHECK(rays_that_hit(turn + "difference() { " + part + kAside + hull + "}") > 100);
+    }
+  }
+}
+
+TEST_CASE("a bore goes by the facets of its boss whatever its ends, and however it is reached") {
+  const std::string hull = "hull() { " + kPost + kAcross + "} ";
+  const std::string lower =
+      "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 5]]) "
+      "cylinder($fn = 40, h = 3, r1 = 10, r2 = 10, center = false); ";
+  CHECK(rays_that_hit("difference() { " + lower + hull + "}") == 0);
+  CHECK_FALSE(has_round("difference() { " + hull + lower + "}"));
+  // Half a facet on it is another solid.
+  const std::string half_turned =
+      "multmatrix([[0.996917, -0.0784591, 0, 0], [0.0784591, 0.996917, 0, 0], [0, 0, 1, 0]]) ";
+  CHECK(has_round("difference() { " + hull + half_turned + lower + "}"));
+  CHECK(has_round("difference() { " + hull + kAside + lower + "}"));
+}
+
+TEST_CASE("hulls that could be exact take the facets of those that they are flush with") {
+  const std::string slot = "hull() { " + kPost + kAside + kPost + "} ";
+  CHECK(has_round(slot));
+  const std::string both = "difference() { hull() { " + kPost + kAcross + "} " + slot + "} ";
+  CHECK_FALSE(has_round(both));
+  // The slot's other end, too, and what is flush with that.
+  CHECK_FALSE(has_round(both + kAside + kPost));
+  CHECK(rays_that_hit("difference() { " + kPost + "union() { " + both + slot + "} }") == 0);
+}
+
+TEST_CASE("what is round stays so beside hulls that are exact or touch it nowhere") {
+  CHECK(has_round("union() { hull() { " + kPost + kAside + kPost + "} " + kPost + "}"));
+  CHECK(has_round("union() { hull() { " + kAcross + kAside + kPost + "} " + kPost + "}"));
+}
+
+}  // namespace
+}  // namespace graycube
