@@ -19,9 +19,8 @@ struct Problem {
 /// Ends the command; main prints the problems and nothing else.
 class Failure : public std::exception {
  public:
-  /// `statistics`: see statistics().
-  Failure(ExitStatus status, std::vector<Problem> problems, std::string statistics = {})
-      : status_(status), problems_(std::move(problems)), statistics_(std::move(statistics)) {}
+  Failure(ExitStatus status, std::vector<Problem> problems)
+      : status_(status), problems_(std::move(problems)) {}
   Failure(ExitStatus status, Problem problem)
       : Failure(status, std::vector<Problem>{std::move(problem)}) {}
 
@@ -29,11 +28,20 @@ class Failure : public std::exception {
   const std::vector<Problem>& problems() const { return problems_; }
   /// Of a job that ended in a deadlock: the statistics file; else empty.
   const std::string& statistics() const { return statistics_; }
+  /// Whether a job's nodes waited for each other in a circle.
+  bool is_deadlock() const { return is_deadlock_; }
+  /// It was a farm that failed, and it told that.
+  Failure& told_by_farm(bool is_deadlock, std::string statistics) {
+    is_deadlock_ = is_deadlock;
+    statistics_ = std::move(statistics);
+    return *this;
+  }
   const char* what() const noexcept override { return "the command failed"; }
 
  private:
   ExitStatus status_;
   std::vector<Problem> problems_;
+  bool is_deadlock_ = false;
   std::string statistics_;
 };
 

@@ -1,217 +1,141 @@
 #include "frontal/frontal.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "frontal/parts/message_senders.hpp"
+#include "overloaded.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {
 
 Frontal::Frontal(FrontalOptions options, JobStore& store)
-    : options_(std::move(options)), store_(store), nodes_(options_.cube.nodes()) {
-  for (EndedJob& job : store_.recover()) {
-    next_job_ = std::max(next_job_, job.info.job + 1);
-    ended_.push_back(std::move(job));
-    if (ended_.size() > kMaxEndedJobs) ended_.pop_front();
-  }
-  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) spawn(Rank{rank});
-}
+    : options_(std::move(options)),
+      post_(options_.cube.nodes()),
+      heartbeat_(options_.heartbeat_s),
+      nodes_(options_.cube, options_.silence_s),
+      jobs_(options_, store, post_) {}
 
-// ---- time
-
-void Frontal::on_time(double now_s, double unix_s) {
-  // When this process itself was held up, answers wait unread: that time is not the nodes' silence.
-  const double held_up_s = now_s - now_s_;
-  if (now_s_ > 0 && held_up_s > options_.heartbeat_s) {
-    for (NodeRecord& node : nodes_) node.last_heard_s += held_up_s;
-  }
-  now_s_ = now_s;
-  unix_s_ = unix_s;
-  if (going_down_) return;
-  if (now_s_ - last_ping_s_ >= options_.heartbeat_s) {
-    last_ping_s_ = now_s_;
-    send_to_nodes(control::Ping{++pings_});
-  }
-  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
-    NodeRecord& node = nodes_[rank];
-    if (node.last_heard_s == 0) node.last_heard_s = now_s_;
-    if (now_s_ - node.last_heard_s < options_.silence_s) continue;
-    kills_.push_back({Rank{rank}, node.incarnation});
-    lose(Rank{rank}, "fell silent");
-  }
-  if (running_ && running_->options.timeout_s > 0 &&
-      now_s_ - running_->began_at_s > running_->options.timeout_s) {
-    end_job(JobState::kFailed, FailureCode::kTimeout,
-            {{"--timeout", "the render did not end in time"}});
-  }
-  if (running_ && !running_->deadlock.empty() &&
-      now_s_ - running_->render_ended_s > kReportPatience_s) {
-    end_as_deadlocked();
-  }
-  report_progress(false);
-}
-
-// ---- nodes
-
-void Frontal::spawn(Rank rank) {
-  NodeRecord& node = nodes_[rank.value];
-  node = {};
-  node.incarnation = next_incarnation_++;
-  node.last_heard_s = now_s_;
-  spawns_.push_back({rank, node.incarnation});
-}
-
-std::optional<Rank> Frontal::rank_of(const PeerId& peer) const {
-  const auto found = node_peers_.find(peer);
-  if (found == node_peers_.end()) return std::nullopt;
-  return found->second;
+void Frontal::on_time(const Moment& now) {
+  now_s_ = now.now_s;
+  jobs_.set_time(now);
+  nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
+  if (is_going_down_) return;
+  if (const auto ping = heartbeat_.take_ping(now_s_)) post_.to_nodes(*ping);
+  for (const Rank rank : nodes_.take_silent(now_s_)) lose(rank, "fell silent");
+  jobs_.check_time();
 }
 
 void Frontal::on_message(const PeerId& peer, const MessageView& message) {
-  const auto rank = rank_of(peer);
-  if (rank) nodes_[rank->value].last_heard_s = now_s_;
+  const auto rank = nodes_.rank_of(peer);
+  if (rank) nodes_.heard(*rank, now_s_);
   if (looks_like_batch(message.frame)) {
-    if (rank) on_contributions(message.frame);
+    if (rank) jobs_.on_light(message.frame);
     return;
   }
   const auto decoded = decode(message.text());
   if (const auto* error = std::get_if<ControlError>(&decoded)) {
-    return refuse(peer, 0, FailureCode::kBadRequest, error->field, error->why);
+    return post_.answer(peer, Refusal{0, FailureCode::kBadRequest, error->field, error->why});
   }
   const auto& m = std::get<ControlMessage>(decoded);
   if (const auto* hello = std::get_if<control::Hello>(&m)) return on_hello(peer, *hello);
-  if (rank) return on_node(*rank, m);
-  on_client(peer, m, message);
+  rank ? on_node(*rank, m) : on_client(peer, m, message.payload);
 }
+
+// ---- nodes
 
 void Frontal::on_hello(const PeerId& peer, const control::Hello& m) {
-  if (m.rank >= nodes_.size()) {
-    return refuse(peer, 0, FailureCode::kBadRequest, "rank", "no such node in this farm");
-  }
-  NodeRecord& node = nodes_[m.rank];
-  if (node.incarnation != m.incarnation) {
-    return refuse(peer, 0, FailureCode::kBadRequest, "incarnation", "another process is this node");
-  }
-  node.peer = peer;
-  node.pid = m.pid;
-  node.endpoint = m.endpoint;
-  node.threads = m.threads;
-  node.last_heard_s = now_s_;
-  node_peers_[peer] = Rank{m.rank};
-  failed_starts_ = 0;
-  if (all_nodes_here()) welcome_all();
-  load_when_possible();
+  if (auto refusal = nodes_.hello(peer, m, now_s_)) return post_.answer(peer, *std::move(refusal));
+  post_.set_node(Rank{m.rank}, peer);
+  if (!nodes_.all_here()) return;
+  post_.to_nodes(control::Welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
+                                  heartbeat_.interval_ms()});
+  jobs_.load_what_waits();
 }
 
-bool Frontal::all_nodes_here() const {
-  return std::all_of(nodes_.begin(), nodes_.end(),
-                     [](const NodeRecord& n) { return !n.peer.empty(); });
+void Frontal::on_node(Rank rank, const ControlMessage& message) {
+  std::visit(Overloaded{
+                 [&](const control::Ready& m) {
+                   if (jobs_.on_ready(rank, m)) jobs_.start(nodes_.incarnations());
+                 },
+                 [&](const control::WaitReport& m) {
+                   jobs_.on_wait_report(rank, m, heartbeat_.last_ping());
+                 },
+                 [&](const control::Goodbye&) { nodes_.has_left(rank); },
+                 // That it was heard is all that a pong tells.
+                 [](const control::Pong&) {},
+                 // No epoch but the first is begun yet.
+                 [](const control::EpochAck&) {},
+                 [](const control::Hello&) {},
+                 [&](const FromNode auto& m) { jobs_.on_node(rank, m); },
+                 [](const FromClient auto&) {},
+                 [](const FromFrontal auto&) {},
+             },
+             message);
 }
 
-void Frontal::welcome_all() {
-  control::Welcome m;
-  m.nodes = options_.cube.nodes();
-  m.version = options_.version;
-  m.heartbeat_ms = static_cast<std::uint32_t>(options_.heartbeat_s * 1000);
-  for (const NodeRecord& n : nodes_) m.endpoints.push_back(n.endpoint);
-  send_to_nodes(m);
-}
-
-void Frontal::on_node_exit(Rank rank, std::uint32_t incarnation, const std::string& how) {
-  NodeRecord& node = nodes_[rank.value];
-  if (node.incarnation != incarnation) return;
-  node.has_left = true;
-  if (!going_down_) lose(rank, how);
+void Frontal::on_node_exit(const Process& process, const std::string& how) {
+  if (!nodes_.is_current(process)) return;
+  nodes_.has_left(process.rank);
+  if (!is_going_down_) lose(process.rank, how);
 }
 
 /// The running job fails with the node's name; a new process takes its place for the next one.
 void Frontal::lose(Rank rank, const std::string& how) {
-  NodeRecord& node = nodes_[rank.value];
-  const std::string name =
-      "node " + std::to_string(rank.value) +
-      (node.pid != 0 ? " (process " + std::to_string(node.pid) + ")" : std::string{});
-  node_peers_.erase(node.peer);
-  if (running_ && (running_->is_loaded || node.pid == 0)) {
-    end_job(JobState::kFailed, FailureCode::kFailed, {{name, how}});
-  }
-  if (node.pid == 0 && ++failed_starts_ >= kMaxFailedStarts) {
-    fatal_error_ = name + ": can't be started: " + how;
+  const NodeRegistry::Lost lost = nodes_.lose(rank);
+  jobs_.node_was_lost(lost.name, how, lost.was_starting);
+  if (lost.is_hopeless) {
+    fatal_error_ = lost.name + ": can't be started: " + how;
     return go_down();
   }
-  spawn(rank);
+  nodes_.start(rank, now_s_);
+  post_.set_node(rank, {});
 }
 
-void Frontal::on_node(Rank rank, const ControlMessage& message) {
-  if (std::holds_alternative<control::Goodbye>(message)) {
-    nodes_[rank.value].has_left = true;
-    return;
-  }
-  if (!running_ || !running_->render) return;
-  RenderJob& render = *running_->render;
-  if (const auto* m = std::get_if<control::NodeError>(&message)) {
-    if (m->job == render.id()) {
-      end_job(JobState::kFailed, FailureCode::kFailed,
-              {{"node " + std::to_string(rank.value), m->message}});
-    }
-  } else if (const auto* borrow = std::get_if<control::Borrow>(&message)) {
-    lend(rank, *borrow);
-  } else if (const auto* wish = std::get_if<control::Share>(&message)) {
-    share(rank, *wish);
-  } else if (const auto* waits = std::get_if<control::WaitReport>(&message)) {
-    watch_for_deadlock(rank, *waits);
-  } else if (const auto* ready = std::get_if<control::Ready>(&message)) {
-    if (!render.is_meant(*ready)) return;
-    render.set_ready(rank);
-    if (render.all_ready() && !running_->is_started) start_rendering();
-  } else if (const auto* round = std::get_if<control::TokenRound>(&message)) {
-    if (!render.is_meant(*round)) return;
-    render.set_round(round->round, round->hops);
-    running_->info.rounds = round->round;
-    report_progress(true);
-  } else if (const auto* end = std::get_if<control::Terminated>(&message)) {
-    if (!render.is_meant(*end)) return;
-    render.set_terminated(*end);
-    render.set_round(end->rounds, end->hops);
-    finish_when_complete();
-  } else if (const auto* report = std::get_if<control::NodeReport>(&message)) {
-    if (report->job != render.id()) return;
-    render.set_report(*report);
-    if (!running_->is_finishing || !render.all_reported()) return;
-    running_->deadlock.empty() ? complete() : end_as_deadlocked();
-  }
+void Frontal::give_result(PreparationResult result) {
+  jobs_.give_result(std::move(result));
+  if (nodes_.all_here()) jobs_.load_what_waits();
 }
 
-// ---- going down
+// ---- clients
+
+void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
+                        std::span<const std::byte> payload) {
+  const auto refuse_type = [&]() -> Answer {
+    return Refusal{0, FailureCode::kBadRequest, "type",
+                   "'" + std::string(type_of(message)) + "' is not for a frontal"};
+  };
+  const auto answer =
+      std::visit(Overloaded{
+                     [&](const control::Submit& m) { return submit(m, payload); },
+                     [&](const control::Status& m) { return jobs_.status(m.job); },
+                     [&](const control::List&) { return jobs_.list(); },
+                     [&](const control::Watch& m) { return jobs_.watch(peer, m.job); },
+                     [&](const control::Cancel& m) { return jobs_.cancel(m.job); },
+                     [&](const control::Nodes&) -> Answer {
+                       return Reply{nodes_.list(jobs_.keep_nodes_busy())};
+                     },
+                     [&](const control::Fetch& m) { return jobs_.fetch(m); },
+                     [&](const control::Write& m) { return jobs_.write(m); },
+                     [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
+                     [&](const control::Hello&) { return refuse_type(); },
+                     [&](const FromNode auto&) { return refuse_type(); },
+                     [&](const FromFrontal auto&) { return refuse_type(); },
+                 },
+                 message);
+  post_.answer(peer, answer);
+  if (std::holds_alternative<control::Down>(message)) go_down();
+}
+
+Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scene) {
+  if (is_going_down_) return Refusal{0, FailureCode::kBusy, "", "the farm is going down"};
+  return jobs_.submit(m, scene);
+}
 
 void Frontal::go_down() {
-  if (going_down_) return;
-  if (running_) end_job(JobState::kCancelled, FailureCode::kCancelled, {{"", "the farm stops"}});
-  while (!queue_.empty()) {
-    end_queued(0, JobState::kCancelled, FailureCode::kCancelled, "the farm stops");
-  }
-  going_down_ = true;
-  send_to_nodes(control::Shutdown{});
+  if (is_going_down_) return;
+  jobs_.cancel_all();
+  is_going_down_ = true;
+  post_.to_nodes(control::Shutdown{});
 }
-
-bool Frontal::all_nodes_left() const {
-  return std::all_of(nodes_.begin(), nodes_.end(), [](const NodeRecord& n) { return n.has_left; });
-}
-
-// ---- sending
-
-void Frontal::send(const PeerId& peer, const ControlMessage& message, SharedBytes payload) {
-  outgoing_.push_back({peer, Message::of_text(encode(message), std::move(payload))});
-}
-
-void Frontal::send_to_nodes(const ControlMessage& message) {
-  const Message encoded = Message::of_text(encode(message));
-  for (const NodeRecord& n : nodes_) {
-    if (!n.peer.empty()) outgoing_.push_back({n.peer, encoded});
-  }
-}
-
-std::vector<Frontal::Outgoing> Frontal::take_outgoing() { return std::exchange(outgoing_, {}); }
-std::vector<Frontal::Spawn> Frontal::take_spawns() { return std::exchange(spawns_, {}); }
-std::vector<Frontal::Spawn> Frontal::take_kills() { return std::exchange(kills_, {}); }
 
 }  // namespace graycube

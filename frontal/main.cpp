@@ -47,6 +47,8 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
+
 /// Signals that ask for the end, as a descriptor; SIGCHLD too, to wake the loop.
 int signal_descriptor() {
   sigset_t set;
@@ -72,10 +74,9 @@ class FrontalProcess {
                   .is_private = a.is_private},
                  *store_),
         preparation_(wakeup_) {
-    frontal_.cpu_seconds = [this] {
-      return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s();
-    };
-    frontal_.start_cpu_seconds = [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); };
+    frontal_.set_cpu_meter(
+        {[this] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s(); },
+         [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     if (http_) std::cout << "page " << http_->url() << std::endl;
     std::cout << "listening " << inbox_.endpoint() << std::endl;
@@ -86,12 +87,13 @@ class FrontalProcess {
   std::string run() {
     double down_since_s = 0;
     for (;;) {
-      const double now_s = seconds_of(CLOCK_MONOTONIC);
-      frontal_.on_time(now_s, seconds_of(CLOCK_REALTIME));
+      const Moment now = this_moment();
+      frontal_.on_time(now);
       take_events();
       if (frontal_.is_going_down()) {
-        if (down_since_s == 0) down_since_s = now_s;
-        if (processes_.empty() || now_s - down_since_s > kGrace_s) return frontal_.fatal_error();
+        if (down_since_s == 0) down_since_s = now.now_s;
+        if (processes_.empty() || now.now_s - down_since_s > kGrace_s)
+          return frontal_.fatal_error();
       }
       Readable* const sockets[] = {&inbox_};
       const int descriptors[] = {wakeup_.descriptor(), signals_};
@@ -109,10 +111,12 @@ class FrontalProcess {
 
   void take_events() {
     take_signals();
-    for (const NodeExit& e : processes_.reap()) frontal_.on_node_exit(e.rank, e.incarnation, e.how);
+    for (const NodeExit& e : processes_.reap()) {
+      frontal_.on_node_exit({e.rank, e.incarnation}, e.how);
+    }
     if (auto result = preparation_.take()) frontal_.give_result(std::move(*result));
     while (auto m = inbox_.receive()) {
-      frontal_.on_time(seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME));
+      frontal_.on_time(this_moment());
       frontal_.on_message(m->peer, m->message);
       flush();
     }
@@ -131,10 +135,10 @@ class FrontalProcess {
 
   void flush() {
     for (Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, std::move(o.message));
-    for (const Frontal::Spawn& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
+    for (const Frontal::Process& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
     std::vector<NodeStart> starts;
-    for (const Frontal::Spawn& s : frontal_.take_spawns())
+    for (const Frontal::Process& s : frontal_.take_starts())
       starts.push_back({s.rank, s.incarnation});
     processes_.start(starts, inbox_.endpoint());
   }

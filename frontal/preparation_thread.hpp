@@ -1,12 +1,13 @@
 // Prepares scenes beside the mailroom, which must stay quick to answer.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
 
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube {
@@ -38,6 +39,10 @@ class PreparationThread {
   }
 
  private:
+  static double seconds() {
+    const auto since_start = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(since_start).count();
+  }
   void run() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -47,7 +52,7 @@ class PreparationThread {
       work_.reset();
       busy_ = true;
       lock.unlock();
-      PreparationResult result = graycube::run(work);
+      PreparationResult result = prepare(work, seconds);
       lock.lock();
       busy_ = false;
       result_ = std::move(result);

@@ -91,13 +91,10 @@ void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
 /// neighbour's: what left a copy of another neighbour's regions comes this way.
 void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
   const Rank sender = mail.peer(bit);
-  const auto is_senders = [&](RegionIndex region) { return here_.seat.owner_of(region) == sender; };
-  const bool is_help = !rays.empty() && is_senders(rays.front().region);
-  bool is_due = !is_help || helping_.copy_of(bit);
-  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask>) {
-    is_due = is_due && (is_help ? is_senders(region) : here_.is_due(region, helping_.is_on()));
-  });
-  if (!is_due) {
+  const bool is_help = !rays.empty() && here_.seat.owner_of(rays.front().region) == sender;
+  const bool are_due = is_help ? helping_.copy_of(bit) && here_.seat.owns_all(sender, rays)
+                               : here_.are_due(rays, helping_.is_on());
+  if (!are_due) {
     mail.drop("rays", "for another macro-region");
     return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
   }
@@ -125,9 +122,7 @@ void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays
 }
 
 void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
-  const bool are_due = std::ranges::all_of(
-      rays, [this](const RayTask& ray) { return here_.is_due(ray.region, helping_.is_on()); });
-  if (!are_due || !flow_->add_class_rays(bit, rays)) {
+  if (!here_.are_due(rays, helping_.is_on()) || !flow_->add_class_rays(bit, rays)) {
     mail.drop("class rays", "for another macro-region, or without credit");
     return mail.fail("a broken batch of class rays came from node " +
                      std::to_string(mail.peer(bit).value));

@@ -51,6 +51,7 @@ enum class BatchType : std::uint8_t {
   kAssignment = 5,
   kGreeting = 6,
   kGreetingAck = 7,
+  /// Neither sent nor answered yet: for nodes that are replaced while a job is on.
   kGoodbye = 8,
   kGoodbyeAck = 9,
   /// The sender has nothing to do; and it holds a copy of the receiver's slice.
@@ -136,7 +137,8 @@ std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
 /// Of type kIdle or kIdleWithCopy: what the sender has done so far in this epoch, in tests of a
 /// primitive (trace/work_cost.hpp).
 std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work);
-/// The types without payload: greeting, goodbye and their acknowledgements.
+/// The types without payload: greeting, goodbye and their acknowledgements. peek_header() checks
+/// all that there is of them.
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
 
 /// Size of a message with so many records, header included; of contributions at most.
@@ -178,8 +180,5 @@ bool looks_like_batch(std::span<const std::byte> message);
 [[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,
                                             const BatchLimits& limits,
                                             std::vector<std::uint32_t>& tiles);
-/// Greeting, goodbye and their acknowledgements.
-[[nodiscard]] BatchResult decode_signal(std::span<const std::byte> message,
-                                        const BatchLimits& limits);
 
 }  // namespace graycube

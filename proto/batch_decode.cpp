@@ -272,13 +272,4 @@ BatchResult decode_offer(std::span<const std::byte> message, const BatchLimits& 
   return result;
 }
 
-BatchResult decode_signal(std::span<const std::byte> message, const BatchLimits& limits) {
-  const BatchResult peeked = peek_header(message);
-  const auto* h = std::get_if<BatchHeader>(&peeked);
-  if (h == nullptr) return peeked;
-  if (!is_signal(h->type)) return BatchError::kBadType;
-  const std::byte* at = nullptr;
-  return open(message, limits, h->type, at);
-}
-
 }  // namespace graycube

@@ -24,13 +24,6 @@ std::string_view type_of(const ControlMessage& message) {
 
 std::span<const std::string_view> control_types() { return TypesOf<ControlMessage>::kAll; }
 
-bool has_binary_frame(const ControlMessage& message) {
-  return std::holds_alternative<control::Load>(message) ||
-         std::holds_alternative<control::Lend>(message) ||
-         std::holds_alternative<control::Submit>(message) ||
-         std::holds_alternative<control::Picture>(message);
-}
-
 std::string_view to_string(Algorithm value) { return control_names::name_of(value); }
 std::string_view to_string(Grain value) { return control_names::name_of(value); }
 std::string_view to_string(ShadowMode value) { return control_names::name_of(value); }

@@ -41,7 +41,4 @@ std::string_view type_of(const ControlMessage& message);
 /// The names of all messages, in the order of the variant's alternatives.
 std::span<const std::string_view> control_types();
 
-/// True when a binary frame follows the message: load, submit, picture.
-bool has_binary_frame(const ControlMessage& message);
-
 }  // namespace graycube

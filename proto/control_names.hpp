@@ -47,9 +47,9 @@ struct Names<NodeState> {
 };
 template <>
 struct Names<FailureCode> {
-  static constexpr std::array<std::string_view, 9> kAll{"bad_input", "failed",      "cancelled",
-                                                        "timeout",   "unknown_job", "busy",
-                                                        "not_done",  "too_large",   "bad_request"};
+  static constexpr std::array<std::string_view, 10> kAll{
+      "bad_input", "failed",   "cancelled", "timeout",     "unknown_job",
+      "busy",      "not_done", "too_large", "bad_request", "deadlock"};
 };
 
 template <class E>

@@ -64,7 +64,9 @@ enum class FailureCode : std::uint8_t {
   kBusy,
   kNotDone,
   kTooLarge,
-  kBadRequest
+  kBadRequest,
+  /// Nodes wait for each other in a circle, and statistics tell what they did.
+  kDeadlock
 };
 
 /// Names as on the wire and on the command line; empty for a value outside the enum.
@@ -195,7 +197,7 @@ struct Ready {
   friend bool operator==(const Ready&, const Ready&) = default;
 };
 
-/// Everything of older epochs is dropped.
+/// Everything of older epochs is dropped. Frontals that begin epochs wait for it; none does yet.
 struct EpochAck {
   static constexpr std::string_view kType = "epoch_ack";
   std::uint32_t job = 0, epoch = 0;
@@ -308,10 +310,11 @@ struct Load {
   std::uint32_t tile_size = 1;
   ShadowMode shadows = ShadowMode::kHorizon;
   FlowMode flow = FlowMode::kCredit;
-  /// Rays that the input queues hold together where flow is blocking.
+  /// Rays that the input queues hold together where flow is blocking. Nodes have no use for it:
+  /// each link's part of it is link_credit_bytes.
   std::uint32_t queue = kDefaultQueue;
   std::uint64_t link_credit_bytes = 0;
-  /// Own tiles that may be open at a time.
+  /// Own tiles that may be open at a time. Nodes have no use for it: the frontal hands out no more.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
   /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
@@ -359,7 +362,8 @@ struct AllWhole {
   friend bool operator==(const AllWhole&, const AllWhole&) = default;
 };
 
-/// Drop everything of epochs before this one, and acknowledge.
+/// Drop everything of epochs before this one, and acknowledge. Nodes do; no frontal sends it yet,
+/// since a job fails with a node. One that has a lost node replaced will.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
   std::uint32_t job = 0, epoch = 0;

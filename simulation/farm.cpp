@@ -40,7 +40,7 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
                    .replica_bytes = options.replica_bytes,
                    .limits = options.limits};
   frontal_ = std::make_unique<Frontal>(f, *store_);
-  frontal_->cpu_seconds = [this] { return frontal_cpu_s_; };
+  frontal_->set_cpu_meter({[this] { return frontal_cpu_s_; }, [] { return 0.0; }});
   in_frontal({}, [] {});
 }
 
@@ -70,7 +70,7 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
   call();
   auto out = std::make_shared<std::vector<Frontal::Outgoing>>(frontal_->take_outgoing());
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
-  for (const Frontal::Spawn& s : frontal_->take_spawns()) start(s);
+  for (const Frontal::Process& p : frontal_->take_starts()) start(p);
   if (auto work = frontal_->take_work()) prepare(*work);
   for (const Frontal::Outgoing& o : *out) {
     if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
@@ -81,34 +81,34 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
                        }});
 }
 
-void Farm::start(const Frontal::Spawn& spawn) {
-  Process& p = processes_[spawn.rank.value];
-  NodeIdentity id{spawn.rank,
-                  spawn.incarnation,
-                  1000 + spawn.incarnation,
-                  "ipc:///simulated/" + std::to_string(spawn.rank.value),
+void Farm::start(const Frontal::Process& started) {
+  Process& p = processes_[started.rank.value];
+  NodeIdentity id{started.rank,
+                  started.incarnation,
+                  1000 + started.incarnation,
+                  "ipc:///simulated/" + std::to_string(started.rank.value),
                   options_.threads,
                   "simulated"};
   p = {};
   p.node = std::make_unique<Node>(std::move(id));
-  p.node->measure = [this, rank = spawn.rank](control::NodeStats& stats) {
+  p.node->measure = [this, rank = started.rank](control::NodeStats& stats) {
     fill_in(processes_[rank.value], stats);
   };
-  p.incarnation = spawn.incarnation;
+  p.incarnation = started.incarnation;
   p.unreturned.assign(cube_.dimension(), 0);
   p.places_out.assign(cube_.dimension(), {});
-  machine_.on_start(spawn.rank);
-  const PeerId peer = peer_of(spawn.rank, spawn.incarnation);
-  peers_[peer] = spawn.rank;
+  machine_.on_start(started.rank);
+  const PeerId peer = peer_of(started.rank, started.incarnation);
+  peers_[peer] = started.rank;
   const Message hello = p.node->hello();
-  timeline_.at(machine_.arrival_s(spawn.rank, {}, bytes_of(hello), timeline_.now_s()),
+  timeline_.at(machine_.arrival_s(started.rank, {}, bytes_of(hello), timeline_.now_s()),
                [this, peer, hello] { frontal_receives(peer, hello); });
 }
 
 /// Time passes for the frontal also when no message comes.
 void Farm::tick(unsigned render) {
   if (render != renders_) return;
-  in_frontal({}, [this] { frontal_->on_time(timeline_.now_s(), timeline_.now_s()); });
+  in_frontal({}, [this] { frontal_->on_time({timeline_.now_s(), timeline_.now_s()}); });
   timeline_.after(options_.heartbeat_s, [this, render] { tick(render); });
 }
 
@@ -120,7 +120,7 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
       doings[Unit::kFrontalByte] = static_cast<double>(message.frame.size());
     }
     in_frontal(doings, [&] {
-      frontal_->on_time(timeline_.now_s(), timeline_.now_s());
+      frontal_->on_time({timeline_.now_s(), timeline_.now_s()});
       frontal_->on_message(peer, message);
     });
   };
@@ -130,7 +130,7 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
 
 void Farm::prepare(const PreparationWork& work) {
   const double began_s = thread_cpu_seconds();
-  auto result = std::make_shared<PreparationResult>(run(work));
+  auto result = std::make_shared<PreparationResult>(graycube::prepare(work, thread_cpu_seconds));
   outcome_.preparation_cpu_s += thread_cpu_seconds() - began_s;
   timeline_.after(
       0, [this, result] { in_frontal({}, [&] { frontal_->give_result(std::move(*result)); }); });
@@ -311,7 +311,7 @@ void Farm::kill(Rank rank) {
   Process& p = processes_[rank.value];
   const std::uint32_t incarnation = p.incarnation;
   p.node.reset();
-  in_frontal({}, [&] { frontal_->on_node_exit(rank, incarnation, "killed by signal 9"); });
+  in_frontal({}, [&] { frontal_->on_node_exit({rank, incarnation}, "killed by signal 9"); });
 }
 
 /// The nodes of a job that failed report what they did, those that still can.

@@ -94,7 +94,7 @@ class Farm {
   double take(Place place, const PerUnit& doings);
 
   // The frontal
-  void start(const Frontal::Spawn& spawn);
+  void start(const Frontal::Process& started);
   void tick(unsigned render);
   template <typename Call>
   void in_frontal(PerUnit doings, Call&& call);

@@ -78,10 +78,8 @@ ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
   } catch (const Failure& failure) {
     throw_if_interrupted();
     if (failure.problems().empty() || failure.status() == ExitStatus::kBadInput) throw;
-    const Problem& problem = failure.problems().front();
-    row.why = problem.why;
-    const bool deadlocked = problem.why.starts_with("deadlock: ");
-    row.outcome = deadlocked ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    row.why = failure.problems().front().why;
+    row.outcome = failure.is_deadlock() ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
     row.statistics = failure.statistics();
     return row;
   }

@@ -122,10 +122,11 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
 }
 
 RowOutcome outcome_of(const simulation::Outcome& outcome, simulation::Farm& farm,
-                      const Picture& reference, const std::string& why) {
+                      const Picture& reference) {
   if (!outcome.violations.empty() || !outcome.ended) return RowOutcome::kFailed;
   if (outcome.failed) {
-    return why.starts_with("deadlock: ") ? RowOutcome::kDeadlocked : RowOutcome::kFailed;
+    return outcome.failed->code == FailureCode::kDeadlock ? RowOutcome::kDeadlocked
+                                                          : RowOutcome::kFailed;
   }
   const Picture* picture = farm.store().picture(1);
   return picture != nullptr && *picture == reference ? RowOutcome::kSame : RowOutcome::kDifferent;
@@ -160,7 +161,7 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
   row.costs = named(costs);
   row.row.name = std::to_string(nodes) + (nodes == 1 ? " node" : " nodes");
   row.row.why = why_of(outcome);
-  row.row.outcome = outcome_of(outcome, farm, reference, row.row.why);
+  row.row.outcome = outcome_of(outcome, farm, reference);
   if (measured.seconds() > 0) {
     row.predicted_over_measured =
         simulation::cost_of(measured.counts(), costs) / measured.seconds();

@@ -29,7 +29,8 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
     problems.push_back({what, e.where.empty() ? job : e.where, e.why});
   }
   if (problems.empty()) problems.push_back({what, job, std::string(to_string(failed.code))});
-  return {status_of(failed.code), std::move(problems), failed.stats ? failed.stats->text : ""};
+  return Failure(status_of(failed.code), std::move(problems))
+      .told_by_farm(failed.code == FailureCode::kDeadlock, failed.stats ? failed.stats->text : "");
 }
 
 FarmClient::FarmClient(std::string endpoint, std::function<void()> check)

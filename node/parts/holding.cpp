@@ -49,6 +49,11 @@ bool Holding::is_due(const RegionIndex& region, bool neighbours_help) const {
   return neighbours_help && seat.bit_of(seat.owner_of(region)) < seat.links();
 }
 
+bool Holding::are_due(std::span<const RayTask> rays, bool neighbours_help) const {
+  return std::ranges::all_of(
+      rays, [&](const RayTask& ray) { return is_due(ray.region, neighbours_help); });
+}
+
 std::uint64_t Holding::own_tiles() const {
   return domain->grid() != nullptr ? plan.tiles_of(seat.share()).size() : 0;
 }

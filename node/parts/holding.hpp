@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "node/parts/seat.hpp"
 #include "proto/batch.hpp"
@@ -31,6 +32,7 @@ struct Holding {
   /// node, from a helper to a neighbour or, where rays are finished that have left their
   /// macro-regions, from these to what they meet.
   bool is_due(const RegionIndex& region, bool neighbours_help) const;
+  bool are_due(std::span<const RayTask> rays, bool neighbours_help) const;
   /// Who traces it, where it isn't everybody's as in `roth`.
   Rank owner_of_tile(std::uint32_t tile) const { return seat.owner_of(plan.owner_of_tile(tile)); }
   bool is_own_tile(std::uint32_t tile) const { return holds(plan.owner_of_tile(tile)); }

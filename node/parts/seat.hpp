@@ -2,11 +2,14 @@
 // macro-regions.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "proto/share_of.hpp"
 #include "regions/macro_grid.hpp"
 #include "topology/hypercube.hpp"
+#include "trace/ray_task.hpp"
 
 namespace graycube {
 
@@ -22,6 +25,11 @@ struct Seat {
   }
   Rank owner_of(const RegionIndex& region) const {
     return cube.owner_of(region.column, region.row);
+  }
+  /// Whether all these rays are in that node's regions.
+  bool owns_all(Rank owner, std::span<const RayTask> rays) const {
+    return std::ranges::all_of(rays,
+                               [&](const RayTask& ray) { return owner_of(ray.region) == owner; });
   }
   /// The link across which a ray goes to another node's region.
   std::uint32_t bit_towards(const RegionIndex& region) const {

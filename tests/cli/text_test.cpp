@@ -35,6 +35,17 @@ TEST_CASE("a failed job tells each error, and bad input from failure") {
   CHECK(failure_of(failed, "scene").problems().size() == 1);
 }
 
+TEST_CASE("a deadlock is a failure that has statistics, by its code and not by its words") {
+  control::Failed failed{7, FailureCode::kFailed, {{"", "deadlock: so it says"}}, {}};
+  CHECK_FALSE(failure_of(failed, "render").is_deadlock());
+  failed.code = FailureCode::kDeadlock;
+  failed.stats = RawObject{"{\"nodes\":4}"};
+  const Failure failure = failure_of(failed, "render");
+  CHECK(failure.is_deadlock());
+  CHECK(failure.status() == ExitStatus::kFailed);
+  CHECK(failure.statistics() == "{\"nodes\":4}");
+}
+
 TEST_CASE("a job's lines tell what is known of it and nothing else") {
   control::JobInfo job;
   job.job = 3;

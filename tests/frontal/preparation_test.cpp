@@ -17,7 +17,8 @@ PreparationResult cut(Bytes scene, const control::JobOptions& options) {
   work.scene = std::move(scene);
   work.options = options;
   work.cube = *Hypercube::of_size(4);
-  return run(work);
+  double seconds = 0;
+  return prepare(work, [&seconds] { return seconds += 1; });
 }
 
 }  // namespace
@@ -49,6 +50,14 @@ TEST_CASE("a compiled scene is cut as its text is") {
       CHECK(std::ranges::equal(compiled.scene->slices[i].bytes(), text.slices[i].bytes()));
     }
   }
+}
+
+TEST_CASE("what reading and cutting took is told by the clock that is given") {
+  const PreparationResult result = cut(encode_model(compile_scene(RandomModel(3).scene())), {});
+  REQUIRE(result.scene);
+  // Each glance at it takes a second.
+  CHECK(result.scene->load_s == 1);
+  CHECK(result.scene->partition_s == 1);
 }
 
 TEST_CASE("a broken compiled scene is bad input, and so are options that do not fit it") {

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "formats/graycube/write_scene.hpp"
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 
 namespace graycube::testing {
 
@@ -16,7 +16,7 @@ inline PreparedScene prepared(const Scene& scene, const control::JobOptions& opt
   work.options = options;
   work.options.algorithm = algorithm;
   work.cube = *Hypercube::of_size(nodes);
-  PreparationResult result = run(work);
+  PreparationResult result = prepare(work, [] { return 0.0; });
   REQUIRE(result.scene);
   return *std::move(result.scene);
 }

@@ -1,5 +1,5 @@
 // What each node gets of a scene.
-#include "frontal/slices.hpp"
+#include "frontal/preparation/slices.hpp"
 
 #include <optional>
 #include <variant>

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "frontal/prepared.hpp"
-#include "frontal/render_job.hpp"
+#include "frontal/rendering/render_job.hpp"
 #include "trace/corner_scene.hpp"
 
 using namespace graycube;

@@ -16,6 +16,15 @@
 
 namespace graycube {
 
+/// Signals are all header.
+inline BatchResult signal_of(std::span<const std::byte> bytes) {
+  const BatchResult peeked = peek_header(bytes);
+  const auto* h = std::get_if<BatchHeader>(&peeked);
+  const bool is_other =
+      h != nullptr && (h->type < BatchType::kGreeting || h->type > BatchType::kGoodbyeAck);
+  return is_other ? BatchResult(BatchError::kBadType) : peeked;
+}
+
 inline bool fuzz_batch(std::span<const std::byte> bytes) {
   const BatchLimits limits{
       .pixel_count = 4096, .tile_count = 64, .max_depth = 9, .columns = 4, .rows = 2, .nodes = 8};
@@ -31,7 +40,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
                                  decode_link_credit(bytes, limits, granted),
                                  decode_token(bytes, limits, token),
                                  decode_assignment(bytes, limits, tiles),
-                                 decode_signal(bytes, limits),
+                                 signal_of(bytes),
                                  decode_offer(bytes, limits, work),
                                  decode_rays(bytes, limits, class_rays, BatchType::kClassRays),
                                  decode_class_credit(bytes, limits, classes)};

@@ -267,8 +267,6 @@ TEST_CASE("grants, tokens, assignments and signals come back as sent") {
     REQUIRE(std::holds_alternative<BatchHeader>(result));
     CHECK(std::get<BatchHeader>(result).type == type);
     CHECK(work == 1ull << 50);
-    CHECK(decode_signal(encode_offer(kStamp, type, 1), kLimits) ==
-          BatchResult(BatchError::kBadType));
   }
   CHECK(std::holds_alternative<BatchError>(
       decode_offer(encode_signal(kStamp, BatchType::kGreeting), kLimits, granted)));
@@ -282,7 +280,7 @@ TEST_CASE("grants, tokens, assignments and signals come back as sent") {
   CHECK(tiles_again == tiles);
   for (const auto type : {BatchType::kGreeting, BatchType::kGreetingAck, BatchType::kGoodbye,
                           BatchType::kGoodbyeAck}) {
-    const BatchResult result = decode_signal(encode_signal(kStamp, type), kLimits);
+    const BatchResult result = peek_header(encode_signal(kStamp, type));
     REQUIRE(std::holds_alternative<BatchHeader>(result));
     CHECK(std::get<BatchHeader>(result).type == type);
   }
@@ -326,7 +324,6 @@ TEST_CASE("a batch of another type than expected is refused by every decoder") {
   }
   std::uint64_t granted = 0;
   CHECK(error_of(decode_link_credit(messages[0], kLimits, granted)) == BatchError::kBadType);
-  CHECK(error_of(decode_signal(messages[0], kLimits)) == BatchError::kBadType);
 }
 
 TEST_CASE("a message beyond its largest size is refused before its records are read") {

@@ -141,7 +141,7 @@ inline std::vector<ControlMessage> example_messages() {
       Done{9, stats},
       Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
       Written{9, 640, 480, 0.25},
-      Failed{9, FailureCode::kFailed, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
+      Failed{9, FailureCode::kDeadlock, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
   };
 }

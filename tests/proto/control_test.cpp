@@ -232,14 +232,6 @@ TEST_CASE("a job's statistics keep their text, order included") {
   CHECK(done.stats.text == text);
 }
 
-TEST_CASE("four messages are followed by a binary frame") {
-  std::vector<std::string_view> types;
-  for (const ControlMessage& message : example_messages()) {
-    if (has_binary_frame(message)) types.push_back(type_of(message));
-  }
-  CHECK(types == std::vector<std::string_view>{"load", "lend", "submit", "picture"});
-}
-
 TEST_CASE("messages cut anywhere are refused") {
   for (const ControlMessage& message : example_messages()) {
     const std::string text = encode(message);

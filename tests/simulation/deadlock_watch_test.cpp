@@ -1,4 +1,4 @@
-#include "frontal/deadlock_watch.hpp"
+#include "frontal/rendering/deadlock_watch.hpp"
 
 #include "catch.hpp"
 

@@ -119,9 +119,9 @@ TEST_CASE("a farm whose nodes can't be started gives up, and says why") {
   Frontal frontal(options, *store);
   unsigned started = 0;
   for (int round = 0; round < 100 && !frontal.is_going_down(); ++round) {
-    for (const Frontal::Spawn& s : frontal.take_spawns()) {
+    for (const Frontal::Process& p : frontal.take_starts()) {
       ++started;
-      frontal.on_node_exit(s.rank, s.incarnation, "exited with status 1");
+      frontal.on_node_exit(p, "exited with status 1");
     }
   }
   CHECK(frontal.is_going_down());

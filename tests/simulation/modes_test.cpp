@@ -80,6 +80,7 @@ TEST_CASE("a deadlock is told, with the other nodes' reports, when one node's do
     const Outcome outcome = Farm({.nodes = 4}, again).render(text, options);
     REQUIRE(outcome.failed);
     CHECK(outcome.failed->errors == heard.failed->errors);
+    CHECK(outcome.failed->code == FailureCode::kDeadlock);
     const nlohmann::json stats = stats_of_failure(outcome);
     REQUIRE(stats["per_node"].size() == 4);
     for (std::uint32_t rank = 0; rank < 4; ++rank) {
@@ -147,6 +148,7 @@ TEST_CASE(
     }
     ++deadlocks;
     REQUIRE(outcome.violations.empty());
+    CHECK(outcome.failed->code == FailureCode::kDeadlock);
     REQUIRE(outcome.failed->errors.size() == 1);
     const std::string why = outcome.failed->errors.front().why;
     INFO(why);

@@ -59,7 +59,6 @@ WORLDLY_FILES = {
     "common/transport/endpoint.cpp": "knows sockets",
     "common/transport/zmq_sockets.cpp": "knows sockets",
     "common/transport/zmq_sockets.hpp": "knows sockets",
-    "frontal/preparation.cpp": "measures itself, which should come from outside",
 }
 
 

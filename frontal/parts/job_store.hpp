@@ -20,6 +20,8 @@ struct EndedJob {
   /// "{}": nothing is known.
   std::string stats_json = "{}";
   bool has_stats() const { return stats_json != "{}"; }
+  /// Not known of what an earlier frontal left.
+  bool is_deadlocked = false;
 };
 
 class JobStore {

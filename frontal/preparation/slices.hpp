@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crossings/surface_tree.hpp"
-#include "frontal/partition.hpp"
+#include "frontal/preparation/partition.hpp"
 #include "transport/message.hpp"
 #include "visibility/occluders.hpp"
 

@@ -1,4 +1,4 @@
-#include "frontal/partition.hpp"
+#include "frontal/preparation/partition.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "frontal/whole_scene.hpp"
+#include "frontal/preparation/whole_scene.hpp"
 #include "proto/messages.hpp"
 #include "regions/macro_grid.hpp"
 #include "topology/hypercube.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,7 @@ struct PreparedScene {
   bool makes_copies = false;
   /// The rays that descend from a primary ray, itself included, on average; 0 where nothing tells.
   double rays_per_primary = 0;
+  /// What reading and compiling the scene took, and what cutting it.
   double load_s = 0, partition_s = 0;
 };
 
@@ -67,8 +69,8 @@ struct PreparationResult {
 /// What was picked for the scene, for people: "scatter 4, horizon shadows".
 std::string choices_text(const PreparedScene& scene);
 
-/// Never throws.
-PreparationResult run(const PreparationWork& work);
+/// `clock_s` tells seconds, of which only differences count. Never throws.
+PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s);
 
 /// The options' overrides, applied and checked; what doesn't fit is added to `errors`.
 void apply_overrides(const control::JobOptions& options, RenderSettings& settings,

@@ -1,4 +1,4 @@
-#include "frontal/slices.hpp"
+#include "frontal/preparation/slices.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,11 @@
-#include "frontal/preparation.hpp"
+#include "frontal/preparation/preparation.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "formats/graycube/read_scene.hpp"
-#include "frontal/partition.hpp"
-#include "frontal/slices.hpp"
+#include "frontal/preparation/partition.hpp"
+#include "frontal/preparation/slices.hpp"
 #include "proto/horizon_bytes.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/tile_shape.hpp"
@@ -16,8 +15,6 @@
 
 namespace graycube {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded,
 /// which costs more than the better balance brings (docs/lab/2026-11-22-scattered-regions.md).
@@ -34,10 +31,6 @@ constexpr std::uint64_t kRaysPerPrimitiveForBounds = 2;
 
 /// Up to this size of the model most nodes have room for all that their shadow rays ask for.
 constexpr std::uint64_t kFinishedModelBytes = 2 * kSmallSlices;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void add_error(std::vector<control::ErrorItem>& errors, std::string where, std::string why) {
   if (errors.size() < kMaxErrorsListed) errors.push_back({std::move(where), std::move(why)});
@@ -222,10 +215,10 @@ std::string choices_text(const PreparedScene& scene) {
   return text;
 }
 
-PreparationResult run(const PreparationWork& work) {
+PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s) {
   PreparationResult result;
   result.job = work.job;
-  const auto started = Clock::now();
+  const double began_s = clock_s();
   auto whole = model_of(work.scene, result.errors);
   if (!whole) return result;
   Model& model = *whole;
@@ -236,8 +229,8 @@ PreparationResult run(const PreparationWork& work) {
   }
   if (!result.errors.empty()) return result;
   PreparedScene& scene = result.scene.emplace();
-  scene.load_s = seconds_since(started);
-  const auto cutting = Clock::now();
+  const double loaded_s = clock_s();
+  scene.load_s = loaded_s - began_s;
   scene.algorithm = chosen(work.options.algorithm, model);
   scene.grain = scene.algorithm == Algorithm::kRoth ? work.options.grain : Grain::kTile;
   scene.settings = model.settings;
@@ -248,7 +241,7 @@ PreparationResult run(const PreparationWork& work) {
   } else {
     cut_for_macro(work, WholeScene(std::make_shared<const Model>(std::move(model))), scene);
   }
-  scene.partition_s = seconds_since(cutting);
+  scene.partition_s = clock_s() - loaded_s;
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "frontal/job_store.hpp"
+#include "frontal/parts/job_store.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -101,7 +101,7 @@ class FolderStore : public JobStore {
     const auto* job = std::get_if<control::JobInfo>(a);
     const auto* stats = std::get_if<control::Done>(b);
     if (job == nullptr || stats == nullptr) return std::nullopt;
-    return EndedJob{*job, stats->stats.text};
+    return EndedJob{*job, stats->stats.text, false};
   }
 
   fs::path folder_;

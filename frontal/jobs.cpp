@@ -1,0 +1,279 @@
+#include "frontal/jobs.hpp"
+
+#include <utility>
+
+#include "frontal/parts/picture_answers.hpp"
+#include "frontal/parts/submission.hpp"
+
+namespace graycube {
+namespace {
+
+Refusal unknown(std::uint32_t job) { return {job, FailureCode::kUnknownJob, "", "no such job"}; }
+
+/// The message that tells of a job that it has ended.
+ControlMessage end_of(const EndedJob& job) {
+  if (job.info.state == JobState::kDone) return control::Done{job.info.job, {job.stats_json}};
+  FailureCode code = FailureCode::kFailed;
+  if (job.info.state == JobState::kCancelled) code = FailureCode::kCancelled;
+  if (job.is_deadlocked) code = FailureCode::kDeadlock;
+  control::Failed failed{job.info.job, code, {{"", job.info.message}}, {}};
+  if (job.has_stats()) failed.stats = RawObject{job.stats_json};
+  return failed;
+}
+
+}  // namespace
+
+Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post)
+    : farm_(farm), post_(post), ended_(store) {
+  if (!ended_.all().empty()) queue_.number_beyond(ended_.all().back().info.job);
+}
+
+void Jobs::check_time() {
+  if (running_ && running_->is_overdue(now_.now_s)) {
+    fail({JobState::kFailed,
+          FailureCode::kTimeout,
+          {{"--timeout", "the render did not end in time"}}});
+  }
+  if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
+  if (watchers_.are_due(now_.now_s)) tell_progress();
+}
+
+// ---- asked by clients
+
+Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) {
+  if (queue_.is_full()) {
+    return Refusal{0, FailureCode::kBusy, "",
+                   "the queue is full (" + std::to_string(kMaxQueuedJobs) + " jobs)"};
+  }
+  if (auto refusal = refusal_of(m, scene, farm_.is_private)) return *std::move(refusal);
+  QueuedJob job;
+  job.info.state = JobState::kQueued;
+  job.info.scene = m.scene_name;
+  job.info.algorithm = m.options.algorithm;
+  job.info.nodes = farm_.cube.nodes();
+  job.info.submitted_s = now_.unix_s;
+  job.submitted_at_s = now_.now_s;
+  job.work.scene_name = m.scene_name;
+  job.work.scene.assign(scene.begin(), scene.end());
+  job.work.options = m.options;
+  job.work.cube = farm_.cube;
+  job.work.replica_bytes = farm_.replica_bytes;
+  return Reply{control::Accepted{queue_.add(std::move(job))}};
+}
+
+std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
+  if (running_ && running_->id() == job) return running_->info_at(now_.now_s);
+  if (const auto* queued = queue_.find(job)) return *queued;
+  if (const EndedJob* ended = ended_.find(job)) return ended->info;
+  return std::nullopt;
+}
+
+Answer Jobs::status(std::uint32_t job) const {
+  if (const auto info = find(job)) return Reply{*info};
+  return unknown(job);
+}
+
+Answer Jobs::list() const {
+  control::Jobs list;
+  for (const EndedJob& job : ended_.all()) list.jobs.push_back(job.info);
+  if (running_) list.jobs.push_back(running_->info_at(now_.now_s));
+  for (const QueuedJob& job : queue_.all()) list.jobs.push_back(job.info);
+  if (list.jobs.size() > kMaxJobsListed) {
+    list.jobs.erase(list.jobs.begin(),
+                    list.jobs.end() - static_cast<std::ptrdiff_t>(kMaxJobsListed));
+  }
+  return Reply{std::move(list)};
+}
+
+Answer Jobs::watch(const PeerId& peer, std::uint32_t job) {
+  const EndedJob* ended = ended_.find(job);
+  if (ended != nullptr) return Reply{end_of(*ended)};
+  const auto info = find(job);
+  if (!info) return unknown(job);
+  watchers_.add(job, peer);
+  const bool is_on = running_ && running_->id() == job;
+  return Reply{is_on ? running_->progress_at(now_.now_s) : progress_of(*info)};
+}
+
+Answer Jobs::cancel(std::uint32_t job) {
+  const JobFailure cancelled{JobState::kCancelled, FailureCode::kCancelled, {{"", "cancelled"}}};
+  if (running_ && running_->id() == job) {
+    fail(cancelled);
+  } else if (auto queued = queue_.remove(job)) {
+    end({std::move(queued->info), "{}", false}, cancelled);
+  } else if (find(job)) {
+    return Refusal{job, FailureCode::kBadRequest, "", "the job has ended already"};
+  }
+  return status(job);
+}
+
+std::variant<const Picture*, Refusal> Jobs::picture(std::uint32_t job) {
+  const auto info = find(job);
+  if (!info) return unknown(job);
+  if (info->state != JobState::kDone) {
+    return Refusal{job, FailureCode::kNotDone, "",
+                   "the job is " + std::string(to_string(info->state))};
+  }
+  if (const Picture* picture = ended_.picture(job)) return picture;
+  return Refusal{job, FailureCode::kFailed, "", "the picture is not kept any longer"};
+}
+
+Answer Jobs::fetch(const control::Fetch& m) {
+  const auto found = picture(m.job);
+  if (const auto* refusal = std::get_if<Refusal>(&found)) return *refusal;
+  return picture_rows(*std::get<const Picture*>(found), m);
+}
+
+/// The picture needs no way through sockets: who asks is the one that has started this frontal, and
+/// could write the files itself.
+Answer Jobs::write(const control::Write& m) {
+  if (!farm_.is_private) {
+    return Refusal{m.job, FailureCode::kBadRequest, "type", "only a private frontal writes files"};
+  }
+  const auto found = picture(m.job);
+  if (const auto* refusal = std::get_if<Refusal>(&found)) return *refusal;
+  const PictureOrigin origin{find(m.job)->scene, farm_.version};
+  return write_picture(*std::get<const Picture*>(found), m, origin, cpu_.used_s);
+}
+
+// ---- its preparation
+
+std::optional<PreparationWork> Jobs::take_work() {
+  if (running_ || queue_.is_empty()) return std::nullopt;
+  QueuedJob next = queue_.take_first();
+  running_.emplace(farm_, next, now_, cpu_);
+  tell_progress();
+  return std::move(next.work);
+}
+
+void Jobs::give_result(PreparationResult result) {
+  if (!running_ || running_->id() != result.job) return;  // cancelled meanwhile
+  if (result.scene) return running_->prepared(*std::move(result.scene));
+  fail({JobState::kFailed, FailureCode::kBadInput, std::move(result.errors)});
+}
+
+void Jobs::load_what_waits() {
+  if (!running_ || running_->stage() != JobStage::kPrepared) return;
+  running_->load(now_.now_s, post_);
+  tell_progress();
+}
+
+// ---- told by nodes
+
+bool Jobs::on_ready(Rank rank, const control::Ready& m) {
+  return is_rendered() && running_->on_ready(rank, m);
+}
+
+void Jobs::start(std::vector<std::uint32_t> incarnations) {
+  running_->start(std::move(incarnations), now_.now_s, post_);
+  tell_progress();
+  finish_when_complete();
+}
+
+void Jobs::on_light(std::span<const std::byte> batch) {
+  if (!running_ || running_->stage() != JobStage::kRendering) return;
+  if (auto failure = running_->on_light(batch, post_)) return fail(*std::move(failure));
+  finish_when_complete();
+}
+
+void Jobs::on_node(Rank, const control::TokenRound& m) {
+  if (is_rendered() && running_->on_round(m)) tell_progress();
+}
+
+void Jobs::on_node(Rank, const control::Terminated& m) {
+  if (!is_rendered()) return;
+  running_->on_terminated(m);
+  finish_when_complete();
+}
+
+void Jobs::on_node(Rank, const control::NodeReport& m) {
+  if (!is_rendered() || !running_->on_report(m)) return;
+  running_->deadlock() ? fail(*running_->deadlock()) : complete();
+}
+
+void Jobs::on_node(Rank rank, const control::NodeError& m) {
+  if (!is_rendered() || m.job != running_->id()) return;
+  fail({JobState::kFailed,
+        FailureCode::kFailed,
+        {{"node " + std::to_string(rank.value), m.message}}});
+}
+
+void Jobs::on_node(Rank rank, const control::Borrow& m) {
+  if (is_rendered()) running_->on_borrow(rank, m, post_);
+}
+
+void Jobs::on_node(Rank rank, const control::Share& m) {
+  if (is_rendered()) running_->on_share(rank, m, post_);
+}
+
+void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping) {
+  if (is_rendered()) running_->on_wait_report(rank, m, last_ping, now_.now_s, post_);
+}
+
+void Jobs::node_was_lost(const std::string& name, const std::string& how, bool was_starting) {
+  if (!running_ || !(running_->is_loaded() || was_starting)) return;
+  fail({JobState::kFailed, FailureCode::kFailed, {{name, how}}});
+}
+
+// ---- how jobs get on and end
+
+void Jobs::tell_progress() {
+  if (running_) watchers_.tell(running_->progress_at(now_.now_s), now_.now_s, post_);
+}
+
+void Jobs::finish_when_complete() {
+  if (auto failure = running_->finish_when_complete(now_.now_s, post_)) fail(*std::move(failure));
+}
+
+void Jobs::complete() {
+  Picture picture = running_->picture();
+  EndedJob job{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  running_.reset();
+  job.info.state = JobState::kDone;
+  job.info.finished_s = now_.unix_s;
+  job.info.fraction = 1;
+  const EndedJob& kept = ended_.keep(std::move(job), std::move(picture));
+  for (const PeerId& peer : watchers_.take(kept.info.job)) {
+    if (kept.info.state == JobState::kDone) {
+      post_.to_peer(peer, control::Done{kept.info.job, {kept.stats_json}});
+    } else {
+      post_.answer(
+          peer, Refusal{kept.info.job, FailureCode::kFailed, "the job store", kept.info.message});
+    }
+  }
+}
+
+/// The nodes drop it. One that is deadlocked ends as that, whatever else happens while it waits for
+/// reports.
+void Jobs::fail(JobFailure failure) {
+  if (running_->is_loaded()) post_.to_nodes(control::Finish{running_->id()});
+  EndedJob job{running_->info(), "{}", false};
+  if (running_->deadlock()) {
+    failure = *running_->deadlock();
+    job.stats_json = running_->statistics(now_.now_s, cpu_, failure.errors.front().why);
+    job.is_deadlocked = true;
+  }
+  running_.reset();
+  end(std::move(job), std::move(failure));
+}
+
+void Jobs::end(EndedJob job, JobFailure failure) {
+  job.info.state = failure.state;
+  job.info.finished_s = now_.unix_s;
+  if (!failure.errors.empty()) {
+    const control::ErrorItem& first = failure.errors.front();
+    job.info.message = (first.where.empty() ? "" : first.where + ": ") + first.why;
+  }
+  control::Failed failed{job.info.job, failure.code, std::move(failure.errors), {}};
+  if (job.has_stats()) failed.stats = RawObject{job.stats_json};
+  for (const PeerId& peer : watchers_.take(failed.job)) post_.to_peer(peer, failed);
+  ended_.keep(std::move(job), {});
+}
+
+void Jobs::cancel_all() {
+  const JobFailure stopped{JobState::kCancelled, FailureCode::kCancelled, {{"", "the farm stops"}}};
+  if (running_) fail(stopped);
+  while (!queue_.is_empty()) end({queue_.take_first().info, "{}", false}, stopped);
+}
+
+}  // namespace graycube

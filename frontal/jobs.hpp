@@ -1,0 +1,92 @@
+// The jobs of a farm: which one is on, which wait for it and which have ended, what clients may ask
+// of them, and who is told when one gets on or ends.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "frontal/parts/ended_jobs.hpp"
+#include "frontal/parts/frontal_options.hpp"
+#include "frontal/parts/job_queue.hpp"
+#include "frontal/parts/post.hpp"
+#include "frontal/parts/running_job.hpp"
+#include "frontal/parts/watchers.hpp"
+
+namespace graycube {
+
+class Jobs {
+ public:
+  /// Options, store and post must outlive this.
+  Jobs(const FrontalOptions& farm, JobStore& store, Post& post);
+  void set_cpu_meter(CpuMeter meter) { cpu_ = std::move(meter); }
+
+  /// The time from now on, until it is told again.
+  void set_time(const Moment& now) { now_ = now; }
+  /// Ends the job that is on if it is out of time; tells of its progress now and then.
+  void check_time();
+
+  // Asked by clients
+  Answer submit(const control::Submit& m, std::span<const std::byte> scene);
+  Answer status(std::uint32_t job) const;
+  Answer list() const;
+  Answer watch(const PeerId& peer, std::uint32_t job);
+  Answer cancel(std::uint32_t job);
+  Answer fetch(const control::Fetch& m);
+  Answer write(const control::Write& m);
+
+  /// The preparation of the next job, once none is on.
+  std::optional<PreparationWork> take_work();
+  void give_result(PreparationResult result);
+  /// All nodes are here: a job that waits for them is loaded.
+  void load_what_waits();
+  /// Whether nodes work on a job.
+  bool keep_nodes_busy() const { return running_ && running_->is_loaded(); }
+
+  // Told by nodes
+  void on_light(std::span<const std::byte> batch);
+  /// Whether the job can start: all nodes are ready.
+  [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
+  /// `incarnations` by rank.
+  void start(std::vector<std::uint32_t> incarnations);
+  void on_node(Rank rank, const control::TokenRound& m);
+  void on_node(Rank rank, const control::Terminated& m);
+  void on_node(Rank rank, const control::NodeReport& m);
+  void on_node(Rank rank, const control::NodeError& m);
+  void on_node(Rank rank, const control::Borrow& m);
+  void on_node(Rank rank, const control::Share& m);
+  /// `last_ping`: the newest that was sent.
+  void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping);
+
+  /// A node is lost, which ends a job that was loaded. One that can't be started ends any that is
+  /// on.
+  void node_was_lost(const std::string& name, const std::string& how, bool was_starting);
+  /// The farm stops.
+  void cancel_all();
+
+ private:
+  bool is_rendered() const { return running_ && running_->is_prepared(); }
+  std::optional<control::JobInfo> find(std::uint32_t job) const;
+  /// The picture of a job that is done.
+  std::variant<const Picture*, Refusal> picture(std::uint32_t job);
+  void tell_progress();
+  void finish_when_complete();
+  void complete();
+  /// Ends the job that is on without a picture.
+  void fail(JobFailure failure);
+  /// Keeps a job that has no picture, and tells those who watch it.
+  void end(EndedJob job, JobFailure failure);
+
+  const FrontalOptions& farm_;
+  Post& post_;
+  Moment now_;
+  CpuMeter cpu_;
+  JobQueue queue_;
+  std::optional<RunningJob> running_;
+  EndedJobs ended_;
+  Watchers watchers_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,36 @@
+// The newest jobs that have ended, and their pictures as far as the store still has them.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "frontal/parts/job_store.hpp"
+
+namespace graycube {
+
+inline constexpr std::size_t kMaxEndedJobs = kMaxJobsListed;
+
+class EndedJobs {
+ public:
+  /// Takes up what an earlier frontal left. The store must outlive this.
+  explicit EndedJobs(JobStore& store);
+
+  /// Stores and lists a job. One that can't be stored has failed, and says why. Returns it as it is
+  /// listed; valid until the next call.
+  const EndedJob& keep(EndedJob job, Picture picture);
+
+  /// Null where there is none. Valid until keep().
+  const EndedJob* find(std::uint32_t job) const;
+  /// Null when it isn't kept (any longer). Valid until the next call of anything here.
+  const Picture* picture(std::uint32_t job) { return store_.picture(job); }
+  /// Those listed, the oldest first.
+  const std::deque<EndedJob>& all() const { return jobs_; }
+
+ private:
+  const EndedJob& list(EndedJob job);
+
+  JobStore& store_;
+  std::deque<EndedJob> jobs_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,42 @@
+// What a frontal is started with, and the moments and costs that it is told.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "frontal/preparation/preparation.hpp"
+#include "frontal/rendering/flow_limits.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+struct FrontalOptions {
+  Hypercube cube;
+  /// Evaluator threads per node.
+  std::uint32_t threads = 1;
+  double heartbeat_s = 1;
+  /// A node that answers nothing for so long is taken for dead.
+  double silence_s = 10;
+  std::string version;
+  /// Larger models are not replicated.
+  std::uint64_t replica_bytes = kReplicaBytes;
+  FlowLimits limits{};
+  /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a
+  /// camera has a direction, and whatever else readers of scenes check, is not checked again.
+  bool is_private = false;
+};
+
+/// Seconds on a clock that never goes back, and Unix time.
+struct Moment {
+  double now_s = 0, unix_s = 0;
+};
+
+/// Tells the CPU seconds that the frontal's process has used so far, and how many of them it took
+/// to start processes, this one included.
+struct CpuMeter {
+  std::function<double()> used_s = [] { return 0.0; };
+  std::function<double()> starting_s = [] { return 0.0; };
+};
+
+}  // namespace graycube

@@ -1,0 +1,33 @@
+// Who sends which control message: the compiler says which one nobody has been thought of for.
+#pragma once
+
+#include <concepts>
+
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+template <typename M, typename... Of>
+concept OneOf = (std::same_as<M, Of> || ...);
+
+/// From a node, once it has said hello.
+template <typename M>
+concept FromNode =
+    OneOf<M, control::Ready, control::EpochAck, control::TokenRound, control::Terminated,
+          control::NodeReport, control::Pong, control::NodeError, control::WaitReport,
+          control::Borrow, control::Share, control::Goodbye>;
+
+template <typename M>
+concept FromClient =
+    OneOf<M, control::Submit, control::Status, control::List, control::Watch, control::Cancel,
+          control::Nodes, control::Fetch, control::Write, control::Down>;
+
+template <typename M>
+concept FromFrontal =
+    OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
+          control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
+          control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
+          control::NodeList, control::Done, control::Picture, control::Written, control::Failed,
+          control::Bye>;
+
+}  // namespace graycube

@@ -1,0 +1,98 @@
+#include "frontal/parts/node_registry.hpp"
+
+#include <algorithm>
+
+namespace graycube {
+
+NodeRegistry::NodeRegistry(const Hypercube& cube, double silence_s)
+    : cube_(cube), silence_s_(silence_s), nodes_(cube.nodes()) {
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) start(Rank{rank}, 0);
+}
+
+void NodeRegistry::start(Rank rank, double now_s) {
+  Record& node = nodes_[rank.value];
+  node = {};
+  node.incarnation = next_incarnation_++;
+  node.last_heard_s = now_s;
+  starts_.push_back({rank, node.incarnation});
+}
+
+std::optional<Refusal> NodeRegistry::hello(const PeerId& peer, const control::Hello& hello,
+                                           double now_s) {
+  if (hello.rank >= nodes_.size()) {
+    return Refusal{0, FailureCode::kBadRequest, "rank", "no such node in this farm"};
+  }
+  Record& node = nodes_[hello.rank];
+  if (node.incarnation != hello.incarnation) {
+    return Refusal{0, FailureCode::kBadRequest, "incarnation", "another process is this node"};
+  }
+  node.is_here = true;
+  node.pid = hello.pid;
+  node.endpoint = hello.endpoint;
+  node.threads = hello.threads;
+  node.last_heard_s = now_s;
+  peers_[peer] = Rank{hello.rank};
+  failed_starts_ = 0;
+  return std::nullopt;
+}
+
+std::optional<Rank> NodeRegistry::rank_of(const PeerId& peer) const {
+  const auto found = peers_.find(peer);
+  if (found == peers_.end()) return std::nullopt;
+  return found->second;
+}
+
+void NodeRegistry::was_held_up(double seconds) {
+  for (Record& node : nodes_) node.last_heard_s += seconds;
+}
+
+std::vector<Rank> NodeRegistry::take_silent(double now_s) {
+  std::vector<Rank> silent;
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
+    Record& node = nodes_[rank];
+    // Those that were to be started before the first moment are waited for from then on.
+    if (node.last_heard_s == 0) node.last_heard_s = now_s;
+    if (now_s - node.last_heard_s < silence_s_) continue;
+    silent.push_back(Rank{rank});
+    kills_.push_back({Rank{rank}, node.incarnation});
+  }
+  return silent;
+}
+
+NodeRegistry::Lost NodeRegistry::lose(Rank rank) {
+  const Record& node = nodes_[rank.value];
+  std::erase_if(peers_, [rank](const auto& peer) { return peer.second == rank; });
+  std::string name = "node " + std::to_string(rank.value);
+  if (node.pid != 0) name += " (process " + std::to_string(node.pid) + ")";
+  if (!node.is_here) ++failed_starts_;
+  return {std::move(name), !node.is_here, !node.is_here && failed_starts_ >= kMaxFailedStarts};
+}
+
+bool NodeRegistry::all_here() const { return std::ranges::all_of(nodes_, &Record::is_here); }
+
+bool NodeRegistry::all_left() const { return std::ranges::all_of(nodes_, &Record::has_left); }
+
+std::vector<std::string> NodeRegistry::endpoints() const {
+  std::vector<std::string> endpoints;
+  for (const Record& node : nodes_) endpoints.push_back(node.endpoint);
+  return endpoints;
+}
+
+std::vector<std::uint32_t> NodeRegistry::incarnations() const {
+  std::vector<std::uint32_t> incarnations;
+  for (const Record& node : nodes_) incarnations.push_back(node.incarnation);
+  return incarnations;
+}
+
+control::NodeList NodeRegistry::list(bool are_busy) const {
+  control::NodeList list;
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
+    const Record& node = nodes_[rank];
+    const NodeState here = are_busy ? NodeState::kBusy : NodeState::kIdle;
+    list.nodes.push_back({rank, cube_.label_of(Rank{rank}).value, node.pid,
+                          node.is_here ? here : NodeState::kStarting, node.endpoint, node.threads});
+  }
+  return list;
+}
+
+}  // namespace graycube

@@ -1,0 +1,91 @@
+// Which node processes there are: which are to be started or ended, which have said hello, and
+// which were heard when.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frontal/parts/post.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+/// Node processes in a row that may end before their hello; then the farm gives up.
+inline constexpr unsigned kMaxFailedStarts = 8;
+
+class NodeRegistry {
+ public:
+  /// A process for a rank, with its start number.
+  struct Process {
+    Rank rank;
+    std::uint32_t incarnation = 0;
+  };
+  /// A node that was lost.
+  struct Lost {
+    /// For people: its rank, and its process if it had said hello.
+    std::string name;
+    bool was_starting = false;
+    /// Processes end before their hello again and again.
+    bool is_hopeless = false;
+  };
+
+  /// A node that answers nothing for `silence_s` is taken for dead. Every rank gets a process.
+  NodeRegistry(const Hypercube& cube, double silence_s);
+
+  /// A new process is to be started for the rank, which must have none.
+  void start(Rank rank, double now_s);
+  /// A process says which node it is. Returns why it isn't, if so.
+  [[nodiscard]] std::optional<Refusal> hello(const PeerId& peer, const control::Hello& hello,
+                                             double now_s);
+  std::optional<Rank> rank_of(const PeerId& peer) const;
+  void heard(Rank rank, double now_s) { nodes_[rank.value].last_heard_s = now_s; }
+  /// So long nobody could be heard.
+  void was_held_up(double seconds);
+  /// Those that have been silent for too long; their processes are to be ended.
+  std::vector<Rank> take_silent(double now_s);
+  /// What comes from the process no longer counts; the rank has to be started again.
+  Lost lose(Rank rank);
+  bool is_current(const Process& process) const {
+    return nodes_[process.rank.value].incarnation == process.incarnation;
+  }
+  /// The process has ended, or will send nothing more.
+  void has_left(Rank rank) { nodes_[rank.value].has_left = true; }
+
+  bool all_here() const;
+  bool all_left() const;
+  /// By rank.
+  std::vector<std::string> endpoints() const;
+  std::vector<std::uint32_t> incarnations() const;
+  /// For people; `are_busy`: those that are here work on a job.
+  control::NodeList list(bool are_busy) const;
+
+  std::vector<Process> take_starts() { return std::exchange(starts_, {}); }
+  std::vector<Process> take_kills() { return std::exchange(kills_, {}); }
+
+ private:
+  struct Record {
+    std::uint32_t incarnation = 0;
+    /// It has said hello; what follows is known since then.
+    bool is_here = false;
+    std::uint64_t pid = 0;
+    std::string endpoint;
+    std::uint32_t threads = 1;
+    double last_heard_s = 0;
+    bool has_left = false;
+  };
+
+  Hypercube cube_;
+  double silence_s_;
+  std::vector<Record> nodes_;  // by rank
+  std::map<PeerId, Rank> peers_;
+  std::uint32_t next_incarnation_ = 1;
+  std::vector<Process> starts_, kills_;
+  /// In a row.
+  unsigned failed_starts_ = 0;
+};
+
+}  // namespace graycube

@@ -1,0 +1,66 @@
+// What the frontal sends, in order, and where each node is reached.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "proto/messages.hpp"
+#include "topology/rank.hpp"
+#include "transport/message.hpp"
+
+namespace graycube {
+
+/// A connection, as the transport names it.
+using PeerId = std::string;
+
+/// The answer to a request that is granted.
+struct Reply {
+  ControlMessage message;
+  SharedBytes payload{};
+};
+
+/// Why a request is not granted.
+struct Refusal {
+  /// The job that the request names; 0 where it names none.
+  std::uint32_t job = 0;
+  FailureCode code = FailureCode::kBadRequest;
+  /// A field of the message or an option; empty where it is none of them.
+  std::string where;
+  std::string why;
+};
+
+using Answer = std::variant<Reply, Refusal>;
+
+class Post {
+ public:
+  struct Outgoing {
+    PeerId to;
+    Message message;
+  };
+
+  explicit Post(std::uint32_t nodes) : nodes_(nodes) {}
+  /// The node of that rank is reached there from now on; nowhere where `peer` is empty.
+  void set_node(Rank rank, PeerId peer) { nodes_[rank.value] = std::move(peer); }
+
+  void to_peer(const PeerId& peer, const ControlMessage& message, SharedBytes payload = {});
+  void answer(const PeerId& peer, Answer answer);
+  void to_node(Rank rank, const ControlMessage& message, SharedBytes payload = {});
+  void to_node(Rank rank, Bytes batch);
+  /// To all nodes that are reached.
+  void to_nodes(const ControlMessage& message);
+  /// To all nodes, with a payload for each.
+  void to_each_node(const ControlMessage& message,
+                    const std::function<SharedBytes(Rank)>& payload_of);
+
+  std::vector<Outgoing> take() { return std::exchange(outgoing_, {}); }
+
+ private:
+  std::vector<PeerId> nodes_;  // by rank
+  std::vector<Outgoing> outgoing_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,114 @@
+// The job that is on: how far it is, and what goes to and comes from the nodes for its sake.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontal/parts/frontal_options.hpp"
+#include "frontal/parts/job_queue.hpp"
+#include "frontal/parts/post.hpp"
+#include "frontal/rendering/deadlock_watch.hpp"
+#include "frontal/rendering/render_job.hpp"
+
+namespace graycube {
+
+/// A deadlocked job waits so long for its nodes' reports.
+inline constexpr double kReportPatience_s = 5;
+
+/// In the order in which a job goes through them.
+enum class JobStage : std::uint8_t {
+  kPreparing,  ///< its scene is read and cut
+  kPrepared,   ///< it can be loaded once all nodes are here
+  kBuilding,   ///< nodes subdivide what they were loaded with
+  kRendering,  ///< the barrier is passed
+  kReporting,  ///< nothing more will be traced; the nodes' reports are due
+};
+
+/// Why a job ends without a picture.
+struct JobFailure {
+  JobState state = JobState::kFailed;
+  FailureCode code = FailureCode::kFailed;
+  std::vector<control::ErrorItem> errors;
+};
+
+class RunningJob {
+ public:
+  /// `farm` must outlive the job.
+  RunningJob(const FrontalOptions& farm, const QueuedJob& job, const Moment& now,
+             const CpuMeter& cpu);
+
+  std::uint32_t id() const { return info_.job; }
+  JobStage stage() const { return stage_; }
+  /// Whether the nodes know of it.
+  bool is_loaded() const { return stage_ >= JobStage::kBuilding; }
+  bool is_prepared() const { return render_.has_value(); }
+  bool is_overdue(double now_s) const;
+
+  void prepared(PreparedScene scene);
+  /// All nodes are here.
+  void load(double now_s, Post& post);
+  /// Whether all nodes are ready, so that it can start.
+  [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
+  void start(std::vector<std::uint32_t> incarnations, double now_s, Post& post);
+
+  // From the nodes while it is rendered. Those that return a failure end the job with it.
+  [[nodiscard]] std::optional<JobFailure> on_light(std::span<const std::byte> batch, Post& post);
+  void on_borrow(Rank rank, const control::Borrow& m, Post& post) const;
+  void on_share(Rank owner, const control::Share& m, Post& post);
+  /// False when the token is of another job or epoch.
+  [[nodiscard]] bool on_round(const control::TokenRound& m);
+  void on_terminated(const control::Terminated& m);
+  /// `last_ping`: the newest that was sent.
+  void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping,
+                      double now_s, Post& post);
+  /// Has the nodes report once all light is here; fails where that and the token contradict each
+  /// other.
+  [[nodiscard]] std::optional<JobFailure> finish_when_complete(double now_s, Post& post);
+  /// Whether all nodes have reported: the job is over.
+  [[nodiscard]] bool on_report(const control::NodeReport& m);
+
+  /// The cycle of nodes that wait for each other, once one was found: then the job can only end
+  /// with this, whatever else happens while it waits for reports.
+  const std::optional<JobFailure>& deadlock() const { return deadlock_; }
+  /// Whether reports after a deadlock are not waited for any longer.
+  bool has_lost_patience(double now_s) const;
+
+  /// To be kept: it doesn't guess when the job ends.
+  control::JobInfo info() const;
+  control::JobInfo info_at(double now_s) const;
+  control::Progress progress_at(double now_s) const;
+  Picture picture() const { return render_->film().develop(); }
+  /// The statistics file; `failed`: why there is no picture, or empty.
+  std::string statistics(double now_s, const CpuMeter& cpu, const std::string& failed) const;
+
+ private:
+  bool is_rendering() const { return stage_ == JobStage::kRendering; }
+  void hand_out(Rank rank, Post& post);
+  void ask_for_reports(double now_s, Post& post);
+
+  struct Times {
+    double submitted_s = 0, began_s = 0, build_began_s = 0, render_began_s = 0, render_ended_s = 0;
+  };
+  struct CpuBefore {
+    double used_s = 0, starting_s = 0;
+  };
+
+  const FrontalOptions& farm_;
+  control::JobInfo info_;
+  control::JobOptions options_;
+  JobStage stage_ = JobStage::kPreparing;
+  Times times_;
+  /// 0 for the first job: what came before it was for its sake.
+  CpuBefore cpu_before_;
+  std::optional<RenderJob> render_;
+  std::optional<DeadlockWatch> deadlock_watch_;
+  std::optional<JobFailure> deadlock_;
+};
+
+/// The progress of a job that isn't running.
+control::Progress progress_of(const control::JobInfo& info);
+
+}  // namespace graycube

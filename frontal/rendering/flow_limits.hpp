@@ -1,0 +1,26 @@
+// What bounds the rays in the machine; other values are for tests.
+#pragma once
+
+#include <cstdint>
+
+#include "proto/messages.hpp"
+
+namespace graycube {
+
+struct FlowLimits {
+  /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all
+  /// their light. All rays in the machine descend from them (design section 10).
+  std::uint32_t window_tiles = 256;
+  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not
+  /// fewer than the least.
+  double window_rays = 300'000;
+  std::uint32_t least_window_tiles = 8;
+  /// What may be under way on a link and in its receiver's inbox.
+  std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
+  std::uint32_t batch_bytes = std::uint32_t{256} << 10;
+  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places
+  /// for such rays behind a node's links are a quarter of it, or one for each class and link.
+  std::uint64_t outbox_rays = kDefaultOutboxRays;
+};
+
+}  // namespace graycube

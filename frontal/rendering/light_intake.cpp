@@ -1,0 +1,74 @@
+#include "frontal/rendering/light_intake.hpp"
+
+#include <numeric>
+
+namespace graycube {
+namespace {
+
+std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
+  std::vector<std::uint32_t> rays(plan.tile_count());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    rays[i] = static_cast<std::uint32_t>(plan.primary_rays(i));
+  }
+  return rays;
+}
+
+}  // namespace
+
+LightIntake::LightIntake(std::uint32_t job, const RenderSettings& settings, const TilePlan& plan,
+                         std::uint32_t nodes)
+    : job_(job),
+      film_(settings.image.width, settings.image.height,
+            settings.image.samples * settings.image.samples, settings.aovs),
+      ledger_(rays_per_tile(plan)),
+      batches_(nodes, 0) {
+  limits_.pixel_count = (1 + kAovPlanes) * film_.pixel_count();
+  limits_.tile_count = static_cast<std::uint32_t>(ledger_.tile_count());
+  limits_.max_depth = settings.max_depth;
+  limits_.nodes = nodes;
+}
+
+LightIntake::Taken LightIntake::take(std::span<const std::byte> batch, std::uint32_t epoch) {
+  const auto result = decode_contributions(batch, limits_, credits_, contributions_);
+  if (const auto* error = std::get_if<BatchError>(&result)) {
+    return {"a broken batch of contributions: " + std::string(to_string(*error)), {}};
+  }
+  const BatchStamp& s = std::get<BatchHeader>(result).stamp;
+  if (s.job != job_ || s.epoch != epoch) return {};
+  if (s.sender >= batches_.size() || s.sequence != batches_[s.sender]) {
+    return {"a batch of contributions from node " + std::to_string(s.sender) + " was lost", {}};
+  }
+  ++batches_[s.sender];
+  Taken taken{add_light(), {}};
+  if (taken.wrong.empty()) taken.wrong = add_credit(taken.whole);
+  return taken;
+}
+
+std::string LightIntake::add_light() {
+  for (const Contribution& c : contributions_) {
+    if (c.pixel >= film_.pixel_count() && !film_.has_slot(c.pixel))
+      return "a contribution to AOVs that nobody asked for";
+    film_.add(c.pixel, c.light);
+  }
+  return {};
+}
+
+std::string LightIntake::add_credit(std::vector<std::uint32_t>& whole) {
+  for (const TileCredit& c : credits_) {
+    switch (ledger_.add(c.tile, c.credit)) {
+      case CreditResult::kOpen: break;
+      case CreditResult::kWhole: whole.push_back(c.tile); break;
+      case CreditResult::kOverflow:
+      case CreditResult::kUnknownTile:
+        return "internal error: more was done of part " + std::to_string(c.tile) +
+               " of the picture than there is of it";
+    }
+  }
+  return {};
+}
+
+std::uint64_t LightIntake::batches() const {
+  return std::accumulate(batches_.begin(), batches_.end(), std::uint64_t{0});
+}
+
+}  // namespace graycube

@@ -1,0 +1,52 @@
+// The light and credit that nodes send: added up on the film and in the ledger of tiles, each batch
+// once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordination/tile_ledger.hpp"
+#include "film/film.hpp"
+#include "proto/batch.hpp"
+#include "shading/settings.hpp"
+#include "trace/tile_plan.hpp"
+
+namespace graycube {
+
+class LightIntake {
+ public:
+  struct Taken {
+    /// Why the batch can't be added, or empty.
+    std::string wrong;
+    /// Tiles that have become whole.
+    std::vector<std::uint32_t> whole;
+  };
+
+  LightIntake(std::uint32_t job, const RenderSettings& settings, const TilePlan& plan,
+              std::uint32_t nodes);
+
+  /// Batches of another job or epoch are passed over.
+  Taken take(std::span<const std::byte> batch, std::uint32_t epoch);
+
+  const Film& film() const { return film_; }
+  const TileLedger& tiles() const { return ledger_; }
+  /// Batches of the epoch that have come.
+  std::uint64_t batches() const;
+
+ private:
+  std::string add_light();
+  std::string add_credit(std::vector<std::uint32_t>& whole);
+
+  std::uint32_t job_;
+  Film film_;
+  TileLedger ledger_;
+  BatchLimits limits_;
+  std::vector<std::uint64_t> batches_;  // by rank
+  /// The batch that is taken in; here so that its memory serves the next.
+  std::vector<TileCredit> credits_;
+  std::vector<Contribution> contributions_;
+};
+
+}  // namespace graycube

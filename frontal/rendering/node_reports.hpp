@@ -1,0 +1,36 @@
+// What the nodes did for a job, as they report it at its end.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frontal/rendering/roll_call.hpp"
+#include "proto/messages.hpp"
+#include "topology/hypercube.hpp"
+
+namespace graycube {
+
+class NodeReports {
+ public:
+  explicit NodeReports(const Hypercube& cube) : came_(cube.nodes()), stats_(cube.nodes()) {
+    for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
+      stats_[rank].rank = rank;
+      stats_[rank].gray = cube.label_of(Rank{rank}).value;
+    }
+  }
+
+  /// The first of each node counts.
+  void add(const control::NodeStats& stats) {
+    if (stats.rank >= stats_.size() || !came_.note(Rank{stats.rank})) return;
+    stats_[stats.rank] = stats;
+  }
+  bool are_complete() const { return came_.is_complete(); }
+  /// By rank; of a node that has not reported only who it is.
+  const std::vector<control::NodeStats>& stats() const { return stats_; }
+
+ private:
+  RollCall came_;
+  std::vector<control::NodeStats> stats_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,85 @@
+#include "frontal/rendering/render_job.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "proto/tile_shape.hpp"
+
+namespace graycube {
+
+RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
+                     std::uint32_t threads, const FlowLimits& limits, SumsMode sums)
+    : job_(job),
+      scene_(std::move(scene)),
+      cube_(cube),
+      threads_(threads),
+      limits_(limits),
+      sums_(sums),
+      slices_(cube_, std::move(scene_.slices), {lends(), scene_.makes_copies, scene_.copy_room}),
+      tiles_(cube_, *scene_.plan, way(), {scene_, cube_.nodes(), threads_, limits_}),
+      light_(job_, scene_.settings, *scene_.plan, cube_.nodes()),
+      ready_(cube_.nodes()),
+      reports_(cube_) {}
+
+TileHandout::Way RenderJob::way() const {
+  if (is_roth()) return TileHandout::Way::kAny;
+  return scene_.has_replicas ? TileHandout::Way::kHelp : TileHandout::Way::kOwn;
+}
+
+control::Load RenderJob::load() const {
+  control::Load m;
+  m.job = job_;
+  m.epoch = epoch_;
+  m.algorithm = scene_.algorithm;
+  m.threads = threads_;
+  m.grid = scene_.grid;
+  m.grain = scene_.grain;
+  m.tile_size = kTileSide;
+  m.shadows = scene_.shadows;
+  m.flow = scene_.flow;
+  m.queue = scene_.queue;
+  m.horizon_bytes = scene_.horizon_bytes;
+  m.borrow_bytes = lends() ? kBorrowBytes : 0;
+  m.is_replica = scene_.has_replicas;
+  m.makes_copies = scene_.makes_copies;
+  m.sums = sums_;
+  m.link_credit_bytes = limits_.link_credit_bytes;
+  m.window_tiles = tiles_.window().first_size();
+  m.batch_bytes = limits_.batch_bytes;
+  set_class_places(m);
+  if (scene_.flow == FlowMode::kBlocking) {
+    // One evaluator a node, one ray a message, and the queue's places shared out among the links.
+    m.threads = 1;
+    m.batch_bytes = kRayBytes;
+    m.link_credit_bytes = kRayBytes * std::max(1u, scene_.queue / std::max(1u, cube_.dimension()));
+  }
+  return m;
+}
+
+void RenderJob::set_class_places(control::Load& m) const {
+  const std::uint64_t classes =
+      most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows);
+  // Classes beyond the last would share its places and could wait for themselves.
+  if (classes < kMaxHops) m.outbox_rays = limits_.outbox_rays;
+  m.class_places = static_cast<std::uint32_t>(std::max<std::uint64_t>(
+      1, limits_.outbox_rays / (4 * classes * std::max(1u, cube_.dimension()))));
+}
+
+std::string RenderJob::add_contributions(std::span<const std::byte> batch,
+                                         std::vector<Rank>& opened) {
+  LightIntake::Taken taken = light_.take(batch, epoch_);
+  for (const std::uint32_t tile : taken.whole) opened.push_back(tiles_.is_whole(tile));
+  return std::move(taken.wrong);
+}
+
+bool RenderJob::is_complete() const {
+  return light_.tiles().all_whole() && (is_roth() || all_batches_in());
+}
+
+std::string RenderJob::contradiction() const {
+  if (is_roth() || !all_batches_in() || light_.tiles().all_whole()) return {};
+  return "internal error: no node has anything left to do, but " +
+         std::to_string(tiles() - tiles_whole()) + " parts of the picture are not final";
+}
+
+}  // namespace graycube

@@ -1,0 +1,100 @@
+// A job while it is on the nodes: who has which slice and which tiles, what light has come of them,
+// what the token says, and what the nodes report.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontal/preparation/preparation.hpp"
+#include "frontal/rendering/flow_limits.hpp"
+#include "frontal/rendering/light_intake.hpp"
+#include "frontal/rendering/node_reports.hpp"
+#include "frontal/rendering/roll_call.hpp"
+#include "frontal/rendering/slice_stock.hpp"
+#include "frontal/rendering/tile_handout.hpp"
+
+namespace graycube {
+
+/// Shadows local: what a node may use for other nodes' models.
+inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
+
+class RenderJob {
+ public:
+  RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
+            const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
+  /// Parts refer to the plan of its scene.
+  RenderJob(const RenderJob&) = delete;
+  RenderJob& operator=(const RenderJob&) = delete;
+
+  std::uint32_t id() const { return job_; }
+  std::uint32_t epoch() const { return epoch_; }
+  /// Whether a node's message is about this job and epoch.
+  bool is_meant(const auto& message) const {
+    return message.job == job_ && message.epoch == epoch_;
+  }
+  const PreparedScene& scene() const { return scene_; }
+  SumsMode sums() const { return sums_; }
+  std::uint32_t threads() const { return threads_; }
+  bool is_roth() const { return scene_.algorithm == Algorithm::kRoth; }
+  control::Load load() const;
+  SliceStock& slices() { return slices_; }
+  const SliceStock& slices() const { return slices_; }
+
+  void set_ready(Rank rank) { ready_.note(rank); }
+  bool all_ready() const { return ready_.is_complete(); }
+
+  /// Tiles to hand to a node now.
+  std::vector<std::uint32_t> next_tiles(Rank rank) { return tiles_.next(rank); }
+  std::uint64_t next_assignment_sequence(Rank rank) { return tiles_.next_sequence(rank); }
+  /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
+  /// nodes whose windows opened are appended to `opened`.
+  std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
+  /// By rank, how many of its tiles neighbours have made whole since this was last asked.
+  std::vector<std::uint32_t> take_relief() { return tiles_.take_relief(); }
+
+  void set_terminated(const control::Terminated& verdict) { verdict_ = verdict; }
+  /// How far the token is.
+  void set_token(const control::TokenProgress& token) { token_ = token; }
+  const control::TokenProgress& token() const { return token_; }
+  std::size_t tiles() const { return light_.tiles().tile_count(); }
+  std::size_t tiles_whole() const { return light_.tiles().whole_count(); }
+  bool is_complete() const;
+  /// What contradicts what, when the token says that nothing is left but a tile is open; else
+  /// empty.
+  std::string contradiction() const;
+  const Film& film() const { return light_.film(); }
+
+  NodeReports& reports() { return reports_; }
+  const NodeReports& reports() const { return reports_; }
+
+ private:
+  /// Whether nodes may ask for each other's slices.
+  bool lends() const {
+    return !is_roth() && scene_.shadows == ShadowMode::kLocal && !scene_.has_replicas;
+  }
+  bool all_batches_in() const {
+    return verdict_ && light_.batches() == verdict_->contribution_batches;
+  }
+  TileHandout::Way way() const;
+  void set_class_places(control::Load& m) const;
+
+  std::uint32_t job_;
+  std::uint32_t epoch_ = 0;
+  PreparedScene scene_;
+  Hypercube cube_;
+  std::uint32_t threads_;
+  FlowLimits limits_;
+  SumsMode sums_;
+  SliceStock slices_;
+  TileHandout tiles_;
+  LightIntake light_;
+  RollCall ready_;
+  NodeReports reports_;
+  std::optional<control::Terminated> verdict_;
+  control::TokenProgress token_;
+};
+
+}  // namespace graycube

@@ -1,0 +1,160 @@
+// Which job is on, who hears of it, and how jobs end.
+#include "frontal/jobs.hpp"
+
+#include "catch.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "frontal/sent_post.hpp"
+#include "trace/corner_scene.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+struct Farm {
+  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
+  std::unique_ptr<JobStore> store = make_memory_store();
+  Post post = post_of(2);
+  Jobs jobs{options, *store, post};
+
+  std::uint32_t submit(control::JobOptions o = {}, const std::string& text = scene()) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return granted<control::Accepted>(jobs.submit({"a scene", o}, bytes)).job;
+  }
+  static std::string scene() { return write_scene_text(corner_scene()); }
+  /// Prepares the next job and loads it.
+  void load_next() {
+    auto work = jobs.take_work();
+    REQUIRE(work);
+    jobs.give_result(prepare(*work, [] { return 0.0; }));
+    jobs.load_what_waits();
+  }
+  JobState state_of(std::uint32_t job) { return granted<control::JobInfo>(jobs.status(job)).state; }
+};
+
+}  // namespace
+
+TEST_CASE("one job is on at a time, the others wait in order, and all are listed") {
+  Farm farm;
+  for (std::uint32_t i = 1; i <= 3; ++i) CHECK(farm.submit() == i);
+  CHECK(farm.jobs.take_work()->job == 1);
+  CHECK_FALSE(farm.jobs.take_work());
+  CHECK(farm.state_of(1) == JobState::kLoading);
+  CHECK(farm.state_of(2) == JobState::kQueued);
+  CHECK(refused(farm.jobs.status(4)) == FailureCode::kUnknownJob);
+  farm.jobs.cancel(1);
+  CHECK(farm.jobs.take_work()->job == 2);
+  const auto listed = granted<control::Jobs>(farm.jobs.list()).jobs;
+  REQUIRE(listed.size() == 3);
+  for (std::uint32_t i = 0; i < 3; ++i) CHECK(listed[i].job == i + 1);
+  CHECK(listed[0].state == JobState::kCancelled);
+}
+
+TEST_CASE(
+    "a scene that can't be read ends its job as bad input, and watchers "
+    "are told") {
+  Farm farm;
+  const std::uint32_t job = farm.submit({}, "no scene");
+  CHECK(granted<control::Progress>(farm.jobs.watch("a", job)).state == JobState::kQueued);
+  farm.load_next();
+  const auto failed = SentPost(farm.post).told<control::Failed>("a");
+  REQUIRE(failed.size() == 1);
+  CHECK(failed.front().code == FailureCode::kBadInput);
+  CHECK(farm.state_of(job) == JobState::kFailed);
+  // Who asks later hears that it failed.
+  CHECK(granted<control::Failed>(farm.jobs.watch("b", job)).code == FailureCode::kFailed);
+}
+
+TEST_CASE("a job that is cancelled while it is prepared stays cancelled") {
+  Farm farm;
+  const std::uint32_t job = farm.submit();
+  const auto work = farm.jobs.take_work();
+  CHECK(granted<control::JobInfo>(farm.jobs.cancel(job)).state == JobState::kCancelled);
+  farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
+  farm.jobs.load_what_waits();
+  CHECK(farm.state_of(job) == JobState::kCancelled);
+  CHECK(SentPost(farm.post).all.empty());
+  CHECK(refused(farm.jobs.cancel(job)) == FailureCode::kBadRequest);
+  CHECK(refused(farm.jobs.cancel(9)) == FailureCode::kUnknownJob);
+}
+
+TEST_CASE("a job that waits can be cancelled, and those who watch it hear of it") {
+  Farm farm;
+  farm.submit();
+  const std::uint32_t second = farm.submit();
+  farm.load_next();
+  SentPost(farm.post);
+  farm.jobs.watch("a", second);
+  CHECK(granted<control::JobInfo>(farm.jobs.cancel(second)).message == "cancelled");
+  CHECK(SentPost(farm.post).told<control::Failed>("a").front().code == FailureCode::kCancelled);
+  CHECK(farm.jobs.keep_nodes_busy());
+}
+
+TEST_CASE(
+    "a lost node ends a job that is loaded, and one that can't be "
+    "started any") {
+  Farm farm;
+  const std::uint32_t job = farm.submit();
+  const auto work = farm.jobs.take_work();
+  farm.jobs.node_was_lost("node 1", "died", false);
+  CHECK(farm.state_of(job) == JobState::kLoading);
+  SECTION("loaded") {
+    farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
+    farm.jobs.load_what_waits();
+    SentPost(farm.post);
+    farm.jobs.node_was_lost("node 1", "died", false);
+    CHECK(SentPost(farm.post).names() ==
+          std::vector<std::string>{"node 0: finish", "node 1: finish"});
+  }
+  SECTION("not started") { farm.jobs.node_was_lost("node 1", "died", true); }
+  CHECK(farm.state_of(job) == JobState::kFailed);
+  CHECK(granted<control::JobInfo>(farm.jobs.status(job)).message == "node 1: died");
+}
+
+TEST_CASE("a job whose time is up has failed for that reason") {
+  Farm farm;
+  farm.jobs.set_time({100, 0});
+  const std::uint32_t job = farm.submit({.timeout_s = 5});
+  farm.jobs.take_work();
+  farm.jobs.watch("a", job);
+  farm.jobs.set_time({105, 0});
+  farm.jobs.check_time();
+  CHECK(farm.state_of(job) == JobState::kLoading);
+  farm.jobs.set_time({106, 0});
+  farm.jobs.check_time();
+  CHECK(SentPost(farm.post).told<control::Failed>("a").front().code == FailureCode::kTimeout);
+}
+
+TEST_CASE("a picture is there when its job is done, and not before") {
+  Farm farm;
+  const std::uint32_t job = farm.submit({.algorithm = Algorithm::kRoth});
+  CHECK(refused(farm.jobs.fetch({job, 0, 1, 0})) == FailureCode::kNotDone);
+  CHECK(refused(farm.jobs.fetch({job + 1, 0, 1, 0})) == FailureCode::kUnknownJob);
+}
+
+TEST_CASE("when the farm stops all jobs are cancelled, and no other begins") {
+  Farm farm;
+  for (int i = 0; i < 3; ++i) farm.submit();
+  farm.load_next();
+  farm.jobs.cancel_all();
+  for (std::uint32_t job = 1; job <= 3; ++job) CHECK(farm.state_of(job) == JobState::kCancelled);
+  CHECK_FALSE(farm.jobs.take_work());
+}
+
+TEST_CASE("numbers go on where an earlier frontal stopped") {
+  class LeftOver : public JobStore {
+    void keep(const EndedJob&, Picture) override {}
+    const Picture* picture(std::uint32_t) override { return nullptr; }
+    std::vector<EndedJob> recover() override {
+      EndedJob job;
+      job.info.job = 17;
+      job.info.state = JobState::kDone;
+      return {job};
+    }
+  } store;
+  const FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
+  Post post = post_of(2);
+  Jobs jobs(options, store, post);
+  CHECK(granted<control::Accepted>(jobs.submit({}, {})).job == 18);
+  CHECK(refused(jobs.fetch({17, 0, 1, 0})) == FailureCode::kFailed);
+}

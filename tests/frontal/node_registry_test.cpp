@@ -1,0 +1,147 @@
+#include "frontal/parts/node_registry.hpp"
+
+#include "catch.hpp"
+#include "frontal/sent_post.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+constexpr double kSilence_s = 10;
+
+control::Hello hello(const NodeRegistry::Process& process) {
+  return {process.rank.value,
+          4000 + process.incarnation,
+          process.incarnation,
+          "ipc://" + std::to_string(process.rank.value),
+          2,
+          "test"};
+}
+
+/// A registry of four nodes, and the processes that it has asked for.
+struct Four {
+  NodeRegistry nodes{*Hypercube::of_size(4), kSilence_s};
+  std::vector<NodeRegistry::Process> processes = nodes.take_starts();
+
+  void all_say_hello(double now_s) {
+    for (const auto& p : processes)
+      REQUIRE_FALSE(nodes.hello(peer_of(p.rank.value), hello(p), now_s));
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "every rank gets a process with a number of its own, and all are "
+    "here after their hello") {
+  Four four;
+  REQUIRE(four.processes.size() == 4);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    CHECK(four.processes[i].rank == Rank{i});
+    CHECK(four.processes[i].incarnation == i + 1);
+    CHECK_FALSE(four.nodes.all_here());
+    CHECK_FALSE(four.nodes.rank_of(peer_of(i)));
+    CHECK_FALSE(four.nodes.hello(peer_of(i), hello(four.processes[i]), 1));
+    CHECK(four.nodes.rank_of(peer_of(i)) == Rank{i});
+  }
+  CHECK(four.nodes.all_here());
+  CHECK(four.nodes.endpoints() ==
+        std::vector<std::string>{"ipc://0", "ipc://1", "ipc://2", "ipc://3"});
+  CHECK(four.nodes.incarnations() == std::vector<std::uint32_t>{1, 2, 3, 4});
+}
+
+TEST_CASE(
+    "a hello of a rank that there isn't, or of another process than was "
+    "started, is refused") {
+  Four four;
+  control::Hello other = hello(four.processes[1]);
+  other.incarnation += 100;
+  auto refusal = four.nodes.hello("x", other, 1);
+  REQUIRE(refusal);
+  CHECK(refusal->where == "incarnation");
+  other.rank = 4;
+  refusal = four.nodes.hello("x", other, 1);
+  REQUIRE(refusal);
+  CHECK(refusal->where == "rank");
+  CHECK_FALSE(four.nodes.rank_of("x"));
+}
+
+TEST_CASE(
+    "a node that is silent for too long is to be ended, unless nobody "
+    "could hear it") {
+  Four four;
+  four.all_say_hello(100);
+  CHECK(four.nodes.take_silent(100 + kSilence_s - 0.1).empty());
+  four.nodes.heard(Rank{2}, 105);
+  four.nodes.was_held_up(3);
+  CHECK(four.nodes.take_silent(100 + kSilence_s).empty());
+  CHECK(four.nodes.take_silent(103 + kSilence_s) == std::vector{Rank{0}, Rank{1}, Rank{3}});
+  const auto kills = four.nodes.take_kills();
+  REQUIRE(kills.size() == 3);
+  CHECK(kills[2].rank == Rank{3});
+  CHECK(kills[2].incarnation == 4);
+}
+
+TEST_CASE(
+    "a lost node is unknown from then on, and another process takes its "
+    "place") {
+  Four four;
+  four.all_say_hello(1);
+  const auto lost = four.nodes.lose(Rank{2});
+  CHECK(lost.name == "node 2 (process 4003)");
+  CHECK_FALSE(lost.was_starting);
+  CHECK_FALSE(lost.is_hopeless);
+  CHECK_FALSE(four.nodes.rank_of(peer_of(2)));
+  four.nodes.start(Rank{2}, 2);
+  CHECK_FALSE(four.nodes.all_here());
+  const auto starts = four.nodes.take_starts();
+  REQUIRE(starts.size() == 1);
+  CHECK(starts.front().incarnation == 5);
+  CHECK(four.nodes.is_current(starts.front()));
+  CHECK_FALSE(four.nodes.is_current(four.processes[2]));
+  // The one before comes too late.
+  CHECK(four.nodes.hello("late", hello(four.processes[2]), 3));
+}
+
+TEST_CASE(
+    "starting is hopeless when processes end before their hello, many in "
+    "a row") {
+  Four four;
+  for (unsigned i = 1; i < kMaxFailedStarts; ++i) {
+    const auto lost = four.nodes.lose(Rank{1});
+    CHECK(lost.was_starting);
+    CHECK(lost.name == "node 1");
+    CHECK_FALSE(lost.is_hopeless);
+    four.nodes.start(Rank{1}, i);
+  }
+  SECTION("so many") { CHECK(four.nodes.lose(Rank{1}).is_hopeless); }
+  SECTION("but one that says hello is a new hope") {
+    CHECK_FALSE(four.nodes.hello(peer_of(0), hello(four.processes[0]), 9));
+    CHECK_FALSE(four.nodes.lose(Rank{1}).is_hopeless);
+  }
+}
+
+TEST_CASE("who is here is listed as idle or busy, the others as starting") {
+  Four four;
+  CHECK_FALSE(four.nodes.hello("a", hello(four.processes[1]), 1));
+  for (const bool are_busy : {false, true}) {
+    const auto list = four.nodes.list(are_busy).nodes;
+    REQUIRE(list.size() == 4);
+    CHECK(list[0].state == NodeState::kStarting);
+    CHECK(list[1].state == (are_busy ? NodeState::kBusy : NodeState::kIdle));
+    CHECK(list[1].pid == 4002);
+    CHECK(list[1].threads == 2);
+    CHECK(list[1].endpoint == "ipc://1");
+    CHECK(list[2].gray == Hypercube::of_size(4)->label_of(Rank{2}).value);
+  }
+}
+
+TEST_CASE("all have left when the last has") {
+  Four four;
+  for (std::uint32_t rank = 0; rank < 4; ++rank) {
+    CHECK_FALSE(four.nodes.all_left());
+    four.nodes.has_left(Rank{rank});
+  }
+  CHECK(four.nodes.all_left());
+}

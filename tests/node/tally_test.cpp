@@ -1,0 +1,45 @@
+#include "node/tally.hpp"
+
+#include "catch.hpp"
+
+using namespace graycube;
+
+namespace {
+
+control::NodeStats report_of(const Tally& tally) {
+  control::NodeStats stats;
+  tally.report(stats);
+  return stats;
+}
+
+}  // namespace
+
+TEST_CASE("what was traced adds up, each kind of ray by itself") {
+  Step step;
+  step.rays.created = {1, 20, 300, 4000};
+  step.rays.skipped_by_horizon = 5;
+  step.rounding.non_finite = 6;
+  step.rounding.clamped = 7;
+  Tally tally;
+  tally.add(step);
+  tally.add(step);
+  const control::NodeStats stats = report_of(tally);
+  CHECK(stats.primary == 2);
+  CHECK(stats.shadow == 40);
+  CHECK(stats.reflection == 600);
+  CHECK(stats.refraction == 8000);
+  CHECK(stats.skipped_by_horizon == 10);
+  CHECK(stats.non_finite == 12);
+  CHECK(stats.clamped == 14);
+}
+
+TEST_CASE("rays that come are counted, and of those that wait the most at a time") {
+  Tally tally;
+  tally.rays_came(30);
+  tally.rays_came(12);
+  tally.note_queue(9);
+  tally.note_queue(42);
+  tally.note_queue(0);
+  CHECK(report_of(tally).rays_in == 42);
+  CHECK(report_of(tally).queue_peak == 42);
+}
