@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "csg/build_primitive.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "geometry/infinity.hpp"
 #include "geometry/portable_math.hpp"
 #include "mesh/close_mesh.hpp"
 #include "proto/batch.hpp"
@@ -24,7 +24,6 @@
 namespace graycube::bench {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr std::size_t kRays = 1024;
 
 /// Cuts a triangle of the unit sphere into four, and those again.

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "crossings/crossings.hpp"
@@ -199,7 +198,7 @@ bool conjunction_ends(std::span<const Ends> removed, double from, double to, dou
       }
     }
     if (!(at < to) || at >= t1) return true;
-    if (at >= t0 && at > -csg::kInf && !visit(at, true)) return false;
+    if (at >= t0 && at > -kInf && !visit(at, true)) return false;
     double end = to;
     for (const Ends& r : removed) {
       if (r.enter > at && r.enter < end && r.enter < r.leave) end = r.enter;

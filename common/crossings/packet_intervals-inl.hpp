@@ -41,13 +41,13 @@ struct LaneRays {
 struct LaneInterval {
   Doubles enter, leave;
 
-  static HWY_INLINE LaneInterval whole() { return {every(-csg::kInf), every(csg::kInf)}; }
+  static HWY_INLINE LaneInterval whole() { return {every(-kInf), every(kInf)}; }
   // Written with comparisons, as csg::Interval is, so that a NaN goes the same way.
   HWY_INLINE void enter_after(Doubles t) { enter = hn::IfThenElse(hn::Gt(t, enter), t, enter); }
   HWY_INLINE void leave_before(Doubles t) { leave = hn::IfThenElse(hn::Lt(t, leave), t, leave); }
   HWY_INLINE void make_empty(LaneMask where) {
-    enter = hn::IfThenElse(where, every(csg::kInf), enter);
-    leave = hn::IfThenElse(where, every(-csg::kInf), leave);
+    enter = hn::IfThenElse(where, every(kInf), enter);
+    leave = hn::IfThenElse(where, every(-kInf), leave);
   }
 };
 
@@ -143,8 +143,8 @@ HWY_INLINE LaneInterval lanes_tube(const LaneVec& o, const LaneVec& d) {
   LaneInterval i{hn::Sub(nearest, half), hn::Add(nearest, half)};
   i.make_empty(hn::Not(hn::Ge(h2, hn::Zero(Lanes()))));
   // Parallel to the axis.
-  i.enter = hn::IfThenElse(slants, i.enter, every(-csg::kInf));
-  i.leave = hn::IfThenElse(slants, i.leave, every(csg::kInf));
+  i.enter = hn::IfThenElse(slants, i.enter, every(-kInf));
+  i.leave = hn::IfThenElse(slants, i.leave, every(kInf));
   const Doubles axis_distance2 = hn::Add(hn::Mul(o.x, o.x), hn::Mul(o.y, o.y));
   i.make_empty(hn::AndNot(slants, hn::Gt(axis_distance2, every(1.0))));
   return i;
@@ -182,10 +182,10 @@ HWY_INLINE LaneInterval lanes_positive_nappe(Doubles w, Doubles wd) {
   const Doubles apex = hn::Div(hn::Neg(w), wd);
   const LaneMask level = hn::Eq(wd, zero);
   const LaneMask upward = hn::Gt(wd, zero);
-  LaneInterval i{hn::IfThenElse(upward, apex, every(-csg::kInf)),
-                 hn::IfThenElse(upward, every(csg::kInf), apex)};
-  i.enter = hn::IfThenElse(level, every(-csg::kInf), i.enter);
-  i.leave = hn::IfThenElse(level, every(csg::kInf), i.leave);
+  LaneInterval i{hn::IfThenElse(upward, apex, every(-kInf)),
+                 hn::IfThenElse(upward, every(kInf), apex)};
+  i.enter = hn::IfThenElse(level, every(-kInf), i.enter);
+  i.leave = hn::IfThenElse(level, every(kInf), i.leave);
   i.make_empty(hn::AndNot(hn::Ge(w, zero), level));
   return i;
 }
@@ -220,9 +220,8 @@ HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const Lane
   const LaneInterval between{lanes_fmin(r0, r1), lanes_fmax(r0, r1)};
   LaneInterval i = between;
   if (!hn::AllTrue(lanes, opens)) {
-    const LaneInterval above{between.leave, every(csg::kInf)},
-        below{every(-csg::kInf), between.enter};
-    const LaneInterval before{every(-csg::kInf), r1}, behind{r1, every(csg::kInf)};
+    const LaneInterval above{between.leave, every(kInf)}, below{every(-kInf), between.enter};
+    const LaneInterval before{every(-kInf), r1}, behind{r1, every(kInf)};
     const LaneInterval parallel = choose(hn::Gt(b, zero), before, behind);
     i = choose(opens, i, choose(hn::Lt(a, zero), choose(hn::Gt(wd, zero), above, below), parallel));
   }

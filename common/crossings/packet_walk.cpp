@@ -4,11 +4,11 @@
 // left, they go on singly.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "crossings/ray_packet.hpp"
 #include "crossings/surface_tree.hpp"
 #include "geometry/simd.hpp"
+#include "set_bits.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crossings/packet_walk.cpp"
@@ -45,7 +45,7 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
   HWY_ALIGN double t1[kRays];
   Mask any = 0;
   for (std::size_t i = 0; i < kRays; ++i) {
-    t1[i] = i < packet.count ? packet.t1[i] : -csg::kInf;
+    t1[i] = i < packet.count ? packet.t1[i] : -kInf;
     if (i < packet.count) found[i].t = packet.t1[i];
   }
   const auto shorten = [&](std::size_t i) {
@@ -65,7 +65,7 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
     for (std::size_t i = 0; i < kRays; ++i) {
       // At equal t the first object wins.
       const bool wins_ties = (any >> i & 1) != 0 && it.object < found[i].object;
-      end[i] = wins_ties ? std::nextafter(t1[i], Aabb::kInf) : t1[i];
+      end[i] = wins_ties ? std::nextafter(t1[i], kInf) : t1[i];
     }
     MeshPacket mesh(tree.mesh_of(it), packet, p, rays, end, true, scratch);
     mesh.crossings<Order::kNearestFirst>([&](std::size_t i, double t, bool entering) {
@@ -83,13 +83,12 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
     }
     const auto take = [&](std::size_t first, std::uint32_t group) {
       group = lanes.meet(tree, it, packet, p, first, t1, group, scratch);
-      for (; group != 0; group &= group - 1) {
-        const std::size_t lane = first_ray(group);
+      for (const std::size_t lane : SetBits(group)) {
         const std::size_t i = first + lane;
         // At equal t the first object wins.
         const bool wins_ties = (any >> i & 1) != 0 && it.object < found[i].object;
         double begin = packet.t0[i];
-        double end = wins_ties ? std::nextafter(t1[i], Aabb::kInf) : t1[i];
+        double end = wins_ties ? std::nextafter(t1[i], kInf) : t1[i];
         if (!tree.clip_to_cell(it, single[i], begin, end)) continue;
         lanes.crossings(tree, it, lane, begin, end, [&](const Crossing& c) {
           found[i] = c;
@@ -166,8 +165,7 @@ Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& s
       std::uint32_t ended = lanes.crossed & group;
       if (!lanes.is_convex || !it.is_opaque) {
         ended = 0;
-        for (; group != 0; group &= group - 1) {
-          const std::size_t lane = first_ray(group);
+        for (const std::size_t lane : SetBits(group)) {
           if (!lanes.crossings(tree, it, lane, lanes.begins[lane], lanes.ends[lane],
                                [&](const Crossing& c) { return passes(first + lane, c); })) {
             ended |= std::uint32_t{1} << lane;

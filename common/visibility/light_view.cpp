@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "geometry/infinity.hpp"
 #include "visibility/light_horizons.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 /// Directions are taken this much wider than a texel, in units of a face's half side.
 constexpr double kWiden = 1e-6;
 /// Solids are taken this many δ larger; distances are given this much shorter, relatively.

@@ -125,7 +125,7 @@ struct Values {
 };
 
 BrlcadNode ellipsoid(const Vec3& center, std::array<Vec3, 3> axes, double grow) {
-  double largest = 0, least = Aabb::kInf;
+  double largest = 0, least = kInf;
   for (Vec3& axis : axes) {
     axis = longer(axis, grow);
     largest = std::fmax(largest, length(axis));

@@ -62,7 +62,7 @@ TEST_CASE(
                                operation(Operation::kDifference, {met, missed})}) {
     const Model model = compile_scene(scene_of({solid}));
     TreeScratch scratch;
-    const auto hit = SurfaceTree::build(model).first_crossing(ray, 0, Aabb::kInf, scratch);
+    const auto hit = SurfaceTree::build(model).first_crossing(ray, 0, kInf, scratch);
     REQUIRE(hit);
     CHECK(hit->t == Approx(2 * std::sqrt(2.0)));
     CHECK(model.primitives[hit->primitive].v[3] == 5);
@@ -86,8 +86,8 @@ TEST_CASE("a tree of one item and a tree of thousands find the same") {
     // From outside all of them, so that the nearest surface is the union's.
     const Vec3 from = 9.0 * random.dice().unit_vector();
     const Ray ray{from, normalized(random.dice().point(3) - from)};
-    const auto a = many.first_crossing(ray, 0, Aabb::kInf, scratch);
-    const auto b = one.first_crossing(ray, 0, Aabb::kInf, scratch);
+    const auto a = many.first_crossing(ray, 0, kInf, scratch);
+    const auto b = one.first_crossing(ray, 0, kInf, scratch);
     INFO("ray " << i);
     REQUIRE(a.has_value() == b.has_value());
     if (!a) continue;

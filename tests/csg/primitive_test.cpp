@@ -55,7 +55,7 @@ TEST_CASE("intervals are ordered, disjoint, without NaN and without negative zer
   for_random_primitives([](const OnePrimitive& one, Dice& dice) {
     for (int i = 0; i < 40; ++i) {
       const Spans spans = one.spans(ray_towards(one, dice));
-      double last = -Aabb::kInf;
+      double last = -kInf;
       for (int k = 0; k < spans.count; ++k) {
         const auto [enter, leave] = spans.interval[static_cast<std::size_t>(k)];
         const bool fine = enter >= last && leave >= enter && !(enter == 0 && std::signbit(enter)) &&
@@ -156,7 +156,7 @@ TEST_CASE("bounds are tight around bounded solids") {
         if (!b.is_finite()) return;
         // The extreme of the surface along an axis, by many rays across it.
         for (int a = 0; a < 3; ++a) {
-          double most = -Aabb::kInf;
+          double most = -kInf;
           for (int i = 0; i < 900; ++i) {
             Ray ray;
             ray.direction[a] = 1;
@@ -224,8 +224,8 @@ TEST_CASE("a cell that counts as outside or inside is so with every point") {
         const double size = std::pow(10, dice.between(-3, 1));
         const Vec3 half{size * dice.unit(), size * dice.unit(), size * dice.unit()};
         Aabb cell{middle - half, middle + half};
-        if (dice.one_in(4)) cell.lo[static_cast<int>(dice.below(3))] = -Aabb::kInf;
-        if (dice.one_in(4)) cell.hi[static_cast<int>(dice.below(3))] = Aabb::kInf;
+        if (dice.one_in(4)) cell.lo[static_cast<int>(dice.below(3))] = -kInf;
+        if (dice.one_in(4)) cell.hi[static_cast<int>(dice.below(3))] = kInf;
         const CellSide side = one.side(cell.grown(one.model.delta));
         (side == CellSide::kOutside ? outside : side == CellSide::kInside ? inside : crosses) += 1;
         if (side == CellSide::kCrosses) continue;

@@ -16,7 +16,7 @@ struct RayCase {
   const char* what;
   Ray ray;
   double t0 = 0;
-  double t1 = Aabb::kInf;
+  double t1 = kInf;
 };
 
 inline constexpr std::size_t kRayCases = 9;
@@ -115,7 +115,7 @@ class RandomRays {
   RayCase from_surface() {
     for (int tries = 0; tries < 8; ++tries) {
       const Ray ray{dice_.point(6), dice_.unit_vector()};
-      const auto all = trees_.crossings_between(ray, 0, Aabb::kInf);
+      const auto all = trees_.crossings_between(ray, 0, kInf);
       if (all.empty()) continue;
       const Vec3 p = ray.at(all[dice_.below(all.size())].t);
       return {"from a surface",

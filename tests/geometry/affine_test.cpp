@@ -1,4 +1,5 @@
 #include "geometry/affine.hpp"
+#include "geometry/infinity.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,8 +9,6 @@
 using namespace graycube;
 
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 class RandomMaps {
  public:
