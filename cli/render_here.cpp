@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "cli/cpu_time.hpp"
+#include "proto/job_settings.hpp"
 #include "proto/statistics.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"

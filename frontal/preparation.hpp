@@ -70,8 +70,4 @@ std::string choices_text(const PreparedScene& scene);
 /// Never throws.
 PreparationResult run(const PreparationWork& work);
 
-/// The options' overrides, applied and checked; what doesn't fit is added to `errors`.
-void apply_overrides(const control::JobOptions& options, RenderSettings& settings,
-                     std::vector<control::ErrorItem>& errors);
-
 }  // namespace graycube

@@ -175,7 +175,7 @@ ExitStatus run(const CompareCommand& command) {
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
-  check_farm_limits(scene, command.options);
+  prepare_for_farm(scene, command.options);
   ProgressDisplay display(stderr, command.is_quiet);
   const std::vector<ComparedRow> rows = compare_all(command, scene, display);
   display.clear();

@@ -123,7 +123,9 @@ ExitStatus run(const RenderCommand& command) {
     write_outputs(command, outputs, name, rendered, started, load_s);
     return ExitStatus::kDone;
   }
-  check_farm_limits(scene, command.options);
+  const auto preparing = Clock::now();
+  prepare_for_farm(scene, command.options);
+  load_s += seconds_since(preparing);
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
   Rendered rendered;
