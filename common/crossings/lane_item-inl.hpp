@@ -34,9 +34,10 @@ class LaneItem {
         continue;
       }
       has_near_ = true;
-      near_[i] = meet_box(
-          [&](std::size_t side, std::size_t a) { return static_cast<float>(l.v[3 * side + a]); }, p,
-          rays);
+      near_[i] =
+          meet_box([&](std::size_t side,
+                       std::size_t a) { return static_cast<float>(csg::box_side(l.v, side, a)); },
+                   p, rays);
     }
   }
 

@@ -131,10 +131,12 @@ class SurfaceTreeBuilder {
     // Solvers may be wrong by some last digits of the primitive's size or its distance.
     const double size = max_abs(p.bounds.hi - p.bounds.lo);
     const Aabb box = p.bounds.grown(model_.delta + (std::isfinite(size) ? 1e-6 * size : 0));
-    for (std::size_t a = 0; a < 3; ++a) {
-      literal.v[a] = float_below(box.lo[static_cast<int>(a)]);
-      literal.v[a + 3] = float_above(box.hi[static_cast<int>(a)]);
+    Vec3 lo, hi;
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = float_below(box.lo[a]);
+      hi[a] = float_above(box.hi[a]);
     }
+    literal.v = csg::box_slots(lo, hi);
     return literal;
   }
 

@@ -65,7 +65,7 @@ TEST_CASE(
     const auto hit = SurfaceTree::build(model).first_crossing(ray, 0, kInf, scratch);
     REQUIRE(hit);
     CHECK(hit->t == Approx(2 * std::sqrt(2.0)));
-    CHECK(model.primitives[hit->primitive].v[3] == 5);
+    CHECK(csg::sphere_radius(model.primitives[hit->primitive].v) == 5);
   }
 }
 
@@ -235,8 +235,8 @@ TEST_CASE("items whose sizes grow without end don't make the tree deeper than th
   CHECK(depth_below(tree, 0) <= SurfaceTree::kMaxDepth);
   TreeScratch scratch;
   for (const Primitive& p : model.primitives) {
-    const double r = p.v[3];
-    const Ray ray{Vec3{p.v[0], 0, 3 * r}, {0, 0, -1}};
+    const double r = csg::sphere_radius(p.v);
+    const Ray ray{Vec3{csg::sphere_center(p.v).x, 0, 3 * r}, {0, 0, -1}};
     const auto hit = tree.first_crossing(ray, 0, 2.5 * r, scratch);
     REQUIRE(hit);
     CHECK(hit->t == Approx(2 * r));

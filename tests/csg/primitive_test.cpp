@@ -1,11 +1,13 @@
 // Properties that every kind of primitive has, checked on random ones.
 #include "csg/primitive.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 #include <string>
 
+#include "csg/kinds.hpp"
 #include "csg/one_primitive.hpp"
 
 using namespace graycube;
@@ -65,6 +67,21 @@ TEST_CASE("intervals are ordered, disjoint, without NaN and without negative zer
       }
     }
   });
+}
+
+TEST_CASE("only kinds that say so are on a line twice") {
+  std::array<int, kPrimitiveKinds> twice{};
+  for_random_primitives([&](const OnePrimitive& one, Dice& dice) {
+    for (int i = 0; i < 40; ++i) {
+      if (one.spans(ray_towards(one, dice)).count > 1)
+        ++twice[static_cast<std::size_t>(one.primitive().kind)];
+    }
+  });
+  for (const csg::KindTraits& kind : csg::kKinds) {
+    INFO(kind.name);
+    if (!kind.has_two_intervals) CHECK(twice[static_cast<std::size_t>(kind.kind)] == 0);
+  }
+  CHECK(twice[static_cast<std::size_t>(PrimitiveKind::kTorus)] > 0);
 }
 
 TEST_CASE("a point of a ray is inside exactly when its parameter is in an interval") {
