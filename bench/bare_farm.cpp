@@ -17,8 +17,9 @@
 
 #include "bench/clocks.hpp"
 #include "memory/kept_heap.hpp"
+#include "process/clocks.hpp"
+#include "process/temporary_folder.hpp"
 #include "topology/hypercube.hpp"
-#include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube::bench {
@@ -90,10 +91,6 @@ void answer_all(Inbox& hub, std::uint32_t processes) {
   std::vector<std::string> peers;
   while (peers.size() < processes) peers.push_back(receive(hub));
   for (const std::string& peer : peers) hub.send(peer, some_message());
-}
-
-double seconds_of(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
 void measure(const Hypercube& cube, Stage stage) {

@@ -5,29 +5,23 @@
 #include <sys/resource.h>
 
 #include <cstdint>
-#include <ctime>
+
+#include "process/clocks.hpp"
 
 namespace graycube::bench {
-
-/// CPU seconds of the whole process, all threads together.
-inline double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 class CpuClock {
  public:
   /// CPU seconds since the last lap, or since the clock was made.
   double lap() {
-    const double now = cpu_seconds();
+    const double now = process_cpu_seconds();
     const double passed = now - last_;
     last_ = now;
     return passed;
   }
 
  private:
-  double last_ = cpu_seconds();
+  double last_ = process_cpu_seconds();
 };
 
 inline std::uint64_t peak_resident_bytes() {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,8 +12,10 @@
 #include "bench/dice.hpp"
 #include "bench/scene_families.hpp"
 #include "csg/build_primitive.hpp"
+#include "csg/kinds.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "geometry/infinity.hpp"
 #include "geometry/portable_math.hpp"
 #include "mesh/close_mesh.hpp"
 #include "proto/batch.hpp"
@@ -24,7 +25,6 @@
 namespace graycube::bench {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr std::size_t kRays = 1024;
 
 /// Cuts a triangle of the unit sphere into four, and those again.
@@ -112,10 +112,6 @@ std::vector<Ray> rays_about_the_origin() {
   }
   return rays;
 }
-
-constexpr std::array<const char*, kPrimitiveKinds> kKindNames{
-    "sphere",     "ellipsoid",  "box",           "parallelepiped", "cylinder", "cone", "torus",
-    "half_space", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",  "mesh"};
 
 void spans_of_kind(benchmark::State& state, PrimitiveKind kind) {
   const Specimen specimen(kind);
@@ -268,9 +264,9 @@ void light_in(benchmark::State& state) {
 void register_all() {
   benchmark::RegisterBenchmark("light/encode", light_out);
   benchmark::RegisterBenchmark("light/decode", light_in);
-  for (int i = 0; i < kPrimitiveKinds; ++i) {
-    const auto kind = static_cast<PrimitiveKind>(i);
-    const std::string name = kKindNames[static_cast<std::size_t>(i)];
+  for (const csg::KindTraits& traits : csg::kKinds) {
+    const PrimitiveKind kind = traits.kind;
+    const std::string name(traits.name);
     benchmark::RegisterBenchmark(("spans_along/" + name).c_str(), spans_of_kind, kind);
     benchmark::RegisterBenchmark(("outward_normal/" + name).c_str(), normal_of_kind, kind);
   }

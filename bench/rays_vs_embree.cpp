@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -18,13 +17,12 @@
 
 #include "bench/clocks.hpp"
 #include "bench/scene_families.hpp"
+#include "geometry/infinity.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/domain.hpp"
 
 namespace graycube::bench {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 struct Options {
   std::uint32_t depth = 5, size = 512, seed = 11, rounds = 7;

@@ -18,8 +18,8 @@ ExitStatus flushed(ExitStatus status) {
 }
 
 ExitStatus run_command(int argc, char** argv) {
-  if (const std::string problem = choose_simd_from_environment(); !problem.empty()) {
-    throw Failure(ExitStatus::kBadInput, Problem{"environment", "GRAYCUBE_SIMD", problem});
+  if (const auto problem = choose_simd_from_environment()) {
+    throw Failure(ExitStatus::kBadInput, Problem{"environment", "GRAYCUBE_SIMD", *problem});
   }
   const Command command = parse_command_line(argc, argv);
   return flushed(std::visit([](const auto& c) { return run(c); }, command));

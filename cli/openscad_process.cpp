@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +18,8 @@
 #include <utility>
 
 #include "cli/interrupts.hpp"
-#include "transport/temporary_folder.hpp"
+#include "process/spawn_plan.hpp"
+#include "process/temporary_folder.hpp"
 
 namespace graycube {
 namespace {
@@ -79,29 +79,16 @@ std::unique_ptr<OpenscadProcess> OpenscadProcess::find() {
 
 pid_t OpenscadProcess::start(const fs::path& input, const fs::path& output, const fs::path& log,
                              const std::vector<std::string>& options) {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawnattr_init(&attributes);
   constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC;
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), kWrite, 0600);
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  ::sigaddset(&signals, SIGPIPE);
-  ::posix_spawnattr_setsigdefault(&attributes, &signals);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  SpawnPlan plan;
+  plan.open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
+  plan.open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  plan.open_as(STDERR_FILENO, log.c_str(), kWrite);
+  plan.handle_as_usual({SIGPIPE});
   std::vector<std::string> words{program_.string(), "-o", output.string(), input.string()};
   words.insert(words.end(), options.begin(), options.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
   pid_t pid = -1;
-  const int error =
-      ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, argv.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  ::posix_spawnattr_destroy(&attributes);
+  const int error = plan.spawn(pid, std::move(words));
   if (error != 0) {
     throw Failure(ExitStatus::kFailed,
                   Problem{"openscad", program_.string(), std::strerror(error)});

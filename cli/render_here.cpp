@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "cli/cpu_time.hpp"
+#include "process/clocks.hpp"
+#include "proto/job_settings.hpp"
 #include "proto/statistics.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
@@ -40,7 +41,7 @@ std::uint64_t created(const RayCounts& rays, RayKind kind) {
 control::NodeStats node_stats(const SerialResult& r, double threads, double render_s) {
   control::NodeStats n;
   n.pid = static_cast<std::uint64_t>(::getpid());
-  n.cpu_s = own_cpu_seconds();
+  n.cpu_s = process_cpu_seconds();
   n.busy_s = r.busy_s;
   n.idle_s = std::max(0.0, threads * render_s - r.busy_s);
   n.peak_rss_bytes = peak_resident_bytes();

@@ -13,11 +13,14 @@
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/brlcad/database.hpp"
 #include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/unbuilt.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/mesh/mesh_file.hpp"
 #include "formats/openscad/language/exact.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/view/mesh_scene.hpp"
+#include "proto/job_settings.hpp"
+#include "shading/credit_limits.hpp"
 
 namespace graycube {
 namespace {
@@ -65,13 +68,13 @@ Problem located(const char* what, const fs::path& path, const std::string& messa
           message.substr(colon + 2)};
 }
 
-/// A name within a JSON pointer (RFC 6901).
-std::string pointer_word(const std::string& name) {
-  std::string word;
-  for (const char c : name) {
-    word += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+std::vector<Problem> problems_of(const fs::path& path, const std::vector<SceneError>& errors) {
+  std::vector<Problem> problems;
+  for (const SceneError& e : errors) {
+    problems.push_back(
+        {"scene", path.string() + (e.pointer.empty() ? "" : ":" + e.pointer), e.message});
   }
-  return word;
+  return problems;
 }
 
 bool is_own_format(const fs::path& path) {
@@ -82,16 +85,11 @@ void read_json(const fs::path& path, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
   ReadResult read = read_scene_text(text, mesh_files_beside(path));
   if (!read.scene) {
-    std::vector<Problem> problems;
-    for (const SceneError& e : read.errors) {
-      problems.push_back(
-          {"scene", path.string() + (e.pointer.empty() ? "" : ":" + e.pointer), e.message});
-    }
-    throw Failure(ExitStatus::kBadInput, std::move(problems));
+    throw Failure(ExitStatus::kBadInput, problems_of(path, read.errors));
   }
   input.scene = std::move(*read.scene);
-  // A farm opens no files: it gets the meshes in the text.
-  input.text = read.used_files ? write_scene_text(input.scene) : std::move(text).take();
+  // A farm opens no files: it gets the meshes in a text of their own.
+  if (!read.used_files) input.text = std::move(text).take();
 }
 
 /// The .csg text of an OpenSCAD file. Of a .scad file it is what the program makes of it.
@@ -113,13 +111,19 @@ std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
   return std::move(result.text);
 }
 
+/// The picture and depth to import for, in what any importer is told.
+template <typename How>
+void set_overrides(const control::JobOptions& options, How& how) {
+  how.image.width = options.width.value_or(how.image.width);
+  how.image.height = options.height.value_or(how.image.height);
+  how.max_depth = options.max_depth.value_or(how.max_depth);
+}
+
 void import_openscad(const fs::path& path, const control::JobOptions& options,
                      const ModelChoice& choice, SceneInput& input) {
   const auto program = OpenscadProcess::find();
   OpenscadOptions how;
-  how.frame.image.width = options.width.value_or(how.frame.image.width);
-  how.frame.image.height = options.height.value_or(how.frame.image.height);
-  how.frame.max_depth = options.max_depth.value_or(how.frame.max_depth);
+  set_overrides(options, how.frame);
   how.facets = choice.facets;
   how.program = program.get();
   how.folder = fs::absolute(path).parent_path().string();
@@ -150,7 +154,6 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
   input.scene = std::move(*read.scene);
-  input.text = write_scene_text(input.scene);
 }
 
 void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
@@ -162,11 +165,8 @@ void import_mesh(const fs::path& path, const control::JobOptions& options, Scene
                     fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
   }
   Frame how;
-  how.image.width = options.width.value_or(how.image.width);
-  how.image.height = options.height.value_or(how.image.height);
-  how.max_depth = options.max_depth.value_or(how.max_depth);
+  set_overrides(options, how);
   input.scene = scene_of_mesh(std::move(std::get<MeshShape>(read)), how);
-  input.text = write_scene_text(input.scene);
 }
 
 Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
@@ -180,9 +180,7 @@ Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& error
 void import_brlcad(const fs::path& path, const control::JobOptions& options,
                    const ModelChoice& choice, SceneInput& input) {
   BrlcadOptions how;
-  how.image.width = options.width.value_or(how.image.width);
-  how.image.height = options.height.value_or(how.image.height);
-  how.max_depth = options.max_depth.value_or(how.max_depth);
+  set_overrides(options, how);
   how.objects = choice.objects;
   if (!choice.view.empty()) how.view = read_file(choice.view, kMaxBrlcadViewBytes);
   how.azimuth_degrees = choice.azimuth_degrees;
@@ -194,7 +192,6 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options,
   }
   if (!read.scene) throw failure_of(path, read.errors);
   input.scene = std::move(*read.scene);
-  input.text = write_scene_text(input.scene);
 }
 
 }  // namespace
@@ -253,39 +250,20 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
 }
 
 void check_is_built(const fs::path& path, const Scene& scene) {
-  std::vector<Problem> problems;
-  for (const NamedMaterial& m : scene.materials) {
-    if (m.material.model == ShadingModel::kPhong) continue;
-    problems.push_back({"scene", path.string() + ":/materials/" + pointer_word(m.name) + "/model",
-                        "not built yet; only \"phong\" is"});
-  }
+  std::vector<Problem> problems = problems_of(path, unbuilt_parts(scene));
   if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
 }
 
-void apply_overrides(const control::JobOptions& options, RenderSettings& settings) {
-  ImageSize& image = settings.image;
-  image.width = options.width.value_or(image.width);
-  image.height = options.height.value_or(image.height);
-  image.samples = options.samples.value_or(image.samples);
-  settings.max_depth = options.max_depth.value_or(settings.max_depth);
-  settings.aovs = parse_aovs(options.aov).value_or(AovSet{});
-}
-
-void check_farm_limits(const SceneInput& input, const control::JobOptions& options) {
+void prepare_for_farm(SceneInput& input, const control::JobOptions& options) {
   RenderSettings settings = input.scene.settings;
   apply_overrides(options, settings);
-  const auto refuse = [&](const char* what, std::uint32_t most, std::uint64_t found) {
+  for (const ExceededLimit& limit : exceeded_credit_limits(settings)) {
     throw Failure(ExitStatus::kBadInput,
-                  Problem{"scene", input.name + ":" + what,
-                          "only --algorithm serial takes more than " + std::to_string(most) +
-                              ", found " + std::to_string(found)});
-  };
-  if (settings.max_depth > kMaxCreditDepth) {
-    refuse("/max_depth", kMaxCreditDepth, settings.max_depth);
+                  Problem{"scene", input.name + ":" + std::string(limit.where),
+                          "only --algorithm serial takes more than " + std::to_string(limit.most) +
+                              ", found " + std::to_string(limit.found)});
   }
-  if (settings.lights.size() > kMaxCreditLights) {
-    refuse("/lights", kMaxCreditLights, settings.lights.size());
-  }
+  if (input.text.empty()) input.text = write_scene_text(input.scene);
   if (input.text.size() > kMaxSubmitBytes) {
     throw Failure(ExitStatus::kBadInput,
                   Problem{"scene", input.name, "larger than a farm takes; use --algorithm serial"});

@@ -31,7 +31,8 @@ struct SceneInput {
   /// The file's name without folders.
   std::string name;
   Scene scene;
-  /// A scene file's text: the file's own, or what its import gives.
+  /// A scene file's own text; empty for what was imported or needs other files, until it is
+  /// prepared for a farm.
   std::string text;
   /// From the importer; `where` is FILE:LINE.
   std::vector<Problem> warnings;
@@ -62,11 +63,8 @@ std::string brlcad_tops_text(const std::filesystem::path& path);
 /// version can't compute.
 void check_is_built(const std::filesystem::path& path, const Scene& scene);
 
-/// The options' overrides, applied.
-void apply_overrides(const control::JobOptions& options, RenderSettings& settings);
-
-/// Throws a Failure of status 2 when the scene, with the options' overrides, can't be rendered but
-/// by `serial`.
-void check_farm_limits(const SceneInput& input, const control::JobOptions& options);
+/// Makes the scene ready to be sent: with its text, and within a farm's limits. Throws a Failure of
+/// status 2 when the scene, with the options' overrides, can't be rendered but by `serial`.
+void prepare_for_farm(SceneInput& input, const control::JobOptions& options);
 
 }  // namespace graycube

@@ -16,8 +16,9 @@
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "memory/kept_heap.hpp"
+#include "process/clocks.hpp"
+#include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
-#include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
 #include "version.hpp"
 
@@ -40,12 +41,6 @@ constexpr std::size_t kLargeHeap = std::size_t{256} << 20;
 /// Nodes that don't leave within this time after `shutdown` are ended.
 constexpr double kGrace_s = 2;
 constexpr auto kTick = std::chrono::milliseconds(50);
-
-double seconds_of(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
 
@@ -74,13 +69,12 @@ class FrontalProcess {
                   .is_private = a.is_private},
                  *store_),
         preparation_(wakeup_) {
-    frontal_.set_cpu_meter(
-        {[this] { return seconds_of(CLOCK_PROCESS_CPUTIME_ID) + processes_.start_cpu_s(); },
-         [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
+    frontal_.set_cpu_meter({[this] { return process_cpu_seconds() + processes_.start_cpu_s(); },
+                            [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
     if (http_) std::cout << "page " << http_->url() << std::endl;
     std::cout << "listening " << inbox_.endpoint() << std::endl;
-    own_start_cpu_s_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    own_start_cpu_s_ = process_cpu_seconds();
   }
 
   /// Until the farm is down; why it gave up, or nothing.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,6 +13,9 @@
 #include <system_error>
 #include <utility>
 
+#include "process/clocks.hpp"
+#include "process/spawn_plan.hpp"
+
 namespace graycube {
 namespace {
 
@@ -21,36 +23,6 @@ std::string description(int status) {
   if (WIFSIGNALED(status)) return "killed by signal " + std::to_string(WTERMSIG(status));
   return "exited with status " + std::to_string(WEXITSTATUS(status));
 }
-
-/// The child starts with default signal handling and nothing blocked, whatever the frontal has set,
-/// reads from `input` and writes to `output`.
-class SpawnPlan {
- public:
-  SpawnPlan(int input, int output) {
-    ::posix_spawn_file_actions_init(&actions_);
-    ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    ::posix_spawnattr_init(&attributes_);
-    sigset_t none, all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_setsigmask(&attributes_, &none);
-    ::posix_spawnattr_setsigdefault(&attributes_, &all);
-    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  }
-  ~SpawnPlan() {
-    ::posix_spawnattr_destroy(&attributes_);
-    ::posix_spawn_file_actions_destroy(&actions_);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  const posix_spawn_file_actions_t* actions() const { return &actions_; }
-  const posix_spawnattr_t* attributes() const { return &attributes_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
 
 class Pipe {
  public:
@@ -85,27 +57,18 @@ std::string all_of(int pipe) {
   }
 }
 
-double seconds_of(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-}
-
 /// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`. Its standard input,
 /// and that of processes it leaves behind, ends when it has ended.
-std::string output_of(std::vector<std::string> command, double& cpu_s) {
+std::string output_of(const std::vector<std::string>& command, double& cpu_s) {
   Pipe input, output;
-  std::vector<char*> argv;
-  for (std::string& a : command) argv.push_back(a.data());
-  argv.push_back(nullptr);
-  // All symbols, those of libraries too, are looked up before anything is forked.
-  std::string bind_now = "LD_BIND_NOW=1";
-  std::vector<char*> environment{bind_now.data()};
-  for (char** variable = environ; *variable != nullptr; ++variable)
-    environment.push_back(*variable);
-  environment.push_back(nullptr);
-  const SpawnPlan plan(input.reading_end(), output.writing_end());
+  SpawnPlan plan;
+  plan.pass_as(STDIN_FILENO, input.reading_end());
+  plan.pass_as(STDOUT_FILENO, output.writing_end());
+  plan.handle_all_as_usual();
+  plan.block_no_signals();
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, argv.front(), plan.actions(), plan.attributes(),
-                                  argv.data(), environment.data());
+  // All symbols, those of libraries too, are looked up before anything is forked.
+  const int error = plan.spawn(pid, command, {"LD_BIND_NOW=1"});
   output.close_writing_end();
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
   std::string text = all_of(output.reading_end());
@@ -139,7 +102,7 @@ void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& f
     command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation",
                                    std::to_string(node.incarnation)});
   }
-  std::istringstream pids(output_of(std::move(command), start_cpu_s_));
+  std::istringstream pids(output_of(command, start_cpu_s_));
   for (const NodeStart& node : nodes) {
     pid_t pid = 0;
     if (!(pids >> pid)) throw std::system_error(EAGAIN, std::generic_category(), program_.string());

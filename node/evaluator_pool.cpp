@@ -2,22 +2,16 @@
 
 #include <sys/resource.h>
 
-#include <ctime>
 #include <utility>
 
 #include "memory/kept_heap.hpp"
+#include "process/clocks.hpp"
 
 namespace graycube {
 namespace {
 
 /// About what rays, light and batches under way take of an evaluator's heap beside what it keeps.
 constexpr std::size_t kHeapOfRendering = std::size_t{1} << 20;
-
-double seconds_of(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 }  // namespace
 
@@ -44,7 +38,7 @@ void EvaluatorPool::grow(unsigned threads) {
 /// Called with the lock held, after anything may have changed in the brain.
 void EvaluatorPool::after_change() {
   grow(node_.threads());
-  if (!start_cpu_s_ && node_.has_job()) start_cpu_s_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  if (!start_cpu_s_ && node_.has_job()) start_cpu_s_ = process_cpu_seconds();
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, node_.is_rendering());
   if (node_.has_outgoing() || node_.is_shut_down()) mailroom_.signal();
   if (waiting_ > 0 && node_.may_have_work()) changed_.notify_all();
@@ -53,9 +47,9 @@ void EvaluatorPool::after_change() {
 void EvaluatorPool::work(unsigned index) {
   Workbench bench;
   std::unique_lock lock(mutex_);
-  double counted_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+  double counted_s = thread_cpu_seconds();
   const auto since_last_count = [&] {
-    const double now_s = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    const double now_s = thread_cpu_seconds();
     return now_s - std::exchange(counted_s, now_s);
   };
   while (!stopping_) {
@@ -95,7 +89,7 @@ void EvaluatorPool::work(unsigned index) {
 /// Times since the last report, so that each job of a daemon has its own.
 void EvaluatorPool::measure(control::NodeStats& stats) {
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, false);
-  const double cpu_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  const double cpu_s = process_cpu_seconds();
   stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
   stats.start_cpu_s = start_cpu_s_.value_or(0);
   start_cpu_s_ = 0;

@@ -198,8 +198,8 @@ int run_main(int argc, char** argv) {
     const std::string inbox = inbox_of(a, number);
     if (const auto problem = endpoint_problem(inbox)) return fail("usage", inbox, *problem, 2);
   }
-  if (const std::string problem = choose_simd_from_environment(); !problem.empty()) {
-    return fail("environment", "GRAYCUBE_SIMD", problem, 2);
+  if (const auto problem = choose_simd_from_environment()) {
+    return fail("environment", "GRAYCUBE_SIMD", *problem, 2);
   }
   return fork_nodes(a);
 }

@@ -1,14 +1,13 @@
 #include "proto/bounds_bytes.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/infinity.hpp"
 #include "proto/bytes.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 constexpr std::size_t kSides = 6;
 constexpr std::size_t kBranchBytes = kSides * sizeof(float) + sizeof(std::uint32_t);
 

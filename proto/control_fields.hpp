@@ -6,10 +6,10 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "film/aov.hpp"
+#include "geometry/infinity.hpp"
 #include "proto/messages.hpp"
 #include "shading/settings.hpp"
 
@@ -17,8 +17,8 @@ namespace graycube {
 
 struct FieldLimits {
   /// Numbers, also inside arrays; integers have their type's range on top.
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -kInf;
+  double max = kInf;
   /// Most bytes of a string, or elements of an array.
   std::size_t length = kMaxNameBytes;
   /// May be missing; the member then keeps its default.

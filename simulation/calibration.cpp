@@ -15,20 +15,14 @@
 #include <thread>
 #include <vector>
 
+#include "process/clocks.hpp"
+#include "process/temporary_folder.hpp"
 #include "simulation/farm.hpp"
 #include "simulation/modelled_machine.hpp"
-#include "simulation/thread_clock.hpp"
-#include "transport/temporary_folder.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube::simulation {
 namespace {
-
-double process_cpu_seconds() {
-  timespec t{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// What evaluators do to the caches between messages.
 class Sweep {

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "process/clocks.hpp"
 #include "simulation/message_doings.hpp"
-#include "simulation/thread_clock.hpp"
 
 namespace graycube::simulation {
 namespace {

@@ -3,13 +3,13 @@
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"
-#include "cli/cpu_time.hpp"
 #include "cli/display/bars_svg.hpp"
 #include "cli/display/table.hpp"
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/render_here.hpp"
+#include "process/clocks.hpp"
 #include "proto/comparison.hpp"
 #include "proto/statistics.hpp"
 
@@ -132,10 +132,10 @@ struct TimedRender {
 TimedRender render_serially(const CompareCommand& command, const SceneInput& scene,
                             ProgressDisplay& display) {
   const auto started = std::chrono::steady_clock::now();
-  const double cpu_before_s = own_cpu_seconds();
+  const double cpu_before_s = process_cpu_seconds();
   TimedRender timed{render_here(scene, command.options, 1, display)};
   timed.wall_s = seconds_since(started);
-  timed.cpu_s = own_cpu_seconds() - cpu_before_s;
+  timed.cpu_s = process_cpu_seconds() - cpu_before_s;
   return timed;
 }
 
@@ -173,7 +173,7 @@ ExitStatus run(const CompareCommand& command) {
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
-  check_farm_limits(scene, command.options);
+  prepare_for_farm(scene, command.options);
   ProgressDisplay display(stderr, command.is_quiet);
   const std::vector<ComparedRow> rows = compare_all(command, scene, display);
   display.clear();

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "cli/commands/commands.hpp"
-#include "cli/cpu_time.hpp"
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/render_here.hpp"
+#include "process/clocks.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/statistics.hpp"
 #include "scene/compile_scene.hpp"
@@ -83,7 +83,7 @@ double write_timed_stats(const Outputs& outputs, const std::string& stats,
                          Clock::time_point started, double load_s, double written_cpu_s = 0) {
   const double wall_s = seconds_since(started);
   write_stats(outputs,
-              with_command_times(stats, wall_s, own_cpu_seconds() + written_cpu_s, load_s));
+              with_command_times(stats, wall_s, process_cpu_seconds() + written_cpu_s, load_s));
   return wall_s;
 }
 
@@ -123,7 +123,9 @@ ExitStatus run(const RenderCommand& command) {
     write_outputs(command, outputs, name, rendered, started, load_s);
     return ExitStatus::kDone;
   }
-  check_farm_limits(scene, command.options);
+  const auto preparing = Clock::now();
+  prepare_for_farm(scene, command.options);
+  load_s += seconds_since(preparing);
   const InterruptsHeld held;
   FrontalProcess frontal(frontal_arguments(command));
   Rendered rendered;

@@ -8,6 +8,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/render_here.hpp"
 #include "proto/comparison.hpp"
+#include "proto/job_settings.hpp"
 #include "proto/statistics.hpp"
 #include "simulation/calibration.hpp"
 #include "simulation/farm.hpp"
@@ -241,7 +242,7 @@ ExitStatus run(const SimulateCommand& command) {
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);
   }
-  check_farm_limits(scene, command.options);
+  prepare_for_farm(scene, command.options);
   RenderSettings settings = scene.scene.settings;
   apply_overrides(command.options, settings);
   ProgressDisplay display(stderr, command.is_quiet);

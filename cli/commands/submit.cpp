@@ -35,7 +35,7 @@ ExitStatus run(const SubmitCommand& command) {
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
-  check_farm_limits(scene, command.options);
+  prepare_for_farm(scene, command.options);
   FarmClient farm(command.connect);
   if (command.nodes != 0) check_farm_size(farm, command.nodes);
   const std::uint32_t job = submit_scene(farm, scene, command.options);

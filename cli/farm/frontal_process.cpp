@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,8 +14,7 @@
 #include <thread>
 
 #include "cli/interrupts.hpp"
-
-extern "C" char** environ;
+#include "process/spawn_plan.hpp"
 
 namespace graycube {
 namespace {
@@ -42,34 +40,6 @@ fs::path frontal_program() {
   return program;
 }
 
-/// posix_spawn's two sets of instructions.
-class SpawnPlan {
- public:
-  explicit SpawnPlan(int output) {
-    ::posix_spawn_file_actions_init(&actions_);
-    ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    ::posix_spawnattr_init(&attributes_);
-    ::posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    ::posix_spawnattr_setpgroup(&attributes_, 0);
-    sigset_t signals;
-    ::sigemptyset(&signals);
-    ::posix_spawnattr_setsigmask(&attributes_, &signals);
-    for (const int s : {SIGINT, SIGTERM, SIGPIPE}) ::sigaddset(&signals, s);
-    ::posix_spawnattr_setsigdefault(&attributes_, &signals);
-  }
-  ~SpawnPlan() {
-    ::posix_spawn_file_actions_destroy(&actions_);
-    ::posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
-
 /// The folder of a private frontal's sockets, which one that had to be killed leaves behind.
 void remove_socket_folder(const std::string& endpoint) {
   constexpr std::string_view ipc = "ipc://";
@@ -89,12 +59,15 @@ FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments)
   const std::string program = frontal_program().string();
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start(std::strerror(errno));
-  std::vector<char*> argv{const_cast<char*>(program.c_str())};
-  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-  argv.push_back(nullptr);
-  const SpawnPlan plan(pipe[1]);
-  const int error = ::posix_spawn(&pid_, program.c_str(), &plan.actions_, &plan.attributes_,
-                                  argv.data(), environ);
+  std::vector<std::string> command{program};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  SpawnPlan plan;
+  plan.open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
+  plan.pass_as(STDOUT_FILENO, pipe[1]);
+  plan.lead_group();
+  plan.handle_as_usual({SIGINT, SIGTERM, SIGPIPE});
+  plan.block_no_signals();
+  const int error = plan.spawn(pid_, std::move(command));
   ::close(pipe[1]);
   output_ = pipe[0];
   if (error != 0) {

@@ -11,6 +11,7 @@
 
 #include "crossings/packet_culling-inl.hpp"
 #include "crossings/packet_intervals-inl.hpp"
+#include "set_bits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -33,9 +34,10 @@ class LaneItem {
         continue;
       }
       has_near_ = true;
-      near_[i] = meet_box(
-          [&](std::size_t side, std::size_t a) { return static_cast<float>(l.v[3 * side + a]); }, p,
-          rays);
+      near_[i] =
+          meet_box([&](std::size_t side,
+                       std::size_t a) { return static_cast<float>(csg::box_side(l.v, side, a)); },
+                   p, rays);
     }
   }
 
@@ -67,8 +69,8 @@ class LaneItem {
         if (confines) lanes_wanted = wanted;
         if (lanes_wanted == 0) return 0;
         if (wanted == 0) {
-          hn::Store(every(csg::kInf), d, enter[i]);
-          hn::Store(every(-csg::kInf), d, leave[i]);
+          hn::Store(every(kInf), d, enter[i]);
+          hn::Store(every(-kInf), d, leave[i]);
           continue;
         }
       }
@@ -161,12 +163,11 @@ class LaneItem {
   LaneInterval one_by_one(const Model& model, const Literal& literal, std::size_t index,
                           const RayPacket& packet, std::size_t first, std::uint32_t wanted) {
     const Lanes d;
-    hn::Store(every(csg::kInf), d, enter[index]);
-    hn::Store(every(-csg::kInf), d, leave[index]);
+    hn::Store(every(kInf), d, enter[index]);
+    hn::Store(every(-kInf), d, leave[index]);
     HWY_ALIGN double last[kMaxLanes];
-    hn::Store(every(-csg::kInf), d, last);
-    for (; wanted != 0; wanted &= wanted - 1) {
-      const std::size_t lane = first_ray(wanted);
+    hn::Store(every(-kInf), d, last);
+    for (const std::size_t lane : SetBits(wanted)) {
       const Spans spans =
           spans_along(model.primitives[literal.primitive], model.data(), packet.ray(first + lane));
       if (spans.count == 0) continue;
@@ -247,7 +248,7 @@ HWY_INLINE void in_groups(const SurfaceItem& item, const CullingPacket& p, Mask 
                           Single&& single) {
   const std::size_t lanes = hn::Lanes(Lanes());
   const Mask alone = item.is_small ? rays & p.odd : rays;
-  for (Mask rest = alone; rest != 0; rest &= rest - 1) single(first_ray(rest));
+  for (const std::size_t i : SetBits(alone)) single(i);
   const Mask together = rays & ~alone;
   for (std::size_t first = 0; first < kRays; first += lanes) {
     const Mask group = (together >> first) & ((Mask{1} << lanes) - 1);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "csg/kinds.hpp"
 #include "csg/model.hpp"
 
 namespace graycube {
@@ -20,8 +21,8 @@ struct WalkCounts {
 
   void count_test(PrimitiveKind kind, std::uint64_t rays = 1) {
     primitives_tested += rays;
-    if (kind == PrimitiveKind::kTorus || kind == PrimitiveKind::kEllipticTorus)
-      quartics_solved += rays;
+    constexpr std::uint32_t kQuartics = csg::kinds_with(&csg::KindTraits::is_quartic);
+    if (csg::is_among(kind, kQuartics)) quartics_solved += rays;
   }
   void add(const WalkCounts& o) {
     cells_visited += o.cells_visited;

@@ -12,7 +12,9 @@
 
 #include "crossings/packet_culling-inl.hpp"
 #include "crossings/packet_nodes-inl.hpp"
+#include "geometry/infinity.hpp"
 #include "mesh/walk-inl.hpp"
+#include "set_bits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -27,20 +29,19 @@ class MeshPacket {
       : mesh_(mesh), packet_(packet), rays_(rays), t1_(t1), scratch_(scratch), whole_(p) {
     const Aabb& box = mesh.bounds();
     const double size = max_abs(box.lo) + max_abs(box.hi);
-    for (Mask rest = rays; rest != 0; rest &= rest - 1) {
-      const std::size_t i = first_ray(rest);
+    for (const std::size_t i : SetBits(rays)) {
       singles_[i] = packet.ray(i);
       lines_[i].emplace(singles_[i]);
       scratch.packet_cuts[i].clear();
       ++scratch.counts.primitives_tested;
-      below_[i] = csg::kInf;
+      below_[i] = kInf;
       if (is_before(box, size, i, p)) {
         outside_ |= Mask{1} << i;
         below_[i] = t1[i];
       } else {
         // What lies behind t1 matters to rays that may start within the mesh: all their cuts ahead
         // tell whether they do.
-        whole_.last[i] = std::numeric_limits<float>::infinity();
+        whole_.last[i] = kFloatInf;
       }
     }
     if (first_only) shortened_ = outside_;
@@ -52,8 +53,7 @@ class MeshPacket {
   template <Order order, typename Visit>
   void crossings(Visit&& visit) {
     const auto block = [&](std::uint32_t index, Mask met) {
-      for (; met != 0; met &= met - 1) {
-        const std::size_t i = first_ray(met);
+      for (const std::size_t i : SetBits(met)) {
         const std::size_t known = scratch_.packet_cuts[i].size();
         add_block_cuts(mesh_.tree(), index, *lines_[i], singles_[i], packet_.t0[i], below_[i],
                        scratch_.packet_cuts[i]);
@@ -67,8 +67,7 @@ class MeshPacket {
       shorten(i, known);
     };
     each_leaf_of_packet<order>(mesh_.tree().nodes(), whole_, rays_, scratch_, block, walk);
-    for (Mask rest = rays_; rest != 0; rest &= rest - 1) {
-      const std::size_t i = first_ray(rest);
+    for (const std::size_t i : SetBits(rays_)) {
       if (!scratch_.packet_cuts[i].empty()) visit_ray(i, visit);
     }
   }
@@ -79,7 +78,7 @@ class MeshPacket {
   bool is_before(const Aabb& box, double size, std::size_t i, const CullingPacket& p) const {
     const Ray& ray = singles_[i];
     const double margin = 1e-6 * (size + max_abs(ray.origin));
-    double enter = -csg::kInf;
+    double enter = -kInf;
     for (int a = 0; a < 3; ++a) {
       const double inverse = p.inverse[static_cast<std::size_t>(a)][i];
       const double at = inverse > 0 ? box.lo[a] - margin : box.hi[a] + margin;
@@ -93,10 +92,10 @@ class MeshPacket {
   void shorten(std::size_t i, std::size_t known) {
     if ((shortened_ >> i & 1) == 0) return;
     const auto& cuts = scratch_.packet_cuts[i];
-    double nearest = csg::kInf;
+    double nearest = kInf;
     for (std::size_t k = known; k < cuts.size(); ++k) nearest = std::min(nearest, cuts[k].t);
     if (!(nearest < below_[i])) return;
-    below_[i] = std::nextafter(nearest, csg::kInf);
+    below_[i] = std::nextafter(nearest, kInf);
     whole_.last[i] = float_up(nearest);
     whole_.update_last_of_all();
   }

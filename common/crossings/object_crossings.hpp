@@ -4,27 +4,22 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "crossings/crossings.hpp"
 #include "crossings/mailbox.hpp"
 #include "crossings/masked_program.hpp"
-#include "csg/box.hpp"
-#include "csg/cylinder.hpp"
-#include "csg/half_space.hpp"
+#include "csg/kinds.hpp"
 #include "csg/model.hpp"
-#include "csg/sphere.hpp"
 
 namespace graycube {
 
 /// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more
 /// look their primitive up, and have its bounds here, grown, as floats: lower corner, upper corner.
 struct alignas(64) Literal {
-  std::array<double, 6> v{};
+  Slots v{};
   std::uint32_t primitive = 0;
   PrimitiveKind kind = PrimitiveKind::kSphere;
   bool is_inverted = false;
@@ -73,17 +68,21 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
   csg::Interval i;
   switch (literal.kind) {
     case PrimitiveKind::kSphere:
-      i = csg::sphere_interval(ray.ray.origin - Vec3{v[0], v[1], v[2]}, ray.ray.direction,
-                               v[3] * v[3]);
+      i = csg::sphere_interval(ray.ray.origin - csg::sphere_center(v), ray.ray.direction,
+                               csg::squared_radius(v));
       break;
     case PrimitiveKind::kBox:
-      clip_to_prepared_slab(i, v[0], v[3], ray.ray.origin.x, ray.inverse.x);
-      clip_to_prepared_slab(i, v[1], v[4], ray.ray.origin.y, ray.inverse.y);
-      clip_to_prepared_slab(i, v[2], v[5], ray.ray.origin.z, ray.inverse.z);
+      clip_to_prepared_slab(i, csg::box_side(v, 0, 0), csg::box_side(v, 1, 0), ray.ray.origin.x,
+                            ray.inverse.x);
+      clip_to_prepared_slab(i, csg::box_side(v, 0, 1), csg::box_side(v, 1, 1), ray.ray.origin.y,
+                            ray.inverse.y);
+      clip_to_prepared_slab(i, csg::box_side(v, 0, 2), csg::box_side(v, 1, 2), ray.ray.origin.z,
+                            ray.inverse.z);
       break;
     case PrimitiveKind::kHalfSpace: {
-      const Vec3 n{v[0], v[1], v[2]};
-      csg::clip_to_half_space(i, v[3], dot(n, ray.ray.origin), dot(n, ray.ray.direction));
+      const Plane f = csg::half_space_plane(v);
+      csg::clip_to_half_space(i, f.offset, dot(f.normal, ray.ray.origin),
+                              dot(f.normal, ray.ray.direction));
       break;
     }
     case PrimitiveKind::kCylinder: {
@@ -111,26 +110,16 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
 
 /// Kinds whose intervals packet_intervals-inl.hpp computes.
 inline bool has_lane_interval(PrimitiveKind kind) {
-  switch (kind) {
-    case PrimitiveKind::kTorus:
-    case PrimitiveKind::kEllipticCone:
-    case PrimitiveKind::kEllipticTorus:
-    case PrimitiveKind::kQuadric:
-    case PrimitiveKind::kMesh: return false;
-    default: return true;
-  }
+  constexpr std::uint32_t kTwice = csg::kinds_with(&csg::KindTraits::has_two_intervals);
+  return !csg::is_among(kind, kTwice);
 }
 /// Kinds that a line may be inside of twice.
 inline bool may_have_two_intervals(PrimitiveKind kind) { return !has_lane_interval(kind); }
 
 /// Kinds that look their primitive up; their literals hold bounds.
 inline bool has_bounds(PrimitiveKind kind) {
-  switch (kind) {
-    case PrimitiveKind::kSphere:
-    case PrimitiveKind::kBox:
-    case PrimitiveKind::kHalfSpace: return false;
-    default: return true;
-  }
+  constexpr std::uint32_t kAllSlots = csg::kinds_with(&csg::KindTraits::is_all_slots);
+  return !csg::is_among(kind, kAllSlots);
 }
 
 /// False only when the line passes the literal's bounds, surely, or is in them before t0 or after
@@ -140,8 +129,8 @@ inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, 
   for (int a = 0; a < 3; ++a) {
     const auto axis = static_cast<std::size_t>(a);
     const double inverse = ray.inverse[a];
-    const double lo = (literal.v[axis] - error - ray.ray.origin[a]) * inverse;
-    const double hi = (literal.v[axis + 3] + error - ray.ray.origin[a]) * inverse;
+    const double lo = (csg::box_side(literal.v, 0, axis) - error - ray.ray.origin[a]) * inverse;
+    const double hi = (csg::box_side(literal.v, 1, axis) + error - ray.ray.origin[a]) * inverse;
     // Written so that a NaN, of a line in a plane of the bounds, says nothing.
     const double enter = inverse > 0 ? lo : hi;
     const double leave = inverse > 0 ? hi : lo;
@@ -199,7 +188,7 @@ bool conjunction_ends(std::span<const Ends> removed, double from, double to, dou
       }
     }
     if (!(at < to) || at >= t1) return true;
-    if (at >= t0 && at > -csg::kInf && !visit(at, true)) return false;
+    if (at >= t0 && at > -kInf && !visit(at, true)) return false;
     double end = to;
     for (const Ends& r : removed) {
       if (r.enter > at && r.enter < end && r.enter < r.leave) end = r.enter;

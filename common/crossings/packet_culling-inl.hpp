@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "crossings/ray_packet.hpp"
 #include "crossings/tree_walk-inl.hpp"
+#include "geometry/infinity.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -26,10 +26,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Mask = RayPacket::Mask;
 constexpr std::size_t kRays = RayPacket::kSize;
 using FloatLanes = hn::CappedTag<float, 16>;
-
-HWY_INLINE std::size_t first_ray(Mask mask) {
-  return static_cast<std::size_t>(__builtin_ctz(mask));
-}
 
 /// The packet as the boxes see it.
 struct CullingPacket {
@@ -47,7 +43,7 @@ struct CullingPacket {
     }
     for (std::size_t i = packet.count; i < kRays; ++i) {
       first[i] = first[0];
-      last[i] = -std::numeric_limits<float>::infinity();
+      last[i] = -kFloatInf;
     }
     first_of_all = *std::min_element(first.begin(), first.end());
     update_last_of_all();
@@ -141,8 +137,7 @@ struct CullingPacket {
   /// Stores lanes, and keeps their least and greatest.
   struct Bounds {
     using V = hn::Vec<FloatLanes>;
-    HWY_INLINE Bounds()
-        : lo(hn::Set(FloatLanes(), std::numeric_limits<float>::infinity())), hi(hn::Neg(lo)) {}
+    HWY_INLINE Bounds() : lo(hn::Set(FloatLanes(), kFloatInf)), hi(hn::Neg(lo)) {}
     HWY_INLINE void keep(Floats& to, std::size_t i, V v) {
       hn::Store(v, FloatLanes(), to.data() + i);
       lo = hn::Min(lo, v);

@@ -27,7 +27,7 @@ struct LaneVec {
 };
 
 HWY_INLINE Doubles every(double v) { return hn::Set(Lanes(), v); }
-HWY_INLINE LaneVec every(double x, double y, double z) { return {every(x), every(y), every(z)}; }
+HWY_INLINE LaneVec every(const Vec3& v) { return {every(v.x), every(v.y), every(v.z)}; }
 HWY_INLINE Doubles lanes_dot(const LaneVec& a, const LaneVec& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
@@ -41,13 +41,13 @@ struct LaneRays {
 struct LaneInterval {
   Doubles enter, leave;
 
-  static HWY_INLINE LaneInterval whole() { return {every(-csg::kInf), every(csg::kInf)}; }
+  static HWY_INLINE LaneInterval whole() { return {every(-kInf), every(kInf)}; }
   // Written with comparisons, as csg::Interval is, so that a NaN goes the same way.
   HWY_INLINE void enter_after(Doubles t) { enter = hn::IfThenElse(hn::Gt(t, enter), t, enter); }
   HWY_INLINE void leave_before(Doubles t) { leave = hn::IfThenElse(hn::Lt(t, leave), t, leave); }
   HWY_INLINE void make_empty(LaneMask where) {
-    enter = hn::IfThenElse(where, every(csg::kInf), enter);
-    leave = hn::IfThenElse(where, every(-csg::kInf), leave);
+    enter = hn::IfThenElse(where, every(kInf), enter);
+    leave = hn::IfThenElse(where, every(-kInf), leave);
   }
 };
 
@@ -111,7 +111,7 @@ HWY_INLINE LaneInterval lanes_half_space(double offset, Doubles o, Doubles d) {
 HWY_INLINE LaneInterval lanes_polyhedron(std::span<const Plane> faces, const LaneRays& rays) {
   LaneInterval i = LaneInterval::whole();
   for (const Plane& f : faces) {
-    const LaneVec n = every(f.normal.x, f.normal.y, f.normal.z);
+    const LaneVec n = every(f.normal);
     clip_lanes_to_half_space(i, f.offset, lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
     if (hn::AllFalse(Lanes(), hn::Le(i.enter, i.leave))) break;
   }
@@ -143,19 +143,23 @@ HWY_INLINE LaneInterval lanes_tube(const LaneVec& o, const LaneVec& d) {
   LaneInterval i{hn::Sub(nearest, half), hn::Add(nearest, half)};
   i.make_empty(hn::Not(hn::Ge(h2, hn::Zero(Lanes()))));
   // Parallel to the axis.
-  i.enter = hn::IfThenElse(slants, i.enter, every(-csg::kInf));
-  i.leave = hn::IfThenElse(slants, i.leave, every(csg::kInf));
+  i.enter = hn::IfThenElse(slants, i.enter, every(-kInf));
+  i.leave = hn::IfThenElse(slants, i.leave, every(kInf));
   const Doubles axis_distance2 = hn::Add(hn::Mul(o.x, o.x), hn::Mul(o.y, o.y));
   i.make_empty(hn::AndNot(slants, hn::Gt(axis_distance2, every(1.0))));
   return i;
 }
 
+HWY_INLINE void clip_lanes_to_caps(LaneInterval& i, const Primitive& p, const LaneRays& rays) {
+  const LaneVec n = every(csg::cap_normal(p));
+  clip_lanes_to_any_slab(i, csg::lower_cap(p), csg::upper_cap(p), lanes_dot(n, rays.origin),
+                         lanes_dot(n, rays.direction));
+}
+
 HWY_INLINE LaneInterval lanes_cylinder(const Primitive& p, const LaneRays& rays) {
   LaneInterval i =
       lanes_tube(lanes_point(p.to_local, rays.origin), lanes_vector(p.to_local, rays.direction));
-  const LaneVec n = every(p.v[0], p.v[1], p.v[2]);
-  clip_lanes_to_any_slab(i, p.v[3], p.v[4], lanes_dot(n, rays.origin),
-                         lanes_dot(n, rays.direction));
+  clip_lanes_to_caps(i, p, rays);
   return i;
 }
 
@@ -163,9 +167,10 @@ HWY_INLINE LaneInterval lanes_parallelepiped(const Primitive& p, const LaneRays&
   const LaneVec o = lanes_point(p.to_local, rays.origin);
   const LaneVec d = lanes_vector(p.to_local, rays.direction);
   LaneInterval i = LaneInterval::whole();
-  clip_lanes_to_any_slab(i, p.v[0], p.v[3], o.x, d.x);
-  clip_lanes_to_any_slab(i, p.v[1], p.v[4], o.y, d.y);
-  clip_lanes_to_any_slab(i, p.v[2], p.v[5], o.z, d.z);
+  const Vec3 lo = csg::box_lo(p), hi = csg::box_hi(p);
+  clip_lanes_to_any_slab(i, lo.x, hi.x, o.x, d.x);
+  clip_lanes_to_any_slab(i, lo.y, hi.y, o.y, d.y);
+  clip_lanes_to_any_slab(i, lo.z, hi.z, o.z, d.z);
   return i;
 }
 
@@ -182,10 +187,10 @@ HWY_INLINE LaneInterval lanes_positive_nappe(Doubles w, Doubles wd) {
   const Doubles apex = hn::Div(hn::Neg(w), wd);
   const LaneMask level = hn::Eq(wd, zero);
   const LaneMask upward = hn::Gt(wd, zero);
-  LaneInterval i{hn::IfThenElse(upward, apex, every(-csg::kInf)),
-                 hn::IfThenElse(upward, every(csg::kInf), apex)};
-  i.enter = hn::IfThenElse(level, every(-csg::kInf), i.enter);
-  i.leave = hn::IfThenElse(level, every(csg::kInf), i.leave);
+  LaneInterval i{hn::IfThenElse(upward, apex, every(-kInf)),
+                 hn::IfThenElse(upward, every(kInf), apex)};
+  i.enter = hn::IfThenElse(level, every(-kInf), i.enter);
+  i.leave = hn::IfThenElse(level, every(kInf), i.leave);
   i.make_empty(hn::AndNot(hn::Ge(w, zero), level));
   return i;
 }
@@ -220,9 +225,8 @@ HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const Lane
   const LaneInterval between{lanes_fmin(r0, r1), lanes_fmax(r0, r1)};
   LaneInterval i = between;
   if (!hn::AllTrue(lanes, opens)) {
-    const LaneInterval above{between.leave, every(csg::kInf)},
-        below{every(-csg::kInf), between.enter};
-    const LaneInterval before{every(-csg::kInf), r1}, behind{r1, every(csg::kInf)};
+    const LaneInterval above{between.leave, every(kInf)}, below{every(-kInf), between.enter};
+    const LaneInterval before{every(-kInf), r1}, behind{r1, every(kInf)};
     const LaneInterval parallel = choose(hn::Gt(b, zero), before, behind);
     i = choose(opens, i, choose(hn::Lt(a, zero), choose(hn::Gt(wd, zero), above, below), parallel));
   }
@@ -240,12 +244,10 @@ HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const Lane
 }
 
 HWY_INLINE LaneInterval lanes_cone(const Primitive& p, const LaneRays& rays) {
-  LaneInterval i = lanes_double_cone(p.v[5], lanes_point(p.to_local, rays.origin),
+  LaneInterval i = lanes_double_cone(csg::cone_slope(p), lanes_point(p.to_local, rays.origin),
                                      lanes_vector(p.to_local, rays.direction));
   i.make_empty(hn::Not(hn::Le(i.enter, i.leave)));
-  const LaneVec n = every(p.v[0], p.v[1], p.v[2]);
-  clip_lanes_to_any_slab(i, p.v[3], p.v[4], lanes_dot(n, rays.origin),
-                         lanes_dot(n, rays.direction));
+  clip_lanes_to_caps(i, p, rays);
   return i;
 }
 
@@ -257,19 +259,24 @@ HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& mo
   LaneInterval i = LaneInterval::whole();
   switch (literal.kind) {
     case PrimitiveKind::kSphere: {
-      const LaneVec o{hn::Sub(rays.origin.x, every(v[0])), hn::Sub(rays.origin.y, every(v[1])),
-                      hn::Sub(rays.origin.z, every(v[2]))};
-      i = lanes_sphere(o, rays.direction, v[3] * v[3]);
+      const LaneVec c = every(csg::sphere_center(v));
+      const LaneVec o{hn::Sub(rays.origin.x, c.x), hn::Sub(rays.origin.y, c.y),
+                      hn::Sub(rays.origin.z, c.z)};
+      i = lanes_sphere(o, rays.direction, csg::squared_radius(v));
       break;
     }
     case PrimitiveKind::kBox:
-      clip_lanes_to_slab(i, v[0], v[3], rays.origin.x, rays.inverse.x);
-      clip_lanes_to_slab(i, v[1], v[4], rays.origin.y, rays.inverse.y);
-      clip_lanes_to_slab(i, v[2], v[5], rays.origin.z, rays.inverse.z);
+      clip_lanes_to_slab(i, csg::box_side(v, 0, 0), csg::box_side(v, 1, 0), rays.origin.x,
+                         rays.inverse.x);
+      clip_lanes_to_slab(i, csg::box_side(v, 0, 1), csg::box_side(v, 1, 1), rays.origin.y,
+                         rays.inverse.y);
+      clip_lanes_to_slab(i, csg::box_side(v, 0, 2), csg::box_side(v, 1, 2), rays.origin.z,
+                         rays.inverse.z);
       break;
     case PrimitiveKind::kHalfSpace: {
-      const LaneVec n = every(v[0], v[1], v[2]);
-      i = lanes_half_space(v[3], lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
+      const Plane f = csg::half_space_plane(v);
+      const LaneVec n = every(f.normal);
+      i = lanes_half_space(f.offset, lanes_dot(n, rays.origin), lanes_dot(n, rays.direction));
       break;
     }
     case PrimitiveKind::kCylinder:

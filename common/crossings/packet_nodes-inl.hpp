@@ -12,6 +12,7 @@
 
 #include "crossings/packet_culling-inl.hpp"
 #include "crossings/tree_walk-inl.hpp"
+#include "set_bits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -39,14 +40,12 @@ void each_leaf_of_packet(const std::vector<WideNode>& nodes, const CullingPacket
   const auto visit = [&](const WideNode& node, Mask rays) {
     ++scratch.counts.cells_visited;
     HWY_ALIGN float near[WideNode::kWidth];
-    std::uint32_t mask = meet_all(node, p, near);
+    const std::uint32_t mask = meet_all(node, p, near);
     const std::size_t base = size;
-    while (mask != 0) {
-      const auto i = static_cast<std::uint32_t>(__builtin_ctz(mask));
-      mask &= mask - 1;
+    for (const std::size_t i : SetBits(mask)) {
       std::size_t at = size++;
       if constexpr (order == Order::kNearestFirst) at = make_place(stack, base, at, near[i]);
-      stack[at] = {&node, near[i], i, rays};
+      stack[at] = {&node, near[i], static_cast<std::uint32_t>(i), rays};
     }
   };
   visit(nodes.front(), active);
@@ -60,7 +59,7 @@ void each_leaf_of_packet(const std::vector<WideNode>& nodes, const CullingPacket
       leaf(child & ~WideNode::kItemFlag, rays);
       if (active == 0) return;
     } else if (__builtin_popcount(rays) <= kFewRays) {
-      for (Mask rest = rays; rest != 0; rest &= rest - 1) walk(child, first_ray(rest));
+      for (const std::size_t i : SetBits(rays)) walk(child, i);
       if (active == 0) return;
     } else {
       visit(nodes[child], rays);

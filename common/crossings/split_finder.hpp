@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "geometry/aabb.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 
@@ -15,7 +15,7 @@ namespace graycube {
 struct Split {
   int axis = -1;
   double at = 0;
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = kInf;
 };
 
 /// Chooses a plane for a cell: the extents of the surfaces in it, and sweeps over their ends.

@@ -7,11 +7,10 @@
 #include "crossings/bsp.hpp"
 #include "csg/tree.hpp"
 #include "geometry/culling_ray.hpp"
+#include "geometry/wide_tree_builder.hpp"
 
 namespace graycube {
 namespace {
-
-constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 
 bool is_leaf(const TreeNode& n) { return n.size == 1; }
 
@@ -39,24 +38,25 @@ class SurfaceTreeBuilder {
       }
     }
     if (!bounded.empty()) {
-      tree_.nodes_.emplace_back();
-      build_node(0, bounded, 0);
+      using Builder = WideTreeBuilder<SurfaceTreeBuilder>;
+      // 32 levels of halves end 2³² items.
+      static_assert(Builder::kMaxChosenDepth + 32 <= SurfaceTree::kMaxDepth);
+      Builder(*this, tree_.nodes_).run(bounded);
       put_items_in_tree_order();
     }
     return std::move(tree_);
   }
 
  private:
-  static constexpr std::size_t kBins = 16;
+  friend class WideTreeBuilder<SurfaceTreeBuilder>;
+  using Box = Aabb;
+  using Run = std::span<std::uint32_t>;
+  static constexpr std::size_t kMostTogether = 1;
+
   /// A few items need no more slices than there are items, by far the most groups are such.
   static std::size_t bins_for(std::size_t items) {
-    return std::clamp<std::size_t>(items, 2, kBins);
+    return std::clamp<std::size_t>(items, 2, kMaxBins);
   }
-  /// From here on groups are simply halved, so that no heap of items, however skewed, makes the
-  /// tree deeper than the walk's stack: 32 more levels, each of which halves the largest group at
-  /// least, end 2³² items.
-  static constexpr std::size_t kMaxChosenDepth = 40;
-  static_assert(kMaxChosenDepth + 32 <= SurfaceTree::kMaxDepth);
 
   void add_object(std::uint32_t index) {
     const Object& object = model_.objects[index];
@@ -131,22 +131,13 @@ class SurfaceTreeBuilder {
     // Solvers may be wrong by some last digits of the primitive's size or its distance.
     const double size = max_abs(p.bounds.hi - p.bounds.lo);
     const Aabb box = p.bounds.grown(model_.delta + (std::isfinite(size) ? 1e-6 * size : 0));
-    for (std::size_t a = 0; a < 3; ++a) {
-      literal.v[a] = float_below(box.lo[static_cast<int>(a)]);
-      literal.v[a + 3] = float_above(box.hi[static_cast<int>(a)]);
+    Vec3 lo, hi;
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = float_below(box.lo[a]);
+      hi[a] = float_above(box.hi[a]);
     }
+    literal.v = csg::box_slots(lo, hi);
     return literal;
-  }
-
-  struct Group {
-    std::span<std::uint32_t> items;
-    Aabb box = Aabb::nothing();
-  };
-
-  Group group_of(std::span<std::uint32_t> items) const {
-    Group g{items, Aabb::nothing()};
-    for (const std::uint32_t i : items) g.box = union_of(g.box, boxes_[i]);
-    return g;
   }
 
   /// One of `bins` slices of the centres' extent along each axis.
@@ -167,100 +158,39 @@ class SurfaceTreeBuilder {
     double last;
   };
 
-  /// Sorts the items into two halves by the best of up to kBins planes a side through their
+  const Aabb& box(std::uint32_t item) const { return boxes_[item]; }
+  static std::uint32_t add_item(Run items) { return items.front(); }
+
+  /// Sorts the items into two parts by the best of up to kMaxBins planes a side through their
   /// centres.
-  std::size_t partition(std::span<std::uint32_t> items) const {
+  std::size_t split(Run items) const {
     if (items.size() == 2) return 1;
     Aabb centers = Aabb::nothing();
     for (const std::uint32_t i : items) centers.include(boxes_[i].center());
     const std::size_t bin_count = bins_for(items.size());
     const Slices slices(centers, bin_count);
-    struct Bin {
-      Aabb box = Aabb::nothing();
-      std::size_t count = 0;
-    };
-    std::array<std::array<Bin, kBins>, 3> bins;
+    std::array<std::array<Bin<Aabb>, kMaxBins>, 3> bins;
     for (const std::uint32_t i : items) {
       const Vec3 center = boxes_[i].center();
       for (int axis = 0; axis < 3; ++axis) {
-        Bin& bin = bins[static_cast<std::size_t>(axis)][slices.of(center, axis)];
-        bin.box = union_of(bin.box, boxes_[i]);
-        ++bin.count;
+        bins[static_cast<std::size_t>(axis)][slices.of(center, axis)].add(boxes_[i], 1);
       }
     }
-    double best_cost = Aabb::kInf;
+    Cut<Aabb> best;
     int best_axis = -1;
-    std::size_t best_bin = 0;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(slices.scale[axis] > 0)) continue;
-      const auto& row = bins[static_cast<std::size_t>(axis)];
-      std::array<double, kBins> above_cost{};
-      Bin above;
-      for (std::size_t b = bin_count - 1; b > 0; --b) {
-        above.box = union_of(above.box, row[b].box);
-        above.count += row[b].count;
-        above_cost[b] =
-            above.count == 0 ? 0 : above.box.half_area() * static_cast<double>(above.count);
-      }
-      Bin below;
-      for (std::size_t b = 0; b + 1 < bin_count; ++b) {
-        below.box = union_of(below.box, row[b].box);
-        below.count += row[b].count;
-        if (below.count == 0 || below.count == items.size()) continue;
-        const double cost =
-            below.box.half_area() * static_cast<double>(below.count) + above_cost[b + 1];
-        if (cost < best_cost) {
-          best_cost = cost;
-          best_axis = axis;
-          best_bin = b;
-        }
-      }
+      const std::span row(bins[static_cast<std::size_t>(axis)]);
+      const auto cut = cheapest_cut<Aabb>(row.first(bin_count), items.size());
+      if (!(cut.cost < best.cost)) continue;
+      best = cut;
+      best_axis = axis;
     }
     if (best_axis < 0) return items.size() / 2;  // all centres coincide
     const auto middle = std::partition(items.begin(), items.end(), [&](std::uint32_t i) {
-      return slices.of(boxes_[i].center(), best_axis) <= best_bin;
+      return slices.of(boxes_[i].center(), best_axis) <= best.bin;
     });
     return static_cast<std::size_t>(middle - items.begin());
-  }
-
-  void build_node(std::uint32_t index, std::span<std::uint32_t> items, std::size_t depth) {
-    std::vector<Group> groups{group_of(items)};
-    while (groups.size() < WideNode::kWidth) {
-      // The group with the largest surface is opened next.
-      std::size_t widest = groups.size();
-      for (std::size_t g = 0; g < groups.size(); ++g) {
-        if (groups[g].items.size() < 2) continue;
-        if (widest == groups.size() || groups[g].box.half_area() > groups[widest].box.half_area()) {
-          widest = g;
-        }
-      }
-      if (widest == groups.size()) break;
-      const auto all = groups[widest].items;
-      const std::size_t middle = depth < kMaxChosenDepth ? partition(all) : all.size() / 2;
-      groups[widest] = group_of(all.first(middle));
-      groups.push_back(group_of(all.subspan(middle)));
-    }
-    WideNode node;
-    for (std::size_t g = 0; g < WideNode::kWidth; ++g) {
-      const bool used = g < groups.size();
-      for (std::size_t a = 0; a < 3; ++a) {
-        node.planes[0][a][g] =
-            used ? float_below(groups[g].box.lo[static_cast<int>(a)]) : kFloatInf;
-        node.planes[1][a][g] =
-            used ? float_above(groups[g].box.hi[static_cast<int>(a)]) : -kFloatInf;
-      }
-      if (!used) continue;
-      if (groups[g].items.size() == 1) {
-        node.child[g] = WideNode::kItemFlag | groups[g].items.front();
-      } else {
-        node.child[g] = static_cast<std::uint32_t>(tree_.nodes_.size());
-        tree_.nodes_.emplace_back();
-      }
-    }
-    tree_.nodes_[index] = node;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (groups[g].items.size() > 1) build_node(node.child[g], groups[g].items, depth + 1);
-    }
   }
 
   /// Items that are near each other in space become so in memory, with their literals.
@@ -278,9 +208,8 @@ class SurfaceTreeBuilder {
       return static_cast<std::uint32_t>(items.size() - 1);
     };
     for (WideNode& node : tree_.nodes_) {
-      for (std::uint32_t& child : node.child) {
-        if ((child & WideNode::kItemFlag) == 0) continue;
-        child = WideNode::kItemFlag | move(child & ~WideNode::kItemFlag);
+      for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
+        if (node.is_item(i)) node.child[i] = WideNode::kItemFlag | move(node.item(i));
       }
     }
     for (std::uint32_t& index : tree_.unbounded_) index = move(index);

@@ -144,13 +144,13 @@ bool SurfaceTree::for_each_item_crossing(const SurfaceItem& item, const Prepared
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> intervals;
   std::array<crossings::Ends, crossings::kMaxFlatLiterals> removed;
   std::size_t removed_count = 0;
-  double from = -csg::kInf;
-  double to = csg::kInf;
+  double from = -kInf;
+  double to = kInf;
   for (std::size_t i = 0; i < literals.size(); ++i) {
     if (literals.size() > 1 && crossings::has_bounds(literals[i].kind) &&
         !crossings::may_meet(literals[i], ray, std::fmax(from, t0), std::fmin(to, t1))) {
       if (!literals[i].is_inverted) return true;
-      intervals[i] = {csg::kInf, -csg::kInf};
+      intervals[i] = {kInf, -kInf};
       continue;
     }
     scratch.counts.count_test(literals[i].kind);
@@ -202,8 +202,8 @@ bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ra
       continue;
     }
     scratch.counts.count_test(literal.kind);
-    double first = csg::kInf;
-    double last = -csg::kInf;
+    double first = kInf;
+    double last = -kInf;
     crossings::each_interval(literal, *model_, ray, [&](double enter, double leave) {
       events.add(i, enter, leave);
       if (enter < first) first = enter;
@@ -249,8 +249,8 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
   events.clear();
   before.assign(literals.size() / 64 + 1, 0);
   const bool is_flat = item.first_node == SurfaceItem::kFlat;
-  double from = -csg::kInf;
-  double to = csg::kInf;
+  double from = -kInf;
+  double to = kInf;
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
     scratch.counts.count_test(literals[i].kind);
     const std::uint32_t primitive = literals[i].primitive;

@@ -17,6 +17,7 @@
 #include "crossings/surface_tree.hpp"
 #include "geometry/culling_ray.hpp"
 #include "geometry/wide_node-inl.hpp"
+#include "set_bits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -72,11 +73,9 @@ bool each_item_below(const std::vector<WideNode>& nodes, std::uint32_t root, con
     ++scratch.counts.cells_visited;
     const WideNode& node = nodes[top.child];
     HWY_ALIGN float near[WideNode::kWidth];
-    std::uint32_t mask = meet(node, ray, t0, last, near);
+    const std::uint32_t mask = meet(node, ray, t0, last, near);
     const std::size_t base = size;
-    while (mask != 0) {
-      const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
-      mask &= mask - 1;
+    for (const std::size_t i : SetBits(mask)) {
       std::size_t at = size++;
       if constexpr (order == Order::kNearestFirst) at = make_place(stack, base, at, near[i]);
       stack[at] = {node.child[i], near[i]};
@@ -92,7 +91,7 @@ HWY_INLINE void take_first_crossing(const SurfaceTree& tree, std::uint32_t index
                                     Crossing& found, bool& any) {
   const SurfaceItem& item = tree.items()[index];
   const bool wins_ties = any && item.object < found.object;
-  const double end = wins_ties ? std::nextafter(found.t, Aabb::kInf) : found.t;
+  const double end = wins_ties ? std::nextafter(found.t, kInf) : found.t;
   tree.for_each_item_crossing(item, ray, t0, end, scratch, [&](const Crossing& c) {
     found = c;
     any = true;

@@ -56,7 +56,7 @@ struct CellExit {
   int face;
 };
 inline CellExit exit_of(const Aabb& cell, const PlaneOrder& order) {
-  CellExit exit{Aabb::kInf, -1};
+  CellExit exit{kInf, -1};
   for (int a = 0; a < 3; ++a) {
     const int sense = order.sense(a);
     if (sense == 0) continue;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "csg/primitive.hpp"
+#include "csg/sphere.hpp"
 
 namespace graycube {
 
@@ -14,7 +14,9 @@ struct BoundingSphere {
 /// A sphere around a bounded primitive: its own for a sphere, else the one through the corners of
 /// its bounding box. Nothing for unbounded ones.
 inline std::optional<BoundingSphere> bounding_sphere(const Primitive& p) {
-  if (p.kind == PrimitiveKind::kSphere) return BoundingSphere{{p.v[0], p.v[1], p.v[2]}, p.v[3]};
+  if (p.kind == PrimitiveKind::kSphere) {
+    return BoundingSphere{csg::sphere_center(p.v), csg::sphere_radius(p.v)};
+  }
   if (!p.bounds.is_finite()) return std::nullopt;
   return BoundingSphere{p.bounds.center(), 0.5 * length(p.bounds.hi - p.bounds.lo)};
 }

@@ -1,12 +1,20 @@
-// Boxes: along the world axes, and parallelepipeds as the image of the unit cube.
+// Boxes along the world's axes; and parallelepipeds, which `to_local` maps to such a box. Its rows
+// are the unit normals of the faces, which so are planes of the world.
 #pragma once
 
 #include "csg/roots.hpp"
 
 namespace graycube::csg {
 
+inline Slots box_slots(const Vec3& lo, const Vec3& hi) {
+  return {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
+}
 inline Vec3 box_lo(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
 inline Vec3 box_hi(const Primitive& p) { return {p.v[3], p.v[4], p.v[5]}; }
+/// A coordinate of the lower (side 0) or the upper corner (side 1).
+inline double box_side(const Slots& v, std::size_t side, std::size_t axis) {
+  return v[3 * side + axis];
+}
 
 inline Interval box_interval(const Vec3& lo, const Vec3& hi, const Vec3& o, const Vec3& d) {
   Interval i;
@@ -45,7 +53,15 @@ inline CellSide classify_box(const Primitive& p, const Aabb& cell) {
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
-// A parallelepiped's frame has unit rows, the normals of its faces: they are planes of the world.
+/// Also a parallelepiped.
+inline bool move_box(Primitive& p, double by) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    p.v[a] -= by;
+    p.v[a + 3] += by;
+    if (!(p.v[a] < p.v[a + 3])) return false;
+  }
+  return true;
+}
 
 inline Spans parallelepiped_spans(const Primitive& p, const Ray& ray) {
   return spans_of(box_interval(box_lo(p), box_hi(p), p.to_local.point(ray.origin),
@@ -66,6 +82,11 @@ inline CellSide classify_parallelepiped(const Primitive& p, const Aabb& cell) {
     return l.x > lo.x && l.x < hi.x && l.y > lo.y && l.y < hi.y && l.z > lo.z && l.z < hi.z;
   };
   return classify_bounded(p, cell, misses, holds);
+}
+
+inline Aabb grown_parallelepiped_bounds(const Primitive& p, double by) {
+  return grown_bounds(p, {by * length(p.to_local.row(0)), by * length(p.to_local.row(1)),
+                          by * length(p.to_local.row(2))});
 }
 
 }  // namespace graycube::csg

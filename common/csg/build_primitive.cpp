@@ -1,11 +1,15 @@
 #include "csg/build_primitive.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "check.hpp"
-#include "csg/half_space.hpp"
+#include "csg/box.hpp"
+#include "csg/elliptic_cone.hpp"
+#include "csg/elliptic_torus.hpp"
+#include "csg/quadric.hpp"
+#include "csg/sphere.hpp"
+#include "csg/torus.hpp"
 #include "mesh/close_mesh.hpp"
 
 namespace graycube {
@@ -58,9 +62,7 @@ Aabb around(const Vec3& center, const Vec3& extent) { return {center - extent, c
 /// base + (top − base) may miss top by a bit, and a cap flush with another face would not be.
 void set_caps(Primitive& p, const Vec3& world_base, const Vec3& world_top) {
   const Vec3 normal = normalized(p.to_local.row(2));
-  for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = normal[i] + 0.0;
-  p.v[3] = dot(normal, world_base);
-  p.v[4] = dot(normal, world_top);
+  csg::set_caps(p, normal + Vec3{}, dot(normal, world_base), dot(normal, world_top));
 }
 
 /// The plane's image: normals go by the inverse transposed.
@@ -91,7 +93,7 @@ Primitive build_sphere(const Affine& to_world, const Vec3& center, double radius
   p.kind = PrimitiveKind::kSphere;
   const Vec3 c = to_world.point(center);
   const double r = *scale * radius;
-  p.v = {c.x, c.y, c.z, r, 0, 0};
+  p.v = csg::sphere_slots(c, r);
   p.bounds = around(c, {r, r, r});
   return p;
 }
@@ -116,8 +118,7 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
     p.bounds = Aabb::nothing();
     p.bounds.include(a);
     p.bounds.include(b);
-    p.v = {p.bounds.lo.x, p.bounds.lo.y, p.bounds.lo.z,
-           p.bounds.hi.x, p.bounds.hi.y, p.bounds.hi.z};
+    p.v = csg::box_slots(p.bounds.lo, p.bounds.hi);
     return p;
   }
   const Vec3 e = hi - lo;
@@ -125,12 +126,14 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
   p.kind = PrimitiveKind::kParallelepiped;
   const Affine inverse = inverse_of(map);
   const Vec3 low = to_world.point(lo), high = to_world.point(hi);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Vec3 n = normalized(inverse.row(static_cast<int>(a))) + Vec3{};
-    p.to_local.m[a] = {n.x, n.y, n.z, 0};
-    p.v[a] = dot(n, low) + 0.0;
-    p.v[a + 3] = dot(n, high) + 0.0;
+  Vec3 local_low, local_high;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3 n = normalized(inverse.row(a)) + Vec3{};
+    p.to_local.m[static_cast<std::size_t>(a)] = {n.x, n.y, n.z, 0};
+    local_low[a] = dot(n, low) + 0.0;
+    local_high[a] = dot(n, high) + 0.0;
   }
+  p.v = csg::box_slots(local_low, local_high);
   p.bounds = Aabb::nothing();
   for (int i = 0; i < 8; ++i) p.bounds.include(map.point(Aabb{{0, 0, 0}, {1, 1, 1}}.corner(i)));
   return p;
@@ -160,7 +163,7 @@ Primitive build_cone(const Affine& to_world, const Vec3& base, double base_radiu
   p.kind = PrimitiveKind::kCone;
   p.to_local = inverse_of(map);
   set_caps(p, to_world.point(base), to_world.point(top));
-  p.v[5] = top_share - 1;
+  csg::set_cone_slope(p, top_share - 1);
   const Vec3 extent = disc_extent(map);
   p.bounds = union_of(around(map.point({0, 0, 0}), extent),
                       around(map.point({0, 0, 1}), top_share * extent));
@@ -173,10 +176,10 @@ Primitive build_torus(const Affine& to_world, const Vec3& center, const Vec3& ax
   Primitive p;
   p.kind = PrimitiveKind::kTorus;
   p.to_local = inverse_of(map);
-  p.v[0] = minor / major;
+  p.v = csg::torus_slots(minor / major);
   const Vec3 ring = disc_extent(map);
   const Vec3 tube{length(map.row(0)), length(map.row(1)), length(map.row(2))};
-  p.bounds = around(map.translation(), ring + p.v[0] * tube);
+  p.bounds = around(map.translation(), ring + csg::torus_minor(p) * tube);
   return p;
 }
 
@@ -184,7 +187,7 @@ Primitive build_half_space(const Affine& to_world, const Plane& plane) {
   const Plane world = mapped_plane(inverse_of(to_world), plane);
   Primitive p;
   p.kind = PrimitiveKind::kHalfSpace;
-  p.v = {world.normal.x, world.normal.y, world.normal.z, world.offset, 0, 0};
+  p.v = csg::half_space_slots(world);
   p.bounds = csg::half_space_bounds(world);
   return p;
 }
@@ -218,13 +221,10 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
   p.to_local = inverse_of(map);
   for (double& v : p.to_local.m[2]) v *= height;
   set_caps(p, to_world.point(base), to_world.point(top));
-  if (p.v[3] > p.v[4]) {
-    const double lower = -p.v[3];
-    for (std::size_t i = 0; i < 3; ++i) p.v[i] = -p.v[i] + 0.0;
-    p.v[3] = lower;
-    p.v[4] = -p.v[4];
+  if (csg::lower_cap(p) > csg::upper_cap(p)) {
+    csg::set_caps(p, -csg::cap_normal(p) + Vec3{}, -csg::lower_cap(p), -csg::upper_cap(p));
   }
-  p.v[5] = (1 - top_b) / height;
+  csg::set_second_slope(p, (1 - top_b) / height);
   Vec3 top_extent;
   for (int i = 0; i < 3; ++i) {
     const Vec3 r = map.row(i);
@@ -250,12 +250,8 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
     const double along = major * (c * u + s * w), beside = minor * (c * w - s * u);
     return std::sqrt(along * along + beside * beside);
   };
-  p.v = {c * c * i2 + s * s * j2,
-         c * s * (i2 - j2),
-         s * s * i2 + c * c * j2,
-         reach(1, 0),
-         reach(0, 1),
-         0};
+  const Vec3 ellipse{c * c * i2 + s * s * j2, c * s * (i2 - j2), s * s * i2 + c * c * j2};
+  p.v = csg::elliptic_torus_slots(ellipse, reach(1, 0), reach(0, 1));
   const Vec3 ring = disc_extent(map);
   Vec3 extent;
   for (int i = 0; i < 3; ++i) {
@@ -304,7 +300,7 @@ Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, 
   Primitive p;
   p.kind = PrimitiveKind::kQuadric;
   p.to_local = inverse_of(to_world);
-  std::copy(q.begin(), q.end(), p.v.begin());
+  p.v = csg::quadric_slots(q);
   p.first_plane = static_cast<std::uint32_t>(planes.size());
   p.plane_count = 6;
   Aabb corners = Aabb::nothing();

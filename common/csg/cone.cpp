@@ -55,4 +55,28 @@ Interval cone_interval(double k, const Vec3& o, const Vec3& d) {
   return {i.enter + nearest, i.leave + nearest};
 }
 
+bool move_cone(Primitive& p, double by) {
+  // The radius at height z is (1 + k z): it grows by what a point moves across, and by what it
+  // moves along.
+  const double k = cone_slope(p);
+  const double radius =
+      1 + by * (stretch(p.to_local, 2) + std::fabs(k) * length(p.to_local.row(2)));
+  if (!(radius > 0) || !move_caps(p, by)) return false;
+  divide_rows(p.to_local, 2, radius);
+  set_cone_slope(p, k / radius);
+  // The caps of a smaller cone may reach beyond its apex, where the other nappe begins.
+  const auto to_world = p.to_local.inverse();
+  if (!to_world) return false;
+  const Vec3 apex = to_world->point({0, 0, -1 / cone_slope(p)});
+  set_caps(p, cap_normal(p), lower_cap(p), std::min(upper_cap(p), dot(cap_normal(p), apex)));
+  return lower_cap(p) < upper_cap(p);
+}
+
+Aabb grown_cone_bounds(const Primitive& p, double by) {
+  const double along = by * length(p.to_local.row(2));
+  // Below its larger end it goes on growing.
+  const double wider = by * stretch(p.to_local, 2) + 2 * std::fabs(cone_slope(p)) * along;
+  return grown_bounds(p, {wider, wider, along});
+}
+
 }  // namespace graycube::csg

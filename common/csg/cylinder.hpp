@@ -1,6 +1,6 @@
 // Capped cylinders and cones under any affine map. The lateral surface is solved in the primitive's
 // frame; the caps are planes of the world, so that a cap flush with another face has the same
-// parameter.
+// parameter. A cylinder's side is x² + y² = 1, a cone's x² + y² = (1 + k z)² where 1 + k z ≥ 0.
 #pragma once
 
 #include "csg/half_space.hpp"
@@ -9,10 +9,26 @@
 namespace graycube::csg {
 
 inline Vec3 cap_normal(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
+/// The caps' offsets along the normal.
+inline double lower_cap(const Primitive& p) { return p.v[3]; }
+inline double upper_cap(const Primitive& p) { return p.v[4]; }
+/// The normal is unit and without −0.
+inline void set_caps(Primitive& p, const Vec3& normal, double lower, double upper) {
+  p.v[0] = normal.x;
+  p.v[1] = normal.y;
+  p.v[2] = normal.z;
+  p.v[3] = lower;
+  p.v[4] = upper;
+}
+inline bool move_caps(Primitive& p, double by) {
+  p.v[3] -= by;
+  p.v[4] += by;
+  return lower_cap(p) < upper_cap(p);
+}
 
 inline void clip_to_caps(Interval& i, const Primitive& p, const Ray& ray) {
   const Vec3 n = cap_normal(p);
-  clip_to_slab(i, p.v[3], p.v[4], dot(n, ray.origin), dot(n, ray.direction));
+  clip_to_slab(i, lower_cap(p), upper_cap(p), dot(n, ray.origin), dot(n, ray.direction));
 }
 
 /// The cap that a parameter belongs to, as an outward normal; zero when it is the lateral
@@ -21,20 +37,20 @@ inline Vec3 cap_at(const Primitive& p, const Ray& ray, double t) {
   const Vec3 n = cap_normal(p);
   const double o = dot(n, ray.origin);
   const double d = dot(n, ray.direction);
-  if (is_on_plane(p.v[4], o, d, t)) return n;
-  if (is_on_plane(p.v[3], o, d, t)) return -n;
+  if (is_on_plane(upper_cap(p), o, d, t)) return n;
+  if (is_on_plane(lower_cap(p), o, d, t)) return -n;
   return {};
 }
 
 inline bool is_between_caps(const Primitive& p, const Vec3& q) {
   const double h = dot(cap_normal(p), q);
-  return h >= p.v[3] && h <= p.v[4];
+  return h >= lower_cap(p) && h <= upper_cap(p);
 }
 
 /// True when no point of the cell lies between the caps.
 inline bool misses_caps(const Primitive& p, const Aabb& cell) {
   const Vec3 n = cap_normal(p);
-  return least_along(n, cell) > p.v[4] || greatest_along(n, cell) < p.v[3];
+  return least_along(n, cell) > upper_cap(p) || greatest_along(n, cell) < lower_cap(p);
 }
 
 /// Where x² + y² ≤ 1.
@@ -78,9 +94,21 @@ inline CellSide classify_cylinder(const Primitive& p, const Aabb& cell) {
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cylinder_contains(p, q); });
 }
 
+inline bool move_cylinder(Primitive& p, double by) {
+  const double radius = 1 + by * stretch(p.to_local, 2);
+  if (!(radius > 0) || !move_caps(p, by)) return false;
+  divide_rows(p.to_local, 2, radius);
+  return true;
+}
+inline Aabb grown_cylinder_bounds(const Primitive& p, double by) {
+  const double across = by * stretch(p.to_local, 2);
+  return grown_bounds(p, {across, across, by * length(p.to_local.row(2))});
+}
+
 /// w(z) = 1 + k z: the cone's radius at local height z; k < 0. The larger end is at z = 0 and the
 /// smaller at 1, unless the frame is another cone's with the same surface.
 inline double cone_slope(const Primitive& p) { return p.v[5]; }
+inline void set_cone_slope(Primitive& p, double k) { p.v[5] = k; }
 
 /// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the
 /// caps cut the other nappe off.
@@ -115,5 +143,8 @@ inline CellSide classify_cone(const Primitive& p, const Aabb& cell) {
   };
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return cone_contains(p, q); });
 }
+
+bool move_cone(Primitive& p, double by);
+Aabb grown_cone_bounds(const Primitive& p, double by);
 
 }  // namespace graycube::csg

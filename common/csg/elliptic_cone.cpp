@@ -93,7 +93,8 @@ CellSide classify_elliptic_cone(const Primitive& p, const Aabb& cell) {
   const bool is_within_sides =
       far_x * far_x * b.lo * b.lo + far_y * far_y * a.lo * a.lo < a.lo * a.lo * b.lo * b.lo;
   const Vec3 n = cap_normal(p);
-  const bool is_within_caps = least_along(n, cell) > p.v[3] && greatest_along(n, cell) < p.v[4];
+  const bool is_within_caps =
+      least_along(n, cell) > lower_cap(p) && greatest_along(n, cell) < upper_cap(p);
   return near == cell && is_within_sides && is_within_caps ? CellSide::kInside : CellSide::kCrosses;
 }
 

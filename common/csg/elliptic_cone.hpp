@@ -1,6 +1,6 @@
-// Cones between two ellipses of different shape: v and caps as for kCone, with the axes shrinking
-// by different shares. In the primitive's frame the solid is x² / (1 − z)² + y² / (1 − k z)² ≤ 1
-// between its caps; k = v[5] lies in [−1, 1). It needs not be convex.
+// Cones between two ellipses of different shape: caps as a cone's, with the axes shrinking by
+// different shares. In the primitive's frame the solid is x² / (1 − z)² + y² / (1 − k z)² ≤ 1
+// between its caps; k, the second slope, lies in [−1, 1). It needs not be convex.
 #pragma once
 
 #include "csg/cylinder.hpp"
@@ -8,6 +8,7 @@
 namespace graycube::csg {
 
 inline double second_slope(const Primitive& p) { return p.v[5]; }
+inline void set_second_slope(Primitive& p, double k) { p.v[5] = k; }
 
 Spans elliptic_cone_spans(const Primitive& p, const Ray& ray);
 bool elliptic_cone_contains(const Primitive& p, const Vec3& q);

@@ -7,6 +7,11 @@
 
 namespace graycube::csg {
 
+/// The ellipse's three coefficients, and how far it reaches.
+inline Slots elliptic_torus_slots(const Vec3& ellipse, double outwards, double along) {
+  return {ellipse.x, ellipse.y, ellipse.z, outwards, along, 0};
+}
+
 Spans elliptic_torus_spans(const Primitive& p, const Ray& ray);
 bool elliptic_torus_contains(const Primitive& p, const Vec3& q);
 Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q);

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "csg/roots.hpp"
 
 namespace graycube::csg {
 
-inline Plane half_space_plane(const Primitive& p) { return {{p.v[0], p.v[1], p.v[2]}, p.v[3]}; }
+inline Slots half_space_slots(const Plane& plane) {
+  return {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, 0, 0};
+}
+inline Plane half_space_plane(const Slots& v) { return {{v[0], v[1], v[2]}, v[3]}; }
+inline Plane half_space_plane(const Primitive& p) { return half_space_plane(p.v); }
 
 inline std::span<const Plane> faces_of(const Primitive& p, std::span<const Plane> planes) {
   return planes.subspan(p.first_plane, p.plane_count);
@@ -40,6 +45,17 @@ inline Spans half_space_spans(const Primitive& p, const Ray& ray) {
 inline bool half_space_contains(const Primitive& p, const Vec3& q) {
   const Plane f = half_space_plane(p);
   return dot(f.normal, q) <= f.offset;
+}
+
+inline Vec3 half_space_normal(const Primitive& p, const Ray&, double) {
+  return half_space_plane(p).normal;
+}
+inline CellSide classify_half_space(const Primitive& p, const Aabb& cell) {
+  return classify_plane(half_space_plane(p), cell);
+}
+inline bool move_half_space(Primitive& p, double by) {
+  p.v[3] += by;
+  return true;
 }
 
 inline Spans polyhedron_spans(std::span<const Plane> faces, const Ray& ray) {
@@ -75,6 +91,14 @@ inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> f
     inside = inside && side == CellSide::kInside;
   }
   return inside ? CellSide::kInside : CellSide::kCrosses;
+}
+
+/// Its planes, moved, are appended to `planes`.
+inline bool move_polyhedron(Primitive& p, std::span<const Plane> faces, double by,
+                            std::vector<Plane>& planes) {
+  p.first_plane = static_cast<std::uint32_t>(planes.size());
+  for (const Plane& f : faces) planes.push_back({f.normal, f.offset + by});
+  return true;
 }
 
 /// Infinite but for a half-space across a world axis.

@@ -16,23 +16,27 @@
 
 namespace graycube {
 
+/// What differs between them is listed in csg/kinds.hpp. What the slots of `Primitive::v` hold is
+/// said in each kind's own file, which alone reads them by their places.
 enum class PrimitiveKind : std::uint8_t {
-  kSphere,          // v[0..2] centre, v[3] radius
-  kEllipsoid,       // to_local maps it to the unit sphere
-  kBox,             // v[0..2] lower corner, v[3..5] upper corner, world axes
-  kParallelepiped,  // to_local, whose rows are unit normals, maps it to the box v[0..2] … v[3..5]
-  kCylinder,  // to_local: x² + y² ≤ 1; world cap planes in v: normal 0..2, lower 3, upper 4 offset
-  kCone,  // as kCylinder with x² + y² ≤ (1 + v[5] z)², v[5] < 0, on the nappe with 1 + v[5] z ≥ 0
-  kTorus,       // to_local: major radius 1 about z, minor radius v[0]
-  kHalfSpace,   // v[0..2] normal, v[3] offset: the points with normal · p ≤ offset
-  kPolyhedron,  // planes[first_plane, first_plane + plane_count): normal · p ≤ offset for each
-  kEllipticCone,  // caps as kCone; to_local: x² / (1 − z)² + y² / (1 − v[5] z)² ≤ 1 between them
-  kEllipticTorus,  // to_local, ρ² = x² + y²: v[0] (ρ−1)² + 2 v[1] (ρ−1) z + v[2] z² ≤ 1; reaches
-                   // v[3] and v[4] far
-  kQuadric,  // to_local: x² + v[0] y² + v[1] z² + v[2] z + v[3] ≤ 0; and planes as kPolyhedron
-  kMesh,     // meshes[mesh]
+  kSphere,
+  kEllipsoid,
+  kBox,
+  kParallelepiped,
+  kCylinder,
+  kCone,
+  kTorus,
+  kHalfSpace,
+  kPolyhedron,
+  kEllipticCone,
+  kEllipticTorus,
+  kQuadric,
+  kMesh,
 };
 inline constexpr int kPrimitiveKinds = 13;
+
+/// The numbers of a primitive beside its frame and its planes.
+using Slots = std::array<double, 6>;
 
 struct Primitive {
   PrimitiveKind kind = PrimitiveKind::kSphere;
@@ -40,7 +44,7 @@ struct Primitive {
   std::uint32_t first_plane = 0;
   std::uint32_t plane_count = 0;
   std::uint32_t mesh = 0;
-  std::array<double, 6> v{};
+  Slots v{};
   /// World → local; unused by kinds that work in world coordinates.
   Affine to_local;
   /// Encloses the solid; infinite where it is unbounded.

@@ -1,5 +1,8 @@
-// What the solvers of the single kinds share: boxes seen in a primitive's own frame.
+// What the single kinds share: boxes seen in a primitive's own frame, and frames that grow.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "csg/primitive.hpp"
 #include "geometry/interval.hpp"
@@ -31,6 +34,42 @@ CellSide classify_bounded(const Primitive& p, const Aabb& cell, Misses&& misses,
   if (misses(mapped_bounds(p.to_local, near))) return CellSide::kOutside;
   if (near == cell && all_corners(cell, holds)) return CellSide::kInside;
   return CellSide::kCrosses;
+}
+
+/// How far a local point can move along each of the first `rows` local axes together when the
+/// world's moves by 1: at least the norm of these rows of the map (by Gershgorin's circles).
+inline double stretch(const Affine& to_local, int rows) {
+  double most = 0;
+  for (int i = 0; i < rows; ++i) {
+    double sum = 0;
+    for (int j = 0; j < rows; ++j) sum += std::fabs(dot(to_local.row(i), to_local.row(j)));
+    most = std::max(most, sum);
+  }
+  return std::sqrt(most);
+}
+
+/// Makes the first rows of a map into the frame smaller: the solid grows along these axes.
+inline void divide_rows(Affine& map, int rows, double by) {
+  for (int i = 0; i < rows; ++i) {
+    for (double& x : map.m[static_cast<std::size_t>(i)]) x /= by;
+  }
+}
+
+/// The bounds of a solid that grows by `local` along each of its own axes.
+inline Aabb grown_bounds(const Primitive& p, const Vec3& local) {
+  const auto to_world = p.to_local.inverse();
+  if (!to_world) return Aabb::everything();
+  Vec3 by;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 r = to_world->row(i);
+    by[i] = std::fabs(r.x) * local.x + std::fabs(r.y) * local.y + std::fabs(r.z) * local.z;
+  }
+  return {p.bounds.lo - by, p.bounds.hi + by};
+}
+/// The same for one that grows alike in all directions.
+inline Aabb bounds_grown_around(const Primitive& p, double by) {
+  const double all = by * stretch(p.to_local, 3);
+  return grown_bounds(p, {all, all, all});
 }
 
 }  // namespace graycube::csg

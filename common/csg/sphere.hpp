@@ -1,11 +1,16 @@
-// Spheres, and ellipsoids as the image of the unit sphere.
+// Spheres, in world coordinates; and ellipsoids, which `to_local` maps to the unit sphere.
 #pragma once
 
 #include "csg/roots.hpp"
 
 namespace graycube::csg {
 
-inline Vec3 sphere_center(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
+inline Slots sphere_slots(const Vec3& center, double radius) {
+  return {center.x, center.y, center.z, radius, 0, 0};
+}
+inline Vec3 sphere_center(const Slots& v) { return {v[0], v[1], v[2]}; }
+inline double sphere_radius(const Slots& v) { return v[3]; }
+inline double squared_radius(const Slots& v) { return sphere_radius(v) * sphere_radius(v); }
 
 /// Recentred at the point of the line nearest the centre: b² − 4ac of the textbook loses all digits
 /// for a small sphere far away (Haines, Günther, Akenine-Möller 2019).
@@ -20,18 +25,19 @@ inline Interval sphere_interval(const Vec3& origin, const Vec3& direction, doubl
 }
 
 inline Spans sphere_spans(const Primitive& p, const Ray& ray) {
-  return spans_of(sphere_interval(ray.origin - sphere_center(p), ray.direction, p.v[3] * p.v[3]));
+  return spans_of(
+      sphere_interval(ray.origin - sphere_center(p.v), ray.direction, squared_radius(p.v)));
 }
 inline bool sphere_contains(const Primitive& p, const Vec3& q) {
-  const Vec3 d = q - sphere_center(p);
-  return dot(d, d) <= p.v[3] * p.v[3];
+  const Vec3 d = q - sphere_center(p.v);
+  return dot(d, d) <= squared_radius(p.v);
 }
 inline Vec3 sphere_normal(const Primitive& p, const Vec3& q) {
-  return normalized(q - sphere_center(p));
+  return normalized(q - sphere_center(p.v));
 }
 inline CellSide classify_sphere(const Primitive& p, const Aabb& cell) {
-  const Vec3 c = sphere_center(p);
-  const double r2 = p.v[3] * p.v[3];
+  const Vec3 c = sphere_center(p.v);
+  const double r2 = squared_radius(p.v);
   double nearest2 = 0;
   double farthest2 = 0;
   for (int a = 0; a < 3; ++a) {
@@ -44,6 +50,13 @@ inline CellSide classify_sphere(const Primitive& p, const Aabb& cell) {
   }
   if (nearest2 > r2) return CellSide::kOutside;
   return farthest2 < r2 ? CellSide::kInside : CellSide::kCrosses;
+}
+
+/// The move_… of each kind: moves the surface outwards by `by`, inwards where it is negative;
+/// bounds stay. False where nothing is left.
+inline bool move_sphere(Primitive& p, double by) {
+  p.v[3] += by;
+  return sphere_radius(p.v) > 0;
 }
 
 inline Spans ellipsoid_spans(const Primitive& p, const Ray& ray) {
@@ -65,6 +78,13 @@ inline CellSide classify_ellipsoid(const Primitive& p, const Aabb& cell) {
     return x * x + y * y + z * z > 1;
   };
   return classify_bounded(p, cell, misses, [&](const Vec3& q) { return ellipsoid_contains(p, q); });
+}
+
+inline bool move_ellipsoid(Primitive& p, double by) {
+  const double radius = 1 + by * stretch(p.to_local, 3);
+  if (!(radius > 0)) return false;
+  divide_rows(p.to_local, 3, radius);
+  return true;
 }
 
 }  // namespace graycube::csg

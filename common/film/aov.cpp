@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 
@@ -34,7 +35,7 @@ std::string to_string(AovSet aovs) {
 
 AovWords aov_background(std::size_t plane) {
   if (plane != kDepthPlane) return {0, 0, 0};
-  return {std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()), 0, 0};
+  return {std::bit_cast<std::uint32_t>(kFloatInf), 0, 0};
 }
 
 }  // namespace graycube

@@ -1,15 +1,12 @@
 // Axis-aligned boxes, possibly unbounded (±infinity) on any side.
 #pragma once
 
-#include <limits>
-
+#include "geometry/infinity.hpp"
 #include "geometry/vec.hpp"
 
 namespace graycube {
 
 struct Aabb {
-  static constexpr double kInf = std::numeric_limits<double>::infinity();
-
   Vec3 lo{-kInf, -kInf, -kInf};
   Vec3 hi{kInf, kInf, kInf};
 

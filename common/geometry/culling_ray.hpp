@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
+#include "geometry/infinity.hpp"
 #include "geometry/ray.hpp"
 
 namespace graycube {
@@ -20,13 +20,11 @@ inline constexpr float kFlattest = 1e-30f;
 /// The nearest float not above (not below) a double.
 inline float float_below(double v) {
   const auto f = static_cast<float>(v);
-  return static_cast<double>(f) > v ? std::nextafterf(f, -std::numeric_limits<float>::infinity())
-                                    : f;
+  return static_cast<double>(f) > v ? std::nextafterf(f, -kFloatInf) : f;
 }
 inline float float_above(double v) {
   const auto f = static_cast<float>(v);
-  return static_cast<double>(f) < v ? std::nextafterf(f, std::numeric_limits<float>::infinity())
-                                    : f;
+  return static_cast<double>(f) < v ? std::nextafterf(f, kFloatInf) : f;
 }
 
 /// One coordinate of a ray: distances are taken from a little before the origin to the near planes,

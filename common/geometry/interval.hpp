@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
+#include "geometry/infinity.hpp"
 #include "geometry/spans.hpp"
 
 namespace graycube::csg {
-
-inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// One closed interval of a line; empty when enter > leave.
 struct Interval {

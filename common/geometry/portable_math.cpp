@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "check.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kSmallestNormal = std::numeric_limits<double>::min();
 
 /// An unevaluated sum; `low` is at most about half a unit in the last place of `high`.

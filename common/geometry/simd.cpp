@@ -95,9 +95,9 @@ bool choose_simd(std::string_view name) {
   return false;
 }
 
-std::string choose_simd_from_environment() {
+std::optional<std::string> choose_simd_from_environment() {
   const char* name = std::getenv("GRAYCUBE_SIMD");
-  if (name == nullptr || choose_simd(name)) return {};
+  if (name == nullptr || choose_simd(name)) return std::nullopt;
   std::string message = std::string(name) + ": this machine has best";
   for (const std::string& known : simd_names()) message += ", " + known;
   return message;

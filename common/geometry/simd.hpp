@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,8 @@ bool choose_simd(std::string_view name);
 /// Where tables made by GRAYCUBE_SIMD_TABLE hold the function to call.
 std::size_t simd_index();
 
-/// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it; empty when all is
-/// well.
-std::string choose_simd_from_environment();
+/// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it, if anything is.
+std::optional<std::string> choose_simd_from_environment();
 
 }  // namespace graycube
 

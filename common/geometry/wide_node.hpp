@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/float_box.hpp"
+
 namespace graycube {
 
 /// Up to eight boxes side by side. Unused places hold empty boxes.
@@ -16,6 +18,25 @@ struct alignas(64) WideNode {
   std::array<std::array<std::array<float, kWidth>, 3>, 2> planes{};
   /// Inner: index of a node; with kItemFlag: of an item.
   std::array<std::uint32_t, kWidth> child{};
+
+  void set_box(std::size_t place, const FloatBox& box) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      planes[0][a][place] = box.lo[a];
+      planes[1][a][place] = box.hi[a];
+    }
+  }
+  FloatBox box(std::size_t place) const {
+    FloatBox box;
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.lo[a] = planes[0][a][place];
+      box.hi[a] = planes[1][a][place];
+    }
+    return box;
+  }
+  bool is_used(std::size_t place) const { return !(planes[0][0][place] > planes[1][0][place]); }
+  bool is_item(std::size_t place) const { return (child[place] & kItemFlag) != 0; }
+  /// Only where there is an item.
+  std::uint32_t item(std::size_t place) const { return child[place] & ~kItemFlag; }
 };
 
 }  // namespace graycube

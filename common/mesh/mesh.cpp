@@ -16,8 +16,7 @@ struct Mesh::Data {
       if (surface.plane_of[i] == TriangleMesh::kOwnPlane) continue;
       const Plane& plane = surface.planes[surface.plane_of[i]];
       for (const std::uint32_t corner : surface.triangles[i]) {
-        const Vec3& p = surface.points[corner];
-        bounds.include(p + (plane.offset - dot(plane.normal, p)) * plane.normal);
+        bounds.include(nearest_on(plane, surface.points[corner]));
       }
     }
   }
@@ -32,7 +31,7 @@ namespace {
 /// Of sorted cuts, before which the winding number is as given.
 Spans spans_of(const std::vector<MeshCut>& cuts, std::int32_t winding) {
   Spans spans;
-  double entered = -csg::kInf;
+  double entered = -kInf;
   for (std::size_t i = 0; i < cuts.size();) {
     const double t = cuts[i].t;
     const bool was_inside = winding != 0;
@@ -44,7 +43,7 @@ Spans spans_of(const std::vector<MeshCut>& cuts, std::int32_t winding) {
       entered = t;
     }
   }
-  if (winding != 0) spans.add(entered, csg::kInf);  // only of an open mesh
+  if (winding != 0) spans.add(entered, kInf);  // only of an open mesh
   return spans;
 }
 
@@ -80,7 +79,7 @@ bool Mesh::is_before_bounds(const Ray& ray, double t) const {
   // Far more than rounding, of the bounds and of the parameters of what lies in them.
   constexpr double kShare = 1e-6;
   const Aabb& box = data_->bounds;
-  double enter = -csg::kInf;
+  double enter = -kInf;
   for (int a = 0; a < 3; ++a) {
     if (ray.direction[a] == 0) continue;
     const double margin = kShare * (max_abs(box.lo) + max_abs(box.hi) + max_abs(ray.origin));
@@ -92,7 +91,7 @@ bool Mesh::is_before_bounds(const Ray& ray, double t) const {
 }
 
 void Mesh::cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) const {
-  cuts_between(ray, from, csg::kInf, cuts);
+  cuts_between(ray, from, kInf, cuts);
 }
 
 void Mesh::cuts_between(const Ray& ray, double from, double below,
@@ -105,8 +104,8 @@ void Mesh::cuts_between(const Ray& ray, double from, double below,
 Spans Mesh::spans(const Ray& ray) const {
   std::vector<MeshCut> cuts;
   const csg::MeshLine line(ray);
-  add_cuts(data_->tree, line, ray, -csg::kInf, 0, cuts);
-  add_cuts(data_->tree, line, ray, 0, csg::kInf, cuts);
+  add_cuts(data_->tree, line, ray, -kInf, 0, cuts);
+  add_cuts(data_->tree, line, ray, 0, kInf, cuts);
   sort_by_parameter(cuts);
   return spans_of(cuts, 0);
 }
@@ -120,7 +119,7 @@ bool Mesh::contains(const Vec3& point) const {
   // Along no plane that a model is likely to have.
   const Ray ray{point, {0.36154797, 0.48223431, 0.79794753}};
   std::vector<MeshCut> cuts;
-  add_cuts(data_->tree, csg::MeshLine(ray), ray, 0, csg::kInf, cuts);
+  add_cuts(data_->tree, csg::MeshLine(ray), ray, 0, kInf, cuts);
   std::int32_t winding = 0;
   for (const MeshCut& c : cuts) winding += c.count;
   return winding != 0;
@@ -128,7 +127,7 @@ bool Mesh::contains(const Vec3& point) const {
 
 Vec3 Mesh::outward_normal(const Ray& ray, double t) const {
   std::vector<MeshCut> cuts;
-  add_cuts(data_->tree, csg::MeshLine(ray), ray, t, std::nextafter(t, csg::kInf), cuts);
+  add_cuts(data_->tree, csg::MeshLine(ray), ray, t, std::nextafter(t, kInf), cuts);
   std::int32_t sum = 0;
   for (const MeshCut& c : cuts) sum += c.count;
   // Of several triangles one that is crossed as the surface is; which one may not depend on their

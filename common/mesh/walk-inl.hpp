@@ -14,6 +14,7 @@
 #include "geometry/interval.hpp"
 #include "geometry/wide_node-inl.hpp"
 #include "mesh/walk.hpp"
+#include "set_bits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace graycube {
@@ -74,8 +75,7 @@ HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const 
                                std::vector<MeshCut>& cuts) {
   SeenBlock seen;
   const TriangleBlock& block = tree.blocks()[index];
-  for (std::uint32_t rest = see(block, line, seen); rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<std::size_t>(__builtin_ctz(rest));
+  for (const std::size_t i : SetBits(see(block, line, seen))) {
     const int count =
         line.turn() * csg::winding_of(seen.corner(i, 0), seen.corner(i, 1), seen.corner(i, 2));
     if (count == 0) continue;
@@ -103,8 +103,8 @@ HWY_INLINE void add_cuts_below(const MeshTree& tree, std::uint32_t root, const C
   while (size > 0) {
     const WideNode& node = tree.nodes()[stack[--size]];
     HWY_ALIGN float near[WideNode::kWidth];
-    for (std::uint32_t mask = meet(node, culling, from, to, near); mask != 0; mask &= mask - 1) {
-      const std::uint32_t child = node.child[static_cast<std::size_t>(__builtin_ctz(mask))];
+    for (const std::size_t i : SetBits(meet(node, culling, from, to, near))) {
+      const std::uint32_t child = node.child[i];
       if ((child & WideNode::kItemFlag) == 0) {
         stack[size++] = child;
       } else {

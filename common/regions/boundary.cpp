@@ -1,7 +1,6 @@
 #include "regions/boundary.hpp"
 
-#include <limits>
-
+#include "geometry/infinity.hpp"
 #include "geometry/simd.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -24,7 +23,7 @@ void Passages(std::span<const RegionSide* const> sides, const Vec3& eye, const R
     return hn::Add(hn::Add(hn::Mul(hn::Set(lanes, n.x), x), hn::Mul(hn::Set(lanes, n.y), y)),
                    hn::Mul(hn::Set(lanes, n.z), z));
   };
-  const V inf = hn::Set(lanes, std::numeric_limits<double>::infinity());
+  const V inf = hn::Set(lanes, kInf);
   const V zero = hn::Zero(lanes);
   for (std::size_t i = 0; i < packet.count; i += hn::Lanes(lanes)) {
     const auto origin = [&](std::size_t a) {

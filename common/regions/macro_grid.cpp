@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "check.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 /// Parallel planes: the camera's axes are orthogonal to within rounding only, and a primary ray
 /// must not drift through a boundary. Over a scene of size s the ray strays by 1e-14 s, far inside
 /// the growth of 1e-9 s that regions are given.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "flat/pieces.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 namespace {
@@ -72,7 +72,7 @@ CsgNode convex_prism(const std::vector<FlatEdge>& edges, double low, double high
 class TurnedPiece {
  public:
   TurnedPiece(const FlatPiece& piece, int level) : piece_(piece) {
-    low_ = std::numeric_limits<double>::infinity();
+    low_ = kInf;
     high_ = -low_;
     for (const FlatPoint& p : piece.corners) {
       low_ = std::min(low_, p.y);
@@ -177,7 +177,7 @@ PrismShape prism_shape(const FlatLoops& loops, double low, double high) {
 }
 
 std::optional<CsgNode> turned(const FlatLoops& loops) {
-  double reach = 0, lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  double reach = 0, lowest = kInf, highest = -lowest;
   bool crosses_axis = false;
   for (const FlatLoop& loop : loops) {
     for (const FlatPoint& p : loop) {

@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "geometry/infinity.hpp"
 #include "trace/step.hpp"
 #include "trace/work_cost.hpp"
 
@@ -64,7 +64,7 @@ class CoarseTrace {
     for (std::uint32_t s = 0; s < rays; ++s) {
       RayTask& ray = waiting_[index_of(at)].emplace_back();
       ray.ray = frame.primary_ray(x, y, s % samples, s / samples);
-      ray.t_max = std::numeric_limits<double>::infinity();
+      ray.t_max = kInf;
       ray.weight = {1, 1, 1};
       ray.pixel = y * frame.image.width + x;
       ray.region = at;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "set_bits.hpp"
 #include "trace/ray_selection.hpp"
 
 namespace graycube {
@@ -17,7 +18,7 @@ constexpr std::size_t kMostBehind = 256;
 /// turned round, whose roots may differ in the last bit.
 double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, double t) {
   const Spans spans = spans_along(model.primitives[primitive], model.data(), ray);
-  double best = t, least = Aabb::kInf;
+  double best = t, least = kInf;
   for (int i = 0; i < spans.count; ++i) {
     const auto& s = spans.interval[static_cast<std::size_t>(i)];
     for (const double end : {s.enter, s.leave}) {
@@ -45,7 +46,7 @@ std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const
       }
       seen[count++] = hit->object;
     }
-    hit = domain.first_crossing(back, std::nextafter(hit->t, Aabb::kInf), Aabb::kInf, scratch);
+    hit = domain.first_crossing(back, std::nextafter(hit->t, kInf), kInf, scratch);
   }
   return std::nullopt;
 }
@@ -60,14 +61,12 @@ RayPacket::Mask entries_behind(const Domain& domain, RayKind kind, const RayPack
   for (std::size_t i = 0; i < packet.count; ++i) {
     if (packet.t0[i] != 0) continue;
     const Ray ray = packet.ray(i);
-    back.add(i, {ray.origin, -ray.direction}, 0, Aabb::kInf);
+    back.add(i, {ray.origin, -ray.direction}, 0, kInf);
   }
   if (back.packet.count == 0) return 0;
   std::array<Crossing, RayPacket::kSize> first;
   RayPacket::Mask any = 0;
-  for (RayPacket::Mask met = domain.first_crossings(back.packet, scratch, first); met != 0;
-       met &= met - 1) {
-    const auto place = static_cast<std::size_t>(__builtin_ctz(met));
+  for (const std::size_t place : SetBits(domain.first_crossings(back.packet, scratch, first))) {
     const std::size_t i = back.numbers[place];
     const auto entry =
         entry_behind(domain, packet.ray(i), back.packet.ray(place), first[place], scratch);

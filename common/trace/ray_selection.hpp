@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 
 #include "crossings/ray_packet.hpp"
+#include "set_bits.hpp"
 
 namespace graycube {
 
@@ -22,9 +22,7 @@ struct RaySelection {
   /// The bits that rays of the selection have among all.
   RayPacket::Mask among_all(RayPacket::Mask selected) const {
     RayPacket::Mask all = 0;
-    for (; selected != 0; selected &= selected - 1) {
-      all |= RayPacket::Mask{1} << numbers[static_cast<std::size_t>(std::countr_zero(selected))];
-    }
+    for (const std::size_t i : SetBits(selected)) all |= RayPacket::Mask{1} << numbers[i];
     return all;
   }
 };

@@ -1,21 +1,15 @@
 #include "trace/render_serial.hpp"
 
 #include <atomic>
-#include <ctime>
 #include <mutex>
 #include <thread>
 
 #include "check.hpp"
+#include "process/clocks.hpp"
 #include "trace/tile_plan.hpp"
 
 namespace graycube {
 namespace {
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 class SerialRender {
  public:

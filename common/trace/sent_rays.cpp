@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "geometry/infinity.hpp"
 #include "shading/phong.hpp"
 #include "trace/first_hit.hpp"
 #include "trace/step.hpp"
@@ -55,7 +55,7 @@ void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const
   r.ray.origin = origin;
   r.ray.direction = direction;
   r.t = origin_epsilon(origin);
-  r.t_max = std::numeric_limits<double>::infinity();
+  r.t_max = kInf;
   r.weight = weight;
   r.pixel = parent.pixel;
   r.kind = kind;

@@ -1,10 +1,10 @@
 #include "trace/step.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <new>
 
+#include "geometry/infinity.hpp"
+#include "set_bits.hpp"
 #include "trace/entry_hit.hpp"
 #include "trace/ray_selection.hpp"
 
@@ -14,8 +14,6 @@ namespace {
 /// Pixels whose primary rays make a packet.
 constexpr std::uint32_t kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Whether two rays may be traced in one wave.
 bool are_alike(const RayTask& a, const RayTask& b) {
@@ -281,8 +279,7 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
              has_bounds = domain_.has_foreign_bounds();
   RaySelection beyond;
   RayPacket::Mask finished = 0;
-  for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+  for (const std::size_t i : SetBits(leaving)) {
     const RayTask& task = rays[i].task;
     if (rays[i].stays || (has_horizons && domain_.holds_way_to_light(task, exits[i].t))) {
       finished |= RayPacket::Mask{1} << i;
@@ -294,8 +291,7 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
     finished |=
         beyond.among_all(beyond.packet.all() & ~domain_.may_meet_foreign(beyond.packet, scratch_));
   }
-  for (RayPacket::Mask left = finished; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+  for (const std::size_t i : SetBits(finished)) {
     packet.t1[i] = rays[i].task.t_max;
   }
   return leaving & ~finished;
@@ -309,8 +305,7 @@ RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& 
                                       RayPacket::Mask hits,
                                       std::span<const Crossing, RayPacket::kSize> found) {
   RaySelection beyond;
-  for (RayPacket::Mask left = leaving; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+  for (const std::size_t i : SetBits(leaving)) {
     const bool is_hit = (hits >> i & 1) != 0;
     if (is_hit && found[i].t < exits[i].t) continue;
     beyond.add(i, packet.ray(i), exits[i].t, is_hit ? found[i].t : kInf);

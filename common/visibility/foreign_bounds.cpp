@@ -3,40 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <span>
 
-#include "geometry/culling_ray.hpp"
+#include "geometry/float_box.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 /// About so many of a node's branches are items.
 constexpr std::size_t kBoxesPerNode = 5;
-
-struct FloatBox {
-  std::array<float, 3> lo, hi;
-
-  static constexpr FloatBox nothing() {
-    return {{kFloatInf, kFloatInf, kFloatInf}, {-kFloatInf, -kFloatInf, -kFloatInf}};
-  }
-  void include(const FloatBox& o) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      lo[a] = std::min(lo[a], o.lo[a]);
-      hi[a] = std::max(hi[a], o.hi[a]);
-    }
-  }
-};
-
-FloatBox box_around(const Aabb& box) {
-  FloatBox around = FloatBox::nothing();
-  for (std::size_t a = 0; a < 3; ++a) {
-    around.lo[a] = float_below(box.lo[static_cast<int>(a)]);
-    around.hi[a] = float_above(box.hi[static_cast<int>(a)]);
-  }
-  return around;
-}
 
 /// What goes into one place of a node.
 struct Branch {
@@ -93,10 +68,10 @@ class Pruning {
     std::array<Branches, WideNode::kWidth> below;
     std::size_t count = 0;
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
-      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
+      if (!node.is_used(i)) continue;
       Branches& b = below[count];
       b.count = 0;
-      if (is_item(node, i)) {
+      if (node.is_item(i)) {
         if (is_foreign(node, i)) b.add(item_branch(node, i));
       } else if (items_[node.child[i]] > most_together_) {
         b = branches_of(tree_.nodes()[node.child[i]]);
@@ -123,11 +98,8 @@ class Pruning {
     return all;
   }
 
-  static bool is_item(const WideNode& node, std::size_t place) {
-    return (node.child[place] & WideNode::kItemFlag) != 0;
-  }
   std::uint32_t object_of(const WideNode& node, std::size_t place) const {
-    return tree_.items()[node.child[place] & ~WideNode::kItemFlag].object;
+    return tree_.items()[node.item(place)].object;
   }
   bool is_foreign(const WideNode& node, std::size_t place) const {
     return !contents_.is_whole[object_of(node, place)];
@@ -136,17 +108,12 @@ class Pruning {
   Branch item_branch(const WideNode& node, std::size_t place) const {
     const std::uint32_t object = object_of(node, place);
     if (!is_part_[object]) return place_branch(node, place);
-    return {box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)),
+    return {float_box_around(tree_.model().objects[object].bounds.grown(tree_.model().delta)),
             WideNode::kItemFlag};
   }
 
   static Branch place_branch(const WideNode& node, std::size_t place) {
-    Branch b{FloatBox::nothing(), WideNode::kItemFlag};
-    for (std::size_t a = 0; a < 3; ++a) {
-      b.box.lo[a] = node.planes[0][a][place];
-      b.box.hi[a] = node.planes[1][a][place];
-    }
-    return b;
+    return {node.box(place), WideNode::kItemFlag};
   }
 
   /// All that is foreign below a node, in one box, which may be larger; nothing where nothing is.
@@ -159,8 +126,8 @@ class Pruning {
   bool add_foreign_below(const WideNode& node, FloatBox& box) const {
     bool any = false;
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
-      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
-      if (!is_item(node, i)) {
+      if (!node.is_used(i)) continue;
+      if (!node.is_item(i)) {
         any = add_foreign_below(tree_.nodes()[node.child[i]], box) || any;
       } else if (is_foreign(node, i)) {
         any = true;
@@ -176,11 +143,7 @@ class Pruning {
     WideNode& node = nodes_.emplace_back();
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
       const bool is_used = i < branches.count;
-      const FloatBox box = is_used ? branches.list[i].box : FloatBox::nothing();
-      for (std::size_t a = 0; a < 3; ++a) {
-        node.planes[0][a][i] = box.lo[a];
-        node.planes[1][a][i] = box.hi[a];
-      }
+      node.set_box(i, is_used ? branches.list[i].box : FloatBox::nothing());
       node.child[i] = is_used ? branches.list[i].child : WideNode::kItemFlag;
     }
     return {branches.box(), static_cast<std::uint32_t>(nodes_.size() - 1)};
@@ -202,8 +165,8 @@ ForeignBoundsMaker::ForeignBoundsMaker(const SurfaceTree& whole)
   for (std::size_t n = items_.size(); n-- > 0;) {
     const WideNode& node = whole.nodes()[n];
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
-      if (node.planes[0][0][i] > node.planes[1][0][i]) continue;
-      items_[n] += (node.child[i] & WideNode::kItemFlag) != 0 ? 1 : items_[node.child[i]];
+      if (!node.is_used(i)) continue;
+      items_[n] += node.is_item(i) ? 1 : items_[node.child[i]];
     }
   }
 }

@@ -67,7 +67,7 @@ std::vector<Demand> demands(const LightHorizons& horizons, const SurfaceTree& wh
     for (std::uint32_t i = 0; i < across; ++i) {
       const Ray ray = frame.primary_ray(pixel(i, across, frame.image.width),
                                         pixel(j, down, frame.image.height), 0, 0);
-      if (const auto hit = whole.first_crossing(ray, 0, Aabb::kInf, scratch)) look(ray, *hit);
+      if (const auto hit = whole.first_crossing(ray, 0, kInf, scratch)) look(ray, *hit);
     }
   }
   return result;
@@ -273,7 +273,7 @@ LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole,
   choose_blocks(demand, depths);
   if (!split_blocks(demand, std::min(most_texels, kMostDepthTexels), depths)) return horizons;
   // What is outside of a dilated object is at least so far from the object itself.
-  double clearance = Aabb::kInf;
+  double clearance = kInf;
   const auto larger = dilated(model, [&](const Object& object) {
     const double by =
         half_width_at(object, model, demand, depths, [](const LightDepths& d) { return d.split; });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/infinity.hpp"
 #include "visibility/light_view.hpp"
 
 namespace graycube {
@@ -25,7 +26,7 @@ LightHorizons LightHorizons::of(const Model& model) {
   std::vector<float> distances;
   std::vector<Sight> seen;
   for (const PointLight& light : lights) {
-    distances.assign(kTexels, std::numeric_limits<float>::infinity());
+    distances.assign(kTexels, kFloatInf);
     const LightView view(model, light.position);
     for (const Object& object : model.objects) {
       seen.clear();

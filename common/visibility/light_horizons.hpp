@@ -9,12 +9,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "csg/model.hpp"
+#include "geometry/infinity.hpp"
 #include "visibility/cube_map.hpp"
 
 namespace graycube {
@@ -59,9 +59,7 @@ struct HorizonMap {
   /// that isn't 0. None where all are 0.
   static HorizonMap of(std::span<const float> distances, double reach);
   bool empty() const { return units.empty(); }
-  double at(std::size_t texel) const {
-    return units[texel] == kNever ? std::numeric_limits<double>::infinity() : units[texel] * unit;
-  }
+  double at(std::size_t texel) const { return units[texel] == kNever ? kInf : units[texel] * unit; }
   friend bool operator==(const HorizonMap&, const HorizonMap&) = default;
 };
 
@@ -77,7 +75,7 @@ class LightHorizons {
     /// No surface is nearer.
     double lit = 0;
     /// What is farther gets no light, if it is no rounding error (`clearance`) from it.
-    double dark = std::numeric_limits<double>::infinity();
+    double dark = kInf;
     double clearance = 0;
   };
 
@@ -119,8 +117,7 @@ class LightHorizons {
     const auto unit = static_cast<float>(map.unit);
     for (std::size_t i = 0; i < texels.size(); ++i) {
       const std::uint16_t units = map.units[texels[i]];
-      distances[i] = units == HorizonMap::kNever ? std::numeric_limits<float>::infinity()
-                                                 : unit * static_cast<float>(units);
+      distances[i] = units == HorizonMap::kNever ? kFloatInf : unit * static_cast<float>(units);
     }
   }
 

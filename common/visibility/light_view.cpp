@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "csg/half_space.hpp"
+#include "geometry/infinity.hpp"
 #include "visibility/light_horizons.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 /// Directions are taken this much wider than a texel, in units of a face's half side.
 constexpr double kWiden = 1e-6;
 /// Solids are taken this many δ larger; distances are given this much shorter, relatively.
@@ -199,8 +199,8 @@ class ObjectView {
 
   Begin leaf_begin(const Primitive& p, bool inverted, const Cone& cone) const {
     if (p.kind == PrimitiveKind::kHalfSpace) {
-      const Vec3 n{p.v[0], p.v[1], p.v[2]};
-      const double offset = p.v[3] - dot(n, light_);
+      const auto& [n, from_origin] = csg::half_space_plane(p);
+      const double offset = from_origin - dot(n, light_);
       const double inside = half_space_begin(n, offset + grow_, cone);
       const double outside = half_space_begin(-n, -offset + grow_, cone);
       return {inverted ? outside : inside, std::max(inside, outside)};

@@ -1,8 +1,8 @@
 #include "visibility/occluders.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/infinity.hpp"
 #include "visibility/light_view.hpp"
 
 namespace graycube {
@@ -52,8 +52,7 @@ std::vector<std::vector<float>> Occluders::foreign_distances(
     const std::vector<bool>& is_held) const {
   std::vector<std::vector<float>> distances;
   for (const OfLight& l : lights_) {
-    auto& of_light =
-        distances.emplace_back(LightHorizons::kTexels, std::numeric_limits<float>::infinity());
+    auto& of_light = distances.emplace_back(LightHorizons::kTexels, kFloatInf);
     for (std::size_t texel = 0; texel < LightHorizons::kTexels; ++texel) {
       std::uint32_t i = l.first[texel];
       const std::uint32_t end = l.first[texel + 1];

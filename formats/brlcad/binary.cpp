@@ -2,11 +2,12 @@
 // lengths of 1, 2, 4 or 8 bytes and everything big-endian.
 #include <zlib.h>
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "formats/brlcad/byte_reader.hpp"
 #include "formats/brlcad/database.hpp"
+#include "formats/brlcad/tree_binary.hpp"
 
 namespace graycube {
 namespace {
@@ -16,54 +17,6 @@ constexpr unsigned kMagicStart = 0x76, kMagicEnd = 0x35;
 constexpr std::size_t kMaxBody = std::size_t{1} << 30;
 /// Most that a compressed body may grow by: what deflate can reach, rounded up.
 constexpr std::size_t kMaxExpansion = 1100;
-
-/// Reads big-endian values; after the first that doesn't fit everything is 0 and ok() false.
-class BigReader {
- public:
-  explicit BigReader(std::string_view bytes) : bytes_(bytes) {}
-
-  bool ok() const { return ok_; }
-  std::size_t remaining() const { return bytes_.size(); }
-
-  std::uint64_t integer(unsigned width) {
-    const std::string_view field = take(width);
-    std::uint64_t v = 0;
-    for (const char c : field) v = v << 8 | static_cast<unsigned char>(c);
-    return v;
-  }
-  double number() { return std::bit_cast<double>(integer(8)); }
-  Vec3 vector() {
-    const double x = number(), y = number(), z = number();
-    return {x, y, z};
-  }
-  std::string_view take(std::uint64_t count) {
-    if (count > bytes_.size()) {
-      ok_ = false;
-      bytes_ = {};
-      return {};
-    }
-    const std::string_view field = bytes_.substr(0, static_cast<std::size_t>(count));
-    bytes_.remove_prefix(static_cast<std::size_t>(count));
-    return field;
-  }
-  /// Up to a zero byte, which is taken too.
-  std::string_view text() {
-    const std::size_t end = bytes_.find('\0');
-    if (end == std::string_view::npos) {
-      take(bytes_.size() + 1);
-      return {};
-    }
-    const std::string_view field = take(end);
-    take(1);
-    return field;
-  }
-
- private:
-  std::string_view bytes_;
-  bool ok_ = true;
-};
-
-unsigned width_of(unsigned code) { return 1u << (code & 3u); }
 
 /// A length-prefixed part of an object: attributes or body.
 struct Part {
@@ -93,7 +46,7 @@ bool inflate_into(std::string_view packed, std::string& out) {
   return state == Z_STREAM_END && out.size() <= most;
 }
 
-Part read_part(BigReader& r, unsigned flags) {
+Part read_part(BrlcadByteReader& r, unsigned flags) {
   Part part;
   part.is_present = (flags & 0x20u) != 0;
   if (!part.is_present) return part;
@@ -127,7 +80,7 @@ class BinaryReader {
   void fail(std::string why) { report_.error(where(), std::move(why)); }
 
   void object() {
-    BigReader r(bytes_.substr(at_));
+    BrlcadByteReader r(bytes_.substr(at_));
     const auto magic = static_cast<unsigned>(r.integer(1));
     const auto header = static_cast<unsigned>(r.integer(1));
     const auto attribute_flags = static_cast<unsigned>(r.integer(1));
@@ -140,7 +93,7 @@ class BinaryReader {
             kMagicEnd) {
       return fail("no object of a version 5 database begins here");
     }
-    BigReader inside(bytes_.substr(at_, static_cast<std::size_t>(length) - 1));
+    BrlcadByteReader inside(bytes_.substr(at_, static_cast<std::size_t>(length) - 1));
     inside.take(6 + width_of(header >> 6));
     constexpr unsigned kApplicationData = 0;
     if ((header & 3u) == kApplicationData)
@@ -148,7 +101,7 @@ class BinaryReader {
     at_ += static_cast<std::size_t>(length);
   }
 
-  void content(BigReader& r, unsigned header, unsigned attribute_flags, unsigned body_flags,
+  void content(BrlcadByteReader& r, unsigned header, unsigned attribute_flags, unsigned body_flags,
                unsigned major, unsigned minor) {
     std::string name;
     if ((header & 0x20u) != 0) name = r.take(r.integer(width_of(header >> 3)));
@@ -167,11 +120,11 @@ class BinaryReader {
     }
     if (major != kBrlcad || name.empty()) return;
     BrlcadObject object{name, where(), BrlcadForeign{}};
-    BigReader b(body.bytes);
+    BrlcadByteReader b(body.bytes);
     constexpr unsigned kCombination = 31;
     if (minor == kCombination) {
       BrlcadComb comb;
-      if (!tree(b, name, comb)) return;
+      if (const auto why = read_binary_tree(b, comb)) return fail(name + ": " + *why);
       each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
         set_brlcad_attribute(comb, key, value);
       });
@@ -184,7 +137,7 @@ class BinaryReader {
 
   template <typename Visit>
   static void each_attribute(std::string_view bytes, Visit&& visit) {
-    BigReader r(bytes);
+    BrlcadByteReader r(bytes);
     while (r.remaining() > 0) {
       const std::string_view key = r.text();
       if (!r.ok() || key.empty()) break;
@@ -192,84 +145,6 @@ class BinaryReader {
       if (!r.ok()) break;
       visit(key, value);
     }
-  }
-
-  /// A width code; the numbers of matrices, leaves, bytes of leaves, operations and levels;
-  /// matrices; leaves, each a name and the number of its matrix; operations in postfix order, none
-  /// where all are united.
-  bool tree(BigReader& r, const std::string& name, BrlcadComb& comb) {
-    if (r.remaining() == 0) return true;
-    const unsigned width = width_of(static_cast<unsigned>(r.integer(1)));
-    const std::uint64_t matrices = r.integer(width), leaves = r.integer(width);
-    r.integer(width);
-    const std::uint64_t operations = r.integer(width);
-    r.integer(width);
-    if (!r.ok() || matrices > r.remaining() / 128 || leaves > kMaxBrlcadMembers ||
-        leaves > r.remaining() / 2) {
-      fail(name + ": a combination with more matrices or members than it has room for");
-      return false;
-    }
-    std::vector<std::optional<Affine>> maps;
-    for (std::uint64_t i = 0; i < matrices; ++i) {
-      std::array<double, 16> m;
-      for (double& v : m) v = r.number();
-      maps.push_back(brlcad_matrix(m));
-    }
-    struct Leaf {
-      std::string_view name;
-      std::optional<Affine> matrix;
-    };
-    std::vector<Leaf> members;
-    for (std::uint64_t i = 0; i < leaves; ++i) {
-      Leaf leaf{r.text(), std::nullopt};
-      const std::uint64_t index = r.integer(width);
-      const bool has_matrix = (index >> (8 * width - 1) & 1) == 0;
-      if (has_matrix) {
-        if (!r.ok() || index >= maps.size() || !maps[static_cast<std::size_t>(index)]) {
-          fail(name + ": a member's matrix isn't there, or is no invertible affine map");
-          return false;
-        }
-        leaf.matrix = maps[static_cast<std::size_t>(index)];
-      }
-      members.push_back(leaf);
-    }
-    const std::string_view postfix = r.take(operations);
-    if (!r.ok()) {
-      fail(name + ": a combination that is shorter than it says");
-      return false;
-    }
-    BrlcadTreeBuilder builder;
-    std::size_t used = 0;
-    bool is_good = true;
-    const auto push = [&] {
-      is_good = used < members.size();
-      if (!is_good) return;
-      builder.leaf(std::string(members[used].name), members[used].matrix);
-      ++used;
-    };
-    if (postfix.empty()) {
-      for (std::size_t i = 0; i < members.size() && is_good; ++i) {
-        push();
-        if (i > 0) is_good = is_good && builder.operation(BrlcadTree::Op::kUnion);
-      }
-      if (members.empty()) return true;
-    }
-    constexpr BrlcadTree::Op kOps[] = {BrlcadTree::Op::kUnion, BrlcadTree::Op::kIntersection,
-                                       BrlcadTree::Op::kDifference, BrlcadTree::Op::kXor,
-                                       BrlcadTree::Op::kNot};
-    for (const char token : postfix) {
-      if (token == 1) {
-        push();
-      } else {
-        is_good = token >= 2 && token <= 6 && builder.operation(kOps[token - 2]);
-      }
-      if (!is_good) break;
-    }
-    comb.tree = is_good ? builder.finish() : std::nullopt;
-    if (comb.tree) return true;
-    fail(name + ": its operations are no Boolean tree, or one deeper than " +
-         std::to_string(kMaxBrlcadTreeDepth) + " levels");
-    return false;
   }
 
   static std::optional<BrlcadKind> kind_of(unsigned minor) {
@@ -309,7 +184,7 @@ class BinaryReader {
     return "kind " + std::to_string(minor);
   }
 
-  void solid(BigReader& r, unsigned minor, BrlcadObject& object) {
+  void solid(BrlcadByteReader& r, unsigned minor, BrlcadObject& object) {
     const auto kind = kind_of(minor);
     if (!kind) {
       object.value = BrlcadForeign{foreign_name(minor)};
@@ -329,7 +204,7 @@ class BinaryReader {
     object.value = std::move(out);
   }
 
-  void numbers(BigReader& r, std::size_t count, const std::string& name, BrlcadSolid& out) {
+  void numbers(BrlcadByteReader& r, std::size_t count, const std::string& name, BrlcadSolid& out) {
     bool is_finite = count <= r.remaining() / 8;
     for (std::size_t i = 0; i < count && is_finite; ++i) {
       out.values.push_back(r.number());
@@ -340,13 +215,14 @@ class BinaryReader {
            "-number solid with too few, or with one that is none");
   }
 
-  void counted(BigReader& r, std::size_t each, const std::string& name, BrlcadSolid& out) {
+  void counted(BrlcadByteReader& r, std::size_t each, const std::string& name, BrlcadSolid& out) {
     const std::uint64_t count = r.integer(4);
     if (count > kMaxBrlcadNumbers / each) return fail(name + ": too many numbers");
     numbers(r, static_cast<std::size_t>(count) * each, name, out);
   }
 
-  bool points(BigReader& r, std::uint64_t count, const std::string& name, std::vector<Vec3>& out) {
+  bool points(BrlcadByteReader& r, std::uint64_t count, const std::string& name,
+              std::vector<Vec3>& out) {
     if (count > kMaxBrlcadVertices || count > r.remaining() / 24) {
       fail(name + ": more points than it has room for");
       return false;
@@ -360,7 +236,7 @@ class BinaryReader {
     return true;
   }
 
-  void ars(BigReader& r, const std::string& name, BrlcadSolid& out) {
+  void ars(BrlcadByteReader& r, const std::string& name, BrlcadSolid& out) {
     const std::uint64_t curves = r.integer(4), per_curve = r.integer(4);
     std::vector<Vec3> all;
     if (curves < 2 || per_curve < 3 || per_curve > kMaxBrlcadVertices) {
@@ -371,7 +247,7 @@ class BinaryReader {
         brlcad_ars_mesh(all, static_cast<std::size_t>(curves), static_cast<std::size_t>(per_curve));
   }
 
-  bool bot(BigReader& r, BrlcadObject& object, BrlcadSolid& out) {
+  bool bot(BrlcadByteReader& r, BrlcadObject& object, BrlcadSolid& out) {
     const std::uint64_t vertices = r.integer(4), faces = r.integer(4);
     r.integer(1);
     const std::uint64_t mode = r.integer(1);

@@ -3,129 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/brlcad/solid_nodes.hpp"
 #include "geometry/aabb.hpp"
-#include "scene/limits.hpp"
 
 namespace graycube {
+namespace brlcad {
 namespace {
 
-/// Vectors shorter than this part of a solid's size count as zero; directions as near as this as
-/// parallel.
-constexpr double kTiny = 1e-9;
-/// Ratios of a cone's ends as near as this count as equal: databases of version 4 hold single
-/// precision.
-constexpr double kEqualRatio = 1e-6;
-
-CsgNode node_of(decltype(CsgNode::value) value, std::optional<Affine> transform = std::nullopt) {
-  CsgNode node;
-  node.value = std::move(value);
-  node.transform = transform;
-  return node;
-}
-
-CsgNode operation(Operation op, std::vector<CsgNode> children) {
-  if (children.size() == 1) return std::move(children.front());
-  return node_of(OperationNode{op, std::move(children)});
-}
-
-BrlcadNode problem(std::string why) { return {std::nullopt, std::move(why), false}; }
-BrlcadNode refusal(std::string why) { return {std::nullopt, std::move(why), true}; }
-
-bool is_fair(double v) { return std::fabs(v) <= kMostBrlcadSize; }
-bool is_fair(const Vec3& v) { return is_fair(v.x) && is_fair(v.y) && is_fair(v.z); }
-bool is_direction(const Vec3& v) { return is_fair(v) && length(v) > 0; }
-
-/// What read_scene asks of each shape.
-struct IsSound {
-  bool operator()(const SphereShape& s) const {
-    return is_fair(s.center) && is_fair(s.radius) && s.radius > 0;
-  }
-  bool operator()(const CylinderShape& s) const { return is_fair(s.radius) && s.radius > 0; }
-  bool operator()(const ConeShape& s) const {
-    return is_fair(s.top_radius) && s.top_radius >= 0 && s.base_radius > 0;
-  }
-  bool operator()(const TorusShape& s) const {
-    return is_fair(s.center) && is_direction(s.axis) && is_fair(s.major) && 0 < s.minor &&
-           s.minor < s.major;
-  }
-  bool operator()(const HalfSpaceShape& s) const {
-    return is_direction(s.normal) && is_fair(s.offset);
-  }
-  bool operator()(const EllipsoidShape& s) const {
-    return is_fair(s.center) && is_fair(s.axes[0]) && is_fair(s.axes[1]) && is_fair(s.axes[2]);
-  }
-  bool operator()(const PolyhedronShape& s) const {
-    return s.planes.size() <= kMaxPlanes && std::all_of(s.planes.begin(), s.planes.end(), *this);
-  }
-  bool operator()(const EllipticConeShape& s) const {
-    return is_fair(s.top_a) && is_fair(s.top_b) && s.top_a >= 0 && s.top_b >= 0;
-  }
-  bool operator()(const EllipticTorusShape& s) const {
-    return is_fair(s.center) && is_direction(s.axis) && is_fair(s.radius) && s.across > 0;
-  }
-  bool operator()(const QuadricShape& s) const {
-    bool is_good = is_fair(s.min) && is_fair(s.max) && s.coefficients[0] >= 0;
-    for (const double c : s.coefficients) is_good = is_good && is_fair(c);
-    return is_good && s.min.x < s.max.x && s.min.y < s.max.y && s.min.z < s.max.z;
-  }
-  bool operator()(const OperationNode& o) const {
-    return std::all_of(o.children.begin(), o.children.end(), is_sound_node);
-  }
-  template <typename Other>
-  bool operator()(const Other&) const {
-    return false;
-  }
-  static bool is_sound_node(const CsgNode& node) {
-    if (node.transform) {
-      for (const auto& row : node.transform->m) {
-        for (const double v : row) {
-          if (!is_fair(v)) return false;
-        }
-      }
-      if (!node.transform->inverse()) return false;
-    }
-    return std::visit(IsSound{}, node.value);
-  }
-};
-
-BrlcadNode built(CsgNode node) {
-  if (!IsSound::is_sound_node(node)) return problem("it is empty, or its numbers are out of range");
-  return {std::move(node), {}, false};
-}
-
-/// The map whose columns are x, y, z and the origin.
-Affine frame(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
-  Affine f;
-  for (int i = 0; i < 3; ++i) f.m[static_cast<std::size_t>(i)] = {x[i], y[i], z[i], origin[i]};
-  return f;
-}
-
-/// v made longer by `grow` at its end; zero stays zero.
-Vec3 longer(const Vec3& v, double grow) {
-  const double l = length(v);
-  return l > 0 ? (1 + grow / l) * v : v;
-}
-
-bool is_zero(const Vec3& v, double size) { return !(length(v) > kTiny * size); }
-bool are_parallel(const Vec3& a, const Vec3& b) {
-  return length(cross(a, b)) <= 1e-5 * length(a) * length(b);
-}
-
-/// Reads a solid's numbers, points and vectors going through the map.
-struct Values {
-  const std::vector<double>& v;
-  const Affine& map;
-
-  Vec3 raw(std::size_t i) const { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }
-  Vec3 point(std::size_t i) const { return map.point(raw(i)); }
-  Vec3 vector(std::size_t i) const { return map.vector(raw(i)); }
-  double number(std::size_t i) const { return v[i]; }
-  /// By how much the map makes lengths grow, as the cube root of volumes.
-  double scale() const { return std::cbrt(std::fabs(map.determinant())); }
-};
-
 BrlcadNode ellipsoid(const Vec3& center, std::array<Vec3, 3> axes, double grow) {
-  double largest = 0, least = Aabb::kInf;
+  double largest = 0, least = kInf;
   for (Vec3& axis : axes) {
     axis = longer(axis, grow);
     largest = std::fmax(largest, length(axis));
@@ -149,18 +35,6 @@ BrlcadNode superell(const Values& p, double grow) {
     return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
   }
   return refusal("superell with other exponents than n = e = 1 is not supported");
-}
-
-/// A cone between two circles about an axis, or a cylinder; the larger end's radius is above 0.
-CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double top_radius) {
-  if (base_radius < top_radius) return round_cone(top, top_radius, base, base_radius);
-  const Vec3 axis = top - base;
-  const Vec3 along = normalized(axis);
-  const Vec3 aside =
-      normalized(cross(along, std::fabs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-  const Affine map = frame(base_radius * aside, base_radius * cross(along, aside), axis, base);
-  if (base_radius == top_radius) return node_of(CylinderShape{{0, 0, 0}, {0, 0, 1}, 1}, map);
-  return node_of(ConeShape{{0, 0, 0}, 1, {0, 0, 1}, top_radius / base_radius}, map);
 }
 
 /// One end of a cone: semi-axes' lengths.
@@ -363,107 +237,11 @@ BrlcadNode eto(const Values& p, double grow) {
   return built(node_of(EllipticTorusShape{p.raw(0), n, r, major * out, major * up, across}, p.map));
 }
 
-BrlcadNode particle(const Values& p, double grow) {
-  const Vec3 v = p.point(0), h = p.vector(1);
-  const double rv = p.number(6) * p.scale() + grow, rh = p.number(7) * p.scale() + grow;
-  if (!(rv > 0 && rh > 0)) return problem("a radius is not above 0");
-  const double l = length(h);
-  if (!(std::fabs(rv - rh) < l * (1 - kTiny))) {
-    return built(node_of(rv >= rh ? SphereShape{v, rv} : SphereShape{v + h, rh}));
-  }
-  // The cone that touches both spheres.
-  const double sine = (rv - rh) / l;
-  const double cosine = std::sqrt(1 - sine * sine);
-  const Vec3 along = (1 / l) * h;
-  return built(operation(
-      Operation::kUnion,
-      {node_of(SphereShape{v, rv}), node_of(SphereShape{v + h, rh}),
-       round_cone(v + rv * sine * along, rv * cosine, v + h + rh * sine * along, rh * cosine)}));
-}
-
-struct PipePoint {
-  Vec3 at;
-  double inner, outer, bend;
-};
-
-/// The solid that a pipe's outside (or inside) sweeps: cones, and sectors of tori around the bends.
-bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
-           std::vector<CsgNode>& out, std::string& why) {
-  const auto radius = [&](const PipePoint& p) {
-    return 0.5 * (is_inner ? p.inner : p.outer) + grow;
-  };
-  const auto has_any = [&](const PipePoint& p) { return (is_inner ? p.inner : p.outer) > 0; };
-  Vec3 from = points.front().at;
-  const auto straight = [&](const Vec3& to, const PipePoint& a, const PipePoint& b) {
-    const double l = length(to - from);
-    if (!(l > kBrlcadSkin) || (!has_any(a) && !has_any(b))) return;
-    const Vec3 e = (grow / l) * (to - from);
-    out.push_back(round_cone(from - e, radius(a), to + e, radius(b)));
-  };
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const PipePoint& here = points[i];
-    if (i + 1 == points.size()) {
-      straight(here.at, points[i - 1], here);
-      break;
-    }
-    const Vec3 back = normalized(points[i - 1].at - here.at);
-    const Vec3 ahead = normalized(points[i + 1].at - here.at);
-    const Vec3 normal = cross(back, ahead);
-    if (!(length(normal) > 1e-7)) {
-      straight(here.at, points[i - 1], here);
-      from = here.at;
-      continue;
-    }
-    // tan of half the bend's angle: the angle between −back and ahead.
-    const double cosine = dot(back, ahead);
-    const double reach = here.bend * std::sqrt((1 + cosine) / (1 - cosine));
-    if (here.bend < 0.5 * here.outer * (1 - kEqualRatio)) {
-      why = "a bend is tighter than its tube is thick";
-      return false;
-    }
-    const Vec3 start = here.at + reach * back;
-    straight(start, points[i - 1], here);
-    from = here.at + reach * ahead;
-    if (!has_any(here)) continue;
-    const Vec3 inwards = normalized(back + ahead);
-    const Vec3 center = here.at + std::sqrt(reach * reach + here.bend * here.bend) * inwards;
-    const double minor = std::fmin(radius(here), here.bend * (1 - kTiny));
-    std::vector<CsgNode> sector;
-    sector.push_back(node_of(TorusShape{center, normal, here.bend, minor}));
-    sector.push_back(node_of(HalfSpaceShape{back, dot(back, center) + grow}));
-    sector.push_back(node_of(HalfSpaceShape{ahead, dot(ahead, center) + grow}));
-    out.push_back(operation(Operation::kIntersection, std::move(sector)));
-  }
-  return true;
-}
-
-BrlcadNode pipe(const Values& p, double grow) {
-  std::vector<PipePoint> points;
-  const double scale = p.scale();
-  bool is_hollow = false;
-  for (std::size_t i = 0; i + 5 < p.v.size(); i += 6) {
-    const double* v = p.v.data() + i;
-    points.push_back({p.map.point({v[0], v[1], v[2]}), v[3] * scale, v[4] * scale, v[5] * scale});
-    is_hollow = is_hollow || v[3] > 0;
-    if (!(v[4] > 0) || v[3] < 0 || v[3] > v[4] || v[5] < 0)
-      return problem("a diameter is out of range");
-  }
-  if (points.size() < 2) return problem("it has fewer than two points");
-  std::vector<CsgNode> outside, inside;
-  std::string why;
-  if (!sweep(points, false, grow, outside, why)) return problem(why);
-  // What the bore takes away ends flush with the tube: grown where the tube is not.
-  if (is_hollow && !sweep(points, true, kBrlcadSkin - grow, inside, why)) return problem(why);
-  if (outside.empty()) return problem("it has no length");
-  std::vector<CsgNode> parts;
-  parts.push_back(operation(Operation::kUnion, std::move(outside)));
-  for (CsgNode& bore : inside) parts.push_back(std::move(bore));
-  return built(operation(Operation::kDifference, std::move(parts)));
-}
-
 }  // namespace
+}  // namespace brlcad
 
 BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double grow) {
+  using namespace brlcad;
   const Values p{solid.values, to_world};
   if (solid.values.size() < brlcad_value_count(solid.kind)) return problem("it is incomplete");
   switch (solid.kind) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/json/padded_text.hpp"
+#include "formats/json/pointer.hpp"
 #include "spelling.hpp"
 
 namespace graycube {
@@ -16,19 +17,6 @@ constexpr std::size_t kMaxExcerpt = 40;
 /// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
 constexpr std::size_t kBytesPerValue = 7;
 constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
-
-/// RFC 6901: "~" is written ~0 and "/" ~1.
-void append_token(std::string& pointer, std::string_view token) {
-  pointer.push_back('/');
-  for (const char c : token) {
-    if (c == '~')
-      pointer += "~0";
-    else if (c == '/')
-      pointer += "~1";
-    else
-      pointer.push_back(c);
-  }
-}
 
 std::string shortest_text(double v) {
   char digits[32];

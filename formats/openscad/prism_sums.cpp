@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/openscad/flat/rounds.hpp"
+#include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/flat/sums.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/primitives.hpp"

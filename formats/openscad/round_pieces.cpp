@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/openscad/flat/rounds.hpp"
+#include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/sweep.hpp"
@@ -13,10 +14,6 @@ namespace graycube {
 namespace {
 
 using Kind = RoundItem::Kind;
-
-/// What rounding leaves of rotations that were recovered from six digits
-/// (formats/openscad/language/recovered_rotation.hpp).
-constexpr double kRotationPrecision = 1e-13;
 
 bool is_container(const std::string& name) {
   return name == "group" || name == "union" || name == "color" || name == "render";

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/openscad/flat/rounds.hpp"
+#include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
 #include "formats/openscad/language/arguments.hpp"
 #include "formats/openscad/sweep_mesh.hpp"

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
+#include "geometry/infinity.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {
@@ -61,17 +61,17 @@ struct LocalReach {
                     disc_reach(n, s.top, axis, s.top_radius));
   }
   double operator()(const PolyhedronShape&) const {
-    double largest = -std::numeric_limits<double>::infinity();
+    double largest = -kInf;
     for (const Vec3& corner : corners) largest = std::max(largest, dot(n, corner));
     return largest;
   }
   double operator()(const PrismShape& s) const {
-    double largest = -std::numeric_limits<double>::infinity();
+    double largest = -kInf;
     for (const FlatPoint& p : s.points) largest = std::max(largest, n.x * p.x + n.y * p.y);
     return largest + std::max(n.z * s.base, n.z * (s.base + s.height));
   }
   double operator()(const MeshShape& s) const {
-    double largest = -std::numeric_limits<double>::infinity();
+    double largest = -kInf;
     for (const Vec3& p : s.mesh.points) largest = std::max(largest, dot(n, p));
     return largest;
   }
@@ -85,7 +85,7 @@ struct LocalReach {
   }
   template <typename Other>
   double operator()(const Other&) const {
-    return std::numeric_limits<double>::infinity();
+    return kInf;
   }
 };
 
@@ -147,7 +147,7 @@ ReachDirections reach_directions(const Frame& frame) {
 
 Reach Reach::nothing() {
   Reach result;
-  result.along.fill(-std::numeric_limits<double>::infinity());
+  result.along.fill(-kInf);
   return result;
 }
 

@@ -4,13 +4,15 @@
 #include <memory>
 
 #include "formats/graycube/read_scene.hpp"
+#include "formats/graycube/unbuilt.hpp"
 #include "frontal/preparation/partition.hpp"
 #include "frontal/preparation/slices.hpp"
 #include "proto/horizon_bytes.hpp"
+#include "proto/job_settings.hpp"
 #include "proto/model_slice.hpp"
-#include "proto/tile_shape.hpp"
 #include "regions/macro_grid.hpp"
 #include "scene/compile_scene.hpp"
+#include "shading/credit_limits.hpp"
 #include "visibility/light_depths.hpp"
 
 namespace graycube {
@@ -36,24 +38,33 @@ void add_error(std::vector<control::ErrorItem>& errors, std::string where, std::
   if (errors.size() < kMaxErrorsListed) errors.push_back({std::move(where), std::move(why)});
 }
 
-/// A tile's sum of credit is exact up to these; `serial` has no such limit.
+/// `serial` has no such limits.
 void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem>& errors) {
-  if (s.max_depth > kMaxCreditDepth) {
-    add_error(errors, "/max_depth",
-              "roth and macro take at most " + std::to_string(kMaxCreditDepth) + "; use serial");
-  }
-  if (s.lights.size() > kMaxCreditLights) {
-    add_error(
-        errors, "/lights",
-        "roth and macro take at most " + std::to_string(kMaxCreditLights) + " lights; use serial");
+  for (const ExceededLimit& limit : exceeded_credit_limits(s)) {
+    const std::string unit = limit.unit.empty() ? "" : " " + std::string(limit.unit);
+    add_error(errors, std::string(limit.where),
+              "roth and macro take at most " + std::to_string(limit.most) + unit + "; use serial");
   }
 }
 
-/// The other models' names are reserved.
-void check_is_built(const Scene& scene, std::vector<control::ErrorItem>& errors) {
-  for (const NamedMaterial& m : scene.materials) {
-    if (m.material.model == ShadingModel::kPhong) continue;
-    add_error(errors, "/materials/" + m.name + "/model", "not built yet; only \"phong\" is");
+/// Checks what apply_overrides made; what doesn't fit is added to `errors`.
+void check_overrides(const control::JobOptions& options, const RenderSettings& settings,
+                     std::vector<control::ErrorItem>& errors) {
+  const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
+                            std::uint64_t most) {
+    if (value >= least && value <= most) return;
+    add_error(errors, name,
+              "expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
+                  std::to_string(value));
+  };
+  const ImageSize& image = settings.image;
+  in_range("--size", image.width, 1, kMaxImageSide);
+  in_range("--size", image.height, 1, kMaxImageSide);
+  in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
+  in_range("--samples", image.samples, 1, kMaxSamples);
+  in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+  if (!parse_aovs(options.aov)) {
+    add_error(errors, "--aov", "expected names of AOVs, each once, found " + options.aov);
   }
 }
 
@@ -70,7 +81,7 @@ std::optional<Model> model_of(std::span<const std::byte> scene,
   const ReadResult read = read_scene_text(text_of(scene));
   for (const SceneError& e : read.errors) add_error(errors, e.pointer, e.message);
   if (!read.scene) return std::nullopt;
-  check_is_built(*read.scene, errors);
+  for (const SceneError& e : unbuilt_parts(*read.scene)) add_error(errors, e.pointer, e.message);
   return compile_scene(*read.scene);
 }
 
@@ -177,30 +188,6 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
 
 }  // namespace
 
-void apply_overrides(const control::JobOptions& options, RenderSettings& settings,
-                     std::vector<control::ErrorItem>& errors) {
-  ImageSize& image = settings.image;
-  image.width = options.width.value_or(image.width);
-  image.height = options.height.value_or(image.height);
-  image.samples = options.samples.value_or(image.samples);
-  settings.max_depth = options.max_depth.value_or(settings.max_depth);
-  const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
-                            std::uint64_t most) {
-    if (value >= least && value <= most) return;
-    add_error(errors, name,
-              "expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
-                  std::to_string(value));
-  };
-  in_range("--size", image.width, 1, kMaxImageSide);
-  in_range("--size", image.height, 1, kMaxImageSide);
-  in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
-  in_range("--samples", image.samples, 1, kMaxSamples);
-  in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
-  const auto aovs = parse_aovs(options.aov);
-  if (!aovs) add_error(errors, "--aov", "expected names of AOVs, each once, found " + options.aov);
-  settings.aovs = aovs.value_or(AovSet{});
-}
-
 std::string choices_text(const PreparedScene& scene) {
   if (scene.algorithm != Algorithm::kMacro) {
     return "grain " + std::string(to_string(scene.grain));
@@ -222,7 +209,8 @@ PreparationResult prepare(const PreparationWork& work, const std::function<doubl
   auto whole = model_of(work.scene, result.errors);
   if (!whole) return result;
   Model& model = *whole;
-  apply_overrides(work.options, model.settings, result.errors);
+  apply_overrides(work.options, model.settings);
+  check_overrides(work.options, model.settings, result.errors);
   check_credit_limits(model.settings, result.errors);
   if (result.errors.empty() && !fits_model_limits(model)) {
     add_error(result.errors, "", "the scene is larger than a farm takes; use serial");

@@ -72,8 +72,4 @@ std::string choices_text(const PreparedScene& scene);
 /// `clock_s` tells seconds, of which only differences count. Never throws.
 PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s);
 
-/// The options' overrides, applied and checked; what doesn't fit is added to `errors`.
-void apply_overrides(const control::JobOptions& options, RenderSettings& settings,
-                     std::vector<control::ErrorItem>& errors);
-
 }  // namespace graycube

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "proto/tile_shape.hpp"
-
 namespace graycube {
 
 RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "proto/tile_shape.hpp"
+#include "proto/job_settings.hpp"
 
 namespace graycube {
 namespace {

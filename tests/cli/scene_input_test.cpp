@@ -27,15 +27,17 @@ TEST_CASE("a scene file goes to the farm byte for byte") {
   CHECK(input.scene.objects.size() == 1);
 }
 
-TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for") {
+TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for, as text only for a farm") {
   const TemporaryFolder folder;
   const auto path = write_file(folder / "ball.csg", "sphere($fn = 0, $fa = 12, $fs = 2, r = 3);\n");
   control::JobOptions options;
   options.width = 30;
   options.height = 20;
-  const SceneInput input = read_scene_input(path, options);
+  SceneInput input = read_scene_input(path, options);
   CHECK(input.name == "ball.csg");
   CHECK(input.scene.settings.image == ImageSize{30, 20, 1});
+  CHECK(input.text.empty());
+  prepare_for_farm(input, options);
   const ReadResult again = read_scene_text(input.text);
   REQUIRE(again.scene);
   CHECK(*again.scene == input.scene);
@@ -49,10 +51,12 @@ TEST_CASE("a mesh file becomes a framed scene of one mesh") {
   control::JobOptions options;
   options.width = 30;
   options.height = 20;
-  const SceneInput input = read_scene_input(write_file(folder / "part.off", kTetrahedron), options);
+  SceneInput input = read_scene_input(write_file(folder / "part.off", kTetrahedron), options);
   CHECK(input.scene.settings.image == ImageSize{30, 20, 1});
   REQUIRE(input.scene.objects.size() == 1);
   CHECK(std::get<MeshShape>(input.scene.objects[0].csg.value).mesh.triangles.size() == 4);
+  CHECK(input.text.empty());
+  prepare_for_farm(input, options);
   const ReadResult again = read_scene_text(input.text);
   REQUIRE(again.scene);
   CHECK(*again.scene == input.scene);
@@ -64,7 +68,8 @@ TEST_CASE("what goes to the farm of a scene with a mesh file holds the mesh") {
   std::string text = kBall;
   const std::string ball = R"({"type": "sphere", "center": [0,0,0], "radius": 1})";
   text.replace(text.find(ball), ball.size(), R"({"type": "mesh", "file": "part.off"})");
-  const SceneInput input = read_scene_input(write_file(folder / "scene.json", text));
+  SceneInput input = read_scene_input(write_file(folder / "scene.json", text));
+  prepare_for_farm(input, {});
   CHECK(input.text.find("part.off") == std::string::npos);
   const ReadResult again = read_scene_text(input.text);
   REQUIRE(again.scene);
@@ -181,20 +186,29 @@ TEST_CASE("every ending that is told of is read, and no other") {
         ".asc, .stl or .off");
 }
 
+TEST_CASE("what is not built is refused at a pointer that any material's name can be read from") {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[1].name = "glass/~old";
+  scene.materials[1].material.model = ShadingModel::kHallGreenberg;
+  CHECK(refusal([&] { check_is_built("a.json", scene); }) ==
+        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; only \"phong\" is");
+}
+
 TEST_CASE("what only serial can render is refused before a farm is asked") {
   SceneInput input;
   input.name = "deep.json";
   input.scene.settings.max_depth = kMaxCreditDepth;
   input.scene.settings.lights.resize(kMaxCreditLights);
-  CHECK_NOTHROW(check_farm_limits(input, {}));
+  CHECK_NOTHROW(prepare_for_farm(input, {}));
   control::JobOptions deeper;
   deeper.max_depth = kMaxCreditDepth + 1;
   CHECK(refusal([&] {
-          check_farm_limits(input, deeper);
+          prepare_for_farm(input, deeper);
         }).starts_with("graycube: scene: deep.json:/max_depth: only --algorithm serial"));
   input.scene.settings.lights.emplace_back();
   CHECK(refusal([&] {
-          check_farm_limits(input, {});
+          prepare_for_farm(input, {});
         }).starts_with("graycube: scene: deep.json:/lights: only --algorithm serial"));
 }
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "transport/temporary_folder.hpp"
+#include "process/temporary_folder.hpp"
 
 namespace graycube {
 

@@ -65,7 +65,7 @@ bool agrees(const Model& model, const RayCase& c, const std::vector<WholeCrossin
       return false;
     }
     if (!hit) break;
-    t0 = std::nextafter(hit->t, Aabb::kInf);
+    t0 = std::nextafter(hit->t, kInf);
   }
   const Rgb start{0.9, 0.7, 0.3};
   const auto light = filtered(model, expected, start);

@@ -154,7 +154,7 @@ TEST_CASE("a neighbour link leads to the region on the other side of the face") 
         ++links;
         for (int k = 0; k < 4; ++k) {
           Vec3 p = point_in(leaf.cell, dice);
-          p[axis] = face % 2 == 1 ? at : std::nextafter(at, -Aabb::kInf);
+          p[axis] = face % 2 == 1 ? at : std::nextafter(at, -kInf);
           const BspLeaf& through_link = leaf_of(bsp, p, link);
           REQUIRE(through_link.cell.contains(p));
           REQUIRE(&through_link == &leaf_of(bsp, p));

@@ -62,10 +62,10 @@ TEST_CASE(
                                operation(Operation::kDifference, {met, missed})}) {
     const Model model = compile_scene(scene_of({solid}));
     TreeScratch scratch;
-    const auto hit = SurfaceTree::build(model).first_crossing(ray, 0, Aabb::kInf, scratch);
+    const auto hit = SurfaceTree::build(model).first_crossing(ray, 0, kInf, scratch);
     REQUIRE(hit);
     CHECK(hit->t == Approx(2 * std::sqrt(2.0)));
-    CHECK(model.primitives[hit->primitive].v[3] == 5);
+    CHECK(csg::sphere_radius(model.primitives[hit->primitive].v) == 5);
   }
 }
 
@@ -86,8 +86,8 @@ TEST_CASE("a tree of one item and a tree of thousands find the same") {
     // From outside all of them, so that the nearest surface is the union's.
     const Vec3 from = 9.0 * random.dice().unit_vector();
     const Ray ray{from, normalized(random.dice().point(3) - from)};
-    const auto a = many.first_crossing(ray, 0, Aabb::kInf, scratch);
-    const auto b = one.first_crossing(ray, 0, Aabb::kInf, scratch);
+    const auto a = many.first_crossing(ray, 0, kInf, scratch);
+    const auto b = one.first_crossing(ray, 0, kInf, scratch);
     INFO("ray " << i);
     REQUIRE(a.has_value() == b.has_value());
     if (!a) continue;
@@ -235,8 +235,8 @@ TEST_CASE("items whose sizes grow without end don't make the tree deeper than th
   CHECK(depth_below(tree, 0) <= SurfaceTree::kMaxDepth);
   TreeScratch scratch;
   for (const Primitive& p : model.primitives) {
-    const double r = p.v[3];
-    const Ray ray{Vec3{p.v[0], 0, 3 * r}, {0, 0, -1}};
+    const double r = csg::sphere_radius(p.v);
+    const Ray ray{Vec3{csg::sphere_center(p.v).x, 0, 3 * r}, {0, 0, -1}};
     const auto hit = tree.first_crossing(ray, 0, 2.5 * r, scratch);
     REQUIRE(hit);
     CHECK(hit->t == Approx(2 * r));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "csg/kinds.hpp"
 #include "csg/random_model.hpp"
 #include "csg/tree.hpp"
 
@@ -69,13 +70,11 @@ TEST_CASE("dilated and eroded primitives enclose and are enclosed") {
       if (contains(larger, {planes, {}}, q)) REQUIRE(larger.bounds.grown(1e-9).contains(q));
     }
   }
-  for (const PrimitiveKind kind :
-       {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid, PrimitiveKind::kBox,
-        PrimitiveKind::kParallelepiped, PrimitiveKind::kCylinder, PrimitiveKind::kCone,
-        PrimitiveKind::kTorus, PrimitiveKind::kHalfSpace, PrimitiveKind::kPolyhedron}) {
-    INFO("kind " << static_cast<int>(kind));
-    CHECK(dilated_points[static_cast<std::size_t>(kind)] > 200);
-    CHECK(eroded_points[static_cast<std::size_t>(kind)] > 20);
+  for (const csg::KindTraits& kind : csg::kKinds) {
+    if (kind.move == nullptr) continue;
+    INFO(kind.name);
+    CHECK(dilated_points[static_cast<std::size_t>(kind.kind)] > 200);
+    CHECK(eroded_points[static_cast<std::size_t>(kind.kind)] > 20);
   }
   CHECK(dilated_points[static_cast<std::size_t>(PrimitiveKind::kMesh)] > 200);
 }

@@ -68,7 +68,7 @@ inline bool is_inside(const Spans& spans, double t) {
 }
 /// Distance of t to the nearest end.
 inline double distance_to_ends(const Spans& spans, double t) {
-  double least = Aabb::kInf;
+  double least = kInf;
   for (int i = 0; i < spans.count; ++i) {
     const auto& s = spans.interval[static_cast<std::size_t>(i)];
     least = std::fmin(least, std::fmin(std::fabs(t - s.enter), std::fabs(t - s.leave)));

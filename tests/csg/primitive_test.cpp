@@ -1,11 +1,13 @@
 // Properties that every kind of primitive has, checked on random ones.
 #include "csg/primitive.hpp"
 
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
 
 #include "catch.hpp"
+#include "csg/kinds.hpp"
 #include "csg/one_primitive.hpp"
 
 using namespace graycube;
@@ -55,7 +57,7 @@ TEST_CASE("intervals are ordered, disjoint, without NaN and without negative zer
   for_random_primitives([](const OnePrimitive& one, Dice& dice) {
     for (int i = 0; i < 40; ++i) {
       const Spans spans = one.spans(ray_towards(one, dice));
-      double last = -Aabb::kInf;
+      double last = -kInf;
       for (int k = 0; k < spans.count; ++k) {
         const auto [enter, leave] = spans.interval[static_cast<std::size_t>(k)];
         const bool fine = enter >= last && leave >= enter && !(enter == 0 && std::signbit(enter)) &&
@@ -65,6 +67,21 @@ TEST_CASE("intervals are ordered, disjoint, without NaN and without negative zer
       }
     }
   });
+}
+
+TEST_CASE("only kinds that say so are on a line twice") {
+  std::array<int, kPrimitiveKinds> twice{};
+  for_random_primitives([&](const OnePrimitive& one, Dice& dice) {
+    for (int i = 0; i < 40; ++i) {
+      if (one.spans(ray_towards(one, dice)).count > 1)
+        ++twice[static_cast<std::size_t>(one.primitive().kind)];
+    }
+  });
+  for (const csg::KindTraits& kind : csg::kKinds) {
+    INFO(kind.name);
+    if (!kind.has_two_intervals) CHECK(twice[static_cast<std::size_t>(kind.kind)] == 0);
+  }
+  CHECK(twice[static_cast<std::size_t>(PrimitiveKind::kTorus)] > 0);
 }
 
 TEST_CASE("a point of a ray is inside exactly when its parameter is in an interval") {
@@ -156,7 +173,7 @@ TEST_CASE("bounds are tight around bounded solids") {
         if (!b.is_finite()) return;
         // The extreme of the surface along an axis, by many rays across it.
         for (int a = 0; a < 3; ++a) {
-          double most = -Aabb::kInf;
+          double most = -kInf;
           for (int i = 0; i < 900; ++i) {
             Ray ray;
             ray.direction[a] = 1;
@@ -224,8 +241,8 @@ TEST_CASE("a cell that counts as outside or inside is so with every point") {
         const double size = std::pow(10, dice.between(-3, 1));
         const Vec3 half{size * dice.unit(), size * dice.unit(), size * dice.unit()};
         Aabb cell{middle - half, middle + half};
-        if (dice.one_in(4)) cell.lo[static_cast<int>(dice.below(3))] = -Aabb::kInf;
-        if (dice.one_in(4)) cell.hi[static_cast<int>(dice.below(3))] = Aabb::kInf;
+        if (dice.one_in(4)) cell.lo[static_cast<int>(dice.below(3))] = -kInf;
+        if (dice.one_in(4)) cell.hi[static_cast<int>(dice.below(3))] = kInf;
         const CellSide side = one.side(cell.grown(one.model.delta));
         (side == CellSide::kOutside ? outside : side == CellSide::kInside ? inside : crosses) += 1;
         if (side == CellSide::kCrosses) continue;

@@ -6,7 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "csg/box.hpp"
+#include "csg/cylinder.hpp"
 #include "csg/dice.hpp"
+#include "csg/half_space.hpp"
 #include "csg/whole_tree.hpp"
 
 namespace graycube::testing {
@@ -16,7 +19,7 @@ struct RayCase {
   const char* what;
   Ray ray;
   double t0 = 0;
-  double t1 = Aabb::kInf;
+  double t1 = kInf;
 };
 
 inline constexpr std::size_t kRayCases = 9;
@@ -62,17 +65,17 @@ class RandomRays {
 
   /// Of a primitive with plane faces one of them, if it has any.
   std::optional<Plane> face_of(const Primitive& p) {
-    const auto v = [&](std::size_t i) { return p.v[i]; };
     switch (p.kind) {
       case PrimitiveKind::kBox: {
         const std::size_t a = dice_.below(3);
         Vec3 n;
         n[static_cast<int>(a)] = 1;
-        return Plane{n, dice_.one_in(2) ? v(a) : v(a + 3)};
+        return Plane{n, csg::box_side(p.v, dice_.one_in(2) ? 0 : 1, a)};
       }
       case PrimitiveKind::kCylinder:
-      case PrimitiveKind::kCone: return Plane{{v(0), v(1), v(2)}, dice_.one_in(2) ? v(3) : v(4)};
-      case PrimitiveKind::kHalfSpace: return Plane{{v(0), v(1), v(2)}, v(3)};
+      case PrimitiveKind::kCone:
+        return Plane{csg::cap_normal(p), dice_.one_in(2) ? csg::lower_cap(p) : csg::upper_cap(p)};
+      case PrimitiveKind::kHalfSpace: return csg::half_space_plane(p);
       case PrimitiveKind::kPolyhedron:
         return model_.planes[p.first_plane + dice_.below(p.plane_count)];
       default: return std::nullopt;
@@ -115,7 +118,7 @@ class RandomRays {
   RayCase from_surface() {
     for (int tries = 0; tries < 8; ++tries) {
       const Ray ray{dice_.point(6), dice_.unit_vector()};
-      const auto all = trees_.crossings_between(ray, 0, Aabb::kInf);
+      const auto all = trees_.crossings_between(ray, 0, kInf);
       if (all.empty()) continue;
       const Vec3 p = ray.at(all[dice_.below(all.size())].t);
       return {"from a surface",

@@ -25,14 +25,14 @@ class Solids {
   const Model& model() const { return model_; }
   std::optional<Crossing> first(const Ray& ray, double t0 = 0) {
     mailbox_.begin_ray();
-    return first_crossing(bsp_, ray, t0, Aabb::kInf, mailbox_);
+    return first_crossing(bsp_, ray, t0, kInf, mailbox_);
   }
   /// All crossings with t ≥ t0, one after another.
   std::vector<WholeCrossing> all(const Ray& ray, double t0 = 0) {
     std::vector<WholeCrossing> r;
     while (const auto c = first(ray, t0)) {
       r.push_back({c->t, c->primitive, c->object, c->entering});
-      t0 = std::nextafter(c->t, Aabb::kInf);
+      t0 = std::nextafter(c->t, kInf);
     }
     return r;
   }

@@ -176,17 +176,16 @@ TEST_CASE("a small sphere far away keeps its digits") {
 
 TEST_CASE("an unbounded half-space ends where its plane is") {
   const OnePrimitive one(node_of(HalfSpaceShape{{0, 2, 0}, 3}));  // y ≤ 1.5, the normal not unit
-  CHECK(intervals(one.spans({{0, 5, 0}, {0, -1, 0}})) == Intervals{{3.5, Aabb::kInf}});
-  CHECK(intervals(one.spans({{0, 5, 0}, {0, 1, 0}})) == Intervals{{-Aabb::kInf, -3.5}});
-  CHECK(intervals(one.spans({{0, 1.5, 0}, {1, 0, 0}})) == Intervals{{-Aabb::kInf, Aabb::kInf}});
+  CHECK(intervals(one.spans({{0, 5, 0}, {0, -1, 0}})) == Intervals{{3.5, kInf}});
+  CHECK(intervals(one.spans({{0, 5, 0}, {0, 1, 0}})) == Intervals{{-kInf, -3.5}});
+  CHECK(intervals(one.spans({{0, 1.5, 0}, {1, 0, 0}})) == Intervals{{-kInf, kInf}});
   CHECK(intervals(one.spans({{0, 1.6, 0}, {1, 0, 0}})).empty());
 }
 
 TEST_CASE("a polyhedron's bounds hold what is unbounded") {
   // Once a polyhedron of one effective plane was bounded by that plane's own, flat bounds.
   const OnePrimitive half(node_of(PolyhedronShape{{{{0, 1, 0}, 1}, {{0, 1, 0}, 2}}}));
-  CHECK(half.bounds() ==
-        Aabb{{-Aabb::kInf, -Aabb::kInf, -Aabb::kInf}, {Aabb::kInf, 1, Aabb::kInf}});
+  CHECK(half.bounds() == Aabb{{-kInf, -kInf, -kInf}, {kInf, 1, kInf}});
   // And a corner open to a slanted direction ended where its clipped faces did.
   const OnePrimitive corner(node_of(PolyhedronShape{{{{0.548, -0.018, -0.836}, -0.329},
                                                      {{-0.756, -0.361, -0.545}, -3.182},

@@ -22,7 +22,7 @@
 
 #include "catch.hpp"
 #include "check.hpp"
-#include "transport/temporary_folder.hpp"
+#include "process/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;

@@ -44,7 +44,8 @@ TEST_CASE("a tile is whole when all its credit is back, whoever brings it") {
 
 TEST_CASE("more credit than a tile gave out is an error") {
   Intake in;
-  CHECK(in.take(0, 0, 2, kTileRays + 1).wrong == "tile 2 got back more credit than it gave out");
+  CHECK(in.take(0, 0, 2, kTileRays + 1).wrong ==
+        "internal error: more was done of part 2 of the picture than there is of it");
 }
 
 TEST_CASE(

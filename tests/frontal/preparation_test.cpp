@@ -77,3 +77,25 @@ TEST_CASE("a broken compiled scene is bad input, and so are options that do not 
   CHECK_FALSE(is_encoded_model({}));
   CHECK_FALSE(is_encoded_model(std::as_bytes(std::span("{\"graycube\": 1}"))));
 }
+
+TEST_CASE("what a farm does not take is refused where it stands, whoever asked before") {
+  Scene scene = RandomModel(3).scene();
+  scene.settings.max_depth = kMaxCreditDepth + 1;
+  scene.settings.lights.resize(kMaxCreditLights + 1);
+  const PreparationResult deep = cut(encode_model(compile_scene(scene)), {});
+  REQUIRE(deep.errors.size() == 2);
+  CHECK(deep.errors[0] ==
+        control::ErrorItem{"/max_depth", "roth and macro take at most 120; use serial"});
+  CHECK(deep.errors[1] ==
+        control::ErrorItem{"/lights", "roth and macro take at most 64 lights; use serial"});
+  scene = RandomModel(3).scene();
+  REQUIRE_FALSE(scene.materials.empty());
+  scene.materials.front().name = "a/b";
+  scene.materials.front().material.model = ShadingModel::kTorranceSparrow;
+  const std::string text = write_scene_text(scene);
+  const auto bytes = std::as_bytes(std::span(text));
+  const PreparationResult unbuilt = cut(Bytes(bytes.begin(), bytes.end()), {});
+  REQUIRE(unbuilt.errors.size() == 1);
+  CHECK(unbuilt.errors[0] ==
+        control::ErrorItem{"/materials/a~1b/model", "not built yet; only \"phong\" is"});
+}

@@ -1,4 +1,5 @@
 #include "geometry/affine.hpp"
+#include "geometry/infinity.hpp"
 
 #include <cmath>
 #include <limits>
@@ -9,8 +10,6 @@
 using namespace graycube;
 
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 class RandomMaps {
  public:

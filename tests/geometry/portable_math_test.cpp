@@ -1,4 +1,5 @@
 #include "geometry/portable_math.hpp"
+#include "geometry/infinity.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +17,6 @@ using namespace graycube;
 
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kSmallestNormal = std::numeric_limits<double>::min();
 constexpr long double kPi = 3.14159265358979323846264338327950288L;
 

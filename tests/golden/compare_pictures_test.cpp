@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "film/picture_files.hpp"
-#include "transport/temporary_folder.hpp"
+#include "process/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;

@@ -15,9 +15,9 @@
 #include "film/transfer.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/pov/write_pov.hpp"
+#include "process/temporary_folder.hpp"
 #include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
-#include "transport/temporary_folder.hpp"
 
 using namespace graycube;
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/temporary_folder.hpp"
+#include "process/temporary_folder.hpp"
 
 namespace graycube {
 

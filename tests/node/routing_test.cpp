@@ -158,7 +158,7 @@ TEST_CASE(
   NodeAtWork at_between = node_at(between, encode_model(mirrors()));
   RayTask ray;
   ray.ray = {kSecondMirror, {0, 0, 1}};
-  ray.t_max = Aabb::kInf;
+  ray.t_max = kInf;
   ray.kind = RayKind::kReflection;
   ray.depth = 1;
   ray.weight = {1, 1, 1};

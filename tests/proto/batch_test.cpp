@@ -1,4 +1,5 @@
 #include "proto/batch.hpp"
+#include "geometry/infinity.hpp"
 
 #include <array>
 #include <cstring>
@@ -16,7 +17,6 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // As in fuzz_batch, so that the mutation tests start from accepted messages.
 constexpr BatchLimits kLimits{

@@ -1,8 +1,8 @@
 // Foreign bounds over the wire.
 #include "proto/bounds_bytes.hpp"
+#include "geometry/infinity.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "catch.hpp"
 #include "proto/bytes.hpp"
@@ -13,14 +13,13 @@ using namespace graycube::test;
 
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
 /// Of a slice behind its bounds.
 const std::vector<std::byte> kRest(5, std::byte{7});
 
 WideNode empty_node() {
   WideNode node;
-  for (auto& axis : node.planes[0]) axis.fill(kInf);
-  for (auto& axis : node.planes[1]) axis.fill(-kInf);
+  for (auto& axis : node.planes[0]) axis.fill(kFloatInf);
+  for (auto& axis : node.planes[1]) axis.fill(-kFloatInf);
   node.child.fill(WideNode::kItemFlag);
   return node;
 }

@@ -19,7 +19,7 @@ Aabb some_box(Random& random) {
   if (random.chance(5)) return Aabb::everything();
   if (random.chance(9)) return Aabb::nothing();
   Aabb box{random.vec(), random.vec()};
-  if (random.chance(3)) box.hi.y = Aabb::kInf;
+  if (random.chance(3)) box.hi.y = kInf;
   return box;
 }
 
@@ -230,7 +230,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        [](Model& m) {
          m.settings.camera.up = {0, 0, 3};
        }},
-      {"camera", "finite", [](Model& m) { m.settings.camera.eye.x = Aabb::kInf; }},
+      {"camera", "finite", [](Model& m) { m.settings.camera.eye.x = kInf; }},
       {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[1] = -0.5; }},
       {"camera", "offset", [](Model& m) { m.settings.camera.pixel_offset[0] = std::nan(""); }},
       {"camera", "insides", [](Model& m) { m.settings.camera.inside = InsideView::kEntry; }},
@@ -252,12 +252,12 @@ TEST_CASE("a broken model is refused, and the error names the part") {
       {"material 0", "range", [](Model& m) { m.materials[0].diffuse = std::nan(""); }},
       {"material 0", "shading",
        [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
-      {"plane 1", "finite", [](Model& m) { m.planes[1].offset = Aabb::kInf; }},
+      {"plane 1", "finite", [](Model& m) { m.planes[1].offset = kInf; }},
       {"primitive 0", "kind",
        [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(kPrimitiveKinds); }},
       {"primitive 0", "material", [](Model& m) { m.primitives[0].material = 1; }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].v[3] = std::nan(""); }},
-      {"primitive 0", "finite", [](Model& m) { m.primitives[0].to_local.m[1][2] = Aabb::kInf; }},
+      {"primitive 0", "finite", [](Model& m) { m.primitives[0].to_local.m[1][2] = kInf; }},
       {"primitive 0", "finite", [](Model& m) { m.primitives[0].bounds.lo.x = std::nan(""); }},
       {"primitive 1", "plane", [](Model& m) { m.primitives[1].plane_count = 3; }},
       {"primitive 1", "plane", [](Model& m) { m.primitives[1].first_plane = 0xFFFFFFFF; }},
@@ -278,7 +278,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        }},
       {"mesh 0", "finite",
        [](Model& m) {
-         m.meshes[0] = Mesh(TriangleMesh{{{0, Aabb::kInf, 0}}, {{0, 0, 0}}});
+         m.meshes[0] = Mesh(TriangleMesh{{{0, kInf, 0}}, {{0, 0, 0}}});
        }},
       {"mesh 0", "planes",
        [](Model& m) {

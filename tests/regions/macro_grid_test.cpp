@@ -1,8 +1,8 @@
 #include "regions/macro_grid.hpp"
+#include "geometry/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <set>
 #include <string>
@@ -14,7 +14,6 @@
 namespace graycube {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr ImageSize kImage{40, 24, 1};
 
 struct Shape {

@@ -48,6 +48,8 @@ VENDORS = {
 WORLDLY = re.compile(
     r"(chrono|condition_variable|ctime|future|mutex|poll\.h|pthread\.h|semaphore|shared_mutex|"
     r"signal\.h|spawn\.h|stop_token|sys/.*|thread|time\.h|unistd\.h)$")
+# Those of our own that lead to such.
+WORLDLY_ROOMS = ("process/clocks", "process/spawn_plan", "transport/zmq")
 # Folders that hold nothing worldly, and those of which only a brain's sources don't.
 UNWORLDLY = ("common/", "formats/", "proto/")
 BRAINS = {"node": "graycube_node_brain", "frontal": "graycube_frontal_brain"}
@@ -55,6 +57,9 @@ WORLDLY_FILES = {
     "common/film/whole_file.cpp": "writes files so that they are whole or not there",
     "common/memory/kept_heap.cpp": "asks the system for memory",
     "common/memory/large_pages.cpp": "asks the system for memory",
+    "common/process/clocks.hpp": "reads the system's clocks",
+    "common/process/spawn_plan.cpp": "starts processes",
+    "common/process/spawn_plan.hpp": "starts processes",
     "common/trace/render_serial.cpp": "is a program's whole render, with threads and their clock",
     "common/transport/endpoint.cpp": "knows sockets",
     "common/transport/zmq_sockets.cpp": "knows sockets",
@@ -226,7 +231,7 @@ def check_worldly(tree):
     worldly = set()
     for path in checked:
         for number, name, is_quoted in tree.includes(path):
-            if (not is_quoted and WORLDLY.match(name)) or name.startswith("transport/zmq"):
+            if (not is_quoted and WORLDLY.match(name)) or name.startswith(WORLDLY_ROOMS):
                 worldly.add(path)
                 if path not in WORLDLY_FILES:
                     tree.breach(path, number, f"{name}: no clocks, threads and sockets here")

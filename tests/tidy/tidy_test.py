@@ -124,6 +124,14 @@ class TidyTest(unittest.TestCase):
             self.expect(f"common/high/high.hpp:1: {header}: no clocks, threads and sockets here",
                         {"common/high/high.hpp": f"#include <{header}>\n"})
 
+    def test_what_reads_a_clock_for_others_is_a_clock_too(self):
+        clocks = {"common/process/clocks.hpp": "",
+                  **self.map_with("| `common/high`", "| `common/process` | clocks | – |\n"
+                                  "| `common/high`"),
+                  "node/node.cpp": '#include "process/clocks.hpp"\n'}
+        self.assertIn("node/node.cpp:1: process/clocks.hpp: no clocks, threads and sockets here",
+                      self.breaches(clocks))
+
     def test_a_header_of_a_brain_knows_no_clock_either(self):
         self.expect("node/node.hpp:2: chrono: no clocks, threads and sockets here",
                     {"node/node.hpp": '#include "high/high.hpp"\n#include <chrono>\n'})

@@ -51,7 +51,7 @@ RayPacket some_rays(Dice& dice) {
     const double t0 = dice.one_in(2) ? 0 : dice.between(0, 5);
     const Vec3 origin = from + spread * dice.point(1);
     packet.add({origin, normalized(towards + spread * dice.point(0.9))}, t0,
-               dice.one_in(3) ? Aabb::kInf : t0 + dice.between(0, 8));
+               dice.one_in(3) ? kInf : t0 + dice.between(0, 8));
   }
   return packet;
 }

@@ -66,8 +66,8 @@ TEST_CASE("depths promise light and darkness only where it is") {
                      << d.z);
         if (reach.clearance == 0) REQUIRE(reach.lit == coarse.distance(light, d));
         TreeScratch scratch;
-        const auto hit = tree.first_crossing({at, d}, 0, Aabb::kInf, scratch);
-        REQUIRE(reach.lit <= (hit ? hit->t : Aabb::kInf));
+        const auto hit = tree.first_crossing({at, d}, 0, kInf, scratch);
+        REQUIRE(reach.lit <= (hit ? hit->t : kInf));
         ++tried;
         if (reach.clearance > 0) ++with_block;
         if (reach.lit > coarse.distance(light, d)) ++farther;
@@ -102,7 +102,7 @@ TEST_CASE("behind a wall it is dark, before it light, and glass makes no darknes
   scene.materials.front().material.transmit = 0.5;
   const LightHorizons::Reach glass = reach_of(scene);
   CHECK(glass.lit == wall.lit);
-  CHECK(glass.dark == Aabb::kInf);
+  CHECK(glass.dark == kInf);
 }
 
 TEST_CASE("no texels, no depths") {

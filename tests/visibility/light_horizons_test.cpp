@@ -15,8 +15,8 @@ namespace {
 /// The distance from the light to the first crossing of anything in that direction.
 double first_surface(const SurfaceTree& tree, const Vec3& light, const Vec3& direction) {
   TreeScratch scratch;
-  const auto hit = tree.first_crossing({light, direction}, 0, Aabb::kInf, scratch);
-  return hit ? hit->t : Aabb::kInf;
+  const auto hit = tree.first_crossing({light, direction}, 0, kInf, scratch);
+  return hit ? hit->t : kInf;
 }
 
 PointLight light_at(const Vec3& p) { return {p, {1, 1, 1}, Falloff::kNone}; }
@@ -82,7 +82,7 @@ TEST_CASE("a floor without end is no nearer than it is") {
   CHECK(horizons.distance(0, {0, -1, 0}) > 2.99);
   CHECK(horizons.distance(0, {0, -1, 0}) <= 3);
   CHECK(horizons.distance(0, normalized(Vec3{1, -1, 0})) > 4.1);
-  CHECK(horizons.distance(0, {0, 1, 0}) == Aabb::kInf);
+  CHECK(horizons.distance(0, {0, 1, 0}) == kInf);
   CHECK(horizons.distance(1, {0, 1, 0}) > 0.99);
   CHECK(horizons.distance(2, {0, 1, 0}) == 0);
 }

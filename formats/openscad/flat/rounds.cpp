@@ -6,6 +6,7 @@
 
 #include "flat/offset.hpp"
 #include "formats/openscad/flat/contact.hpp"
+#include "formats/openscad/flat/similarity.hpp"
 
 namespace graycube {
 namespace {

@@ -17,9 +17,6 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// What some hundred rotations inside one another may be off.
-constexpr double kRotationPrecision = 1e-13;
-
 FlatLoop circle_of(const FlatMap& map, int sides) {
   FlatLoop loop;
   for (int i = 0; i < sides; ++i) {
@@ -387,15 +384,6 @@ std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, 
   }
   if (operands.empty()) return std::nullopt;
   return FlatReader(import).combined_loops(operation_of(shape.kind), operands, line);
-}
-
-std::optional<double> similarity_scale(const FlatMap& map) {
-  const double a = map.m[0][0], b = map.m[0][1], c = map.m[1][0], d = map.m[1][1];
-  const double first = std::sqrt(a * a + c * c), second = std::sqrt(b * b + d * d);
-  const double scale = 0.5 * (first + second);
-  if (!(std::fabs(first - second) <= 2 * kRotationPrecision * scale)) return std::nullopt;
-  if (!(std::fabs(a * b + c * d) <= kRotationPrecision * scale * scale)) return std::nullopt;
-  return scale;
 }
 
 }  // namespace graycube

@@ -45,7 +45,4 @@ std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, cons
 /// for an error.
 std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line);
 
-/// The factor of a similarity, to within rounding.
-std::optional<double> similarity_scale(const FlatMap& map);
-
 }  // namespace graycube

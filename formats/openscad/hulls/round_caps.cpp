@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "flat/rounds.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-12;
 class Caps {
  public:
   explicit Caps(std::span<const BallOrDisc> items) : items_(items) {
-    low_ = std::numeric_limits<double>::infinity();
+    low_ = kInf;
     high_ = -low_;
     for (const auto& [p, is_disc] : items) {
       const double up = is_disc ? 0 : p.radius;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "formats/openscad/language/lexer.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube {
 namespace {
@@ -34,7 +35,7 @@ std::optional<ScadValue> constant(std::string_view name) {
   if (name == "true") return ScadValue{true};
   if (name == "false") return ScadValue{false};
   if (name == "undef") return ScadValue{};
-  if (name == "inf") return ScadValue{std::numeric_limits<double>::infinity()};
+  if (name == "inf") return ScadValue{kInf};
   if (name == "nan") return ScadValue{std::numeric_limits<double>::quiet_NaN()};
   return std::nullopt;
 }

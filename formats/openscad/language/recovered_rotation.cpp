@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "check.hpp"
+#include "geometry/infinity.hpp"
 #include "geometry/portable_math.hpp"
 #include "written_digits.hpp"
 
@@ -258,7 +258,7 @@ Affine recovered_rotation(const Affine& written, std::uint32_t digits) {
   const auto zero = zero_in(r);
   map = placed(zero ? product_of_two_turns(r, (*zero)[0], (*zero)[1]) : nearest_rotation(r), factor,
                written);
-  constexpr double kAny = std::numeric_limits<double>::infinity();
+  constexpr double kAny = kInf;
   return is_written_as(map, written, digits, kMadeOfOthers * doubt, zero ? kShareOfSmall : kAny)
              ? map
              : written;

@@ -1,0 +1,236 @@
+#include "formats/brlcad/scene_builder.hpp"
+
+#include <algorithm>
+
+#include "formats/brlcad/solids.hpp"
+
+namespace graycube::brlcad {
+namespace {
+
+using Op = BrlcadTree::Op;
+
+/// Visits of names, so that combinations of nothing can't take for ever.
+constexpr std::size_t kMaxVisits = std::size_t{1} << 23;
+constexpr std::array<int, 3> kWhite{255, 255, 255};
+
+}  // namespace
+
+void SceneBuilder::add(const std::string& name) {
+  std::vector<Cut> cuts;
+  collect(name, {}, cuts);
+}
+
+bool SceneBuilder::enter(const std::string& name, const BrlcadObject*& object) {
+  if (report_.has_errors()) return false;
+  object = database_.find(name);
+  if (object == nullptr) {
+    report_.warning_once("missing " + name, name, "is not in the database, and left out");
+    return false;
+  }
+  if (++visits_ > kMaxVisits) {
+    report_.error(name, "the model has too many parts");
+    return false;
+  }
+  if (std::find(path_.begin(), path_.end(), object) != path_.end()) {
+    report_.error(name, "the combination contains itself");
+    return false;
+  }
+  if (path_.size() >= kMaxBrlcadNesting) {
+    report_.error(
+        name, "combinations are nested more than " + std::to_string(kMaxBrlcadNesting) + " deep");
+    return false;
+  }
+  path_.push_back(object);
+  return true;
+}
+
+State SceneBuilder::within(State state, const BrlcadTree& leaf) {
+  if (leaf.matrix) state.to_world = compose(state.to_world, *leaf.matrix);
+  return state;
+}
+
+void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut>& cuts) {
+  const BrlcadObject* object = nullptr;
+  if (!enter(name, object)) return;
+  if (const auto* comb = std::get_if<BrlcadComb>(&object->value)) {
+    inherit(*comb, state);
+    if (!comb->tree) {
+      // A combination of nothing.
+    } else if (comb->is_region) {
+      region(*object, *comb, state, cuts);
+    } else {
+      collect_tree(*comb->tree, state, cuts);
+    }
+  } else {
+    add_object(name, solid(*object, state.to_world, false), surface_of(state, nullptr), cuts);
+  }
+  path_.pop_back();
+}
+
+void SceneBuilder::collect_tree(const BrlcadTree& tree, const State& state,
+                                std::vector<Cut>& cuts) {
+  switch (tree.op) {
+    case Op::kLeaf: return collect(tree.name, within(state, tree), cuts);
+    case Op::kUnion:
+      for (const BrlcadTree& child : tree.children) collect_tree(child, state, cuts);
+      return;
+    case Op::kDifference:
+    case Op::kIntersection: return collect_cut(tree, state, cuts);
+    default:
+      add_object(path_.back()->name, build(tree, state.to_world, false), surface_of(state, nullptr),
+                 cuts);
+  }
+}
+
+void SceneBuilder::collect_cut(const BrlcadTree& tree, const State& state, std::vector<Cut>& cuts) {
+  const std::size_t before = cuts.size();
+  const bool is_minus = tree.op == Op::kDifference;
+  bool is_empty = false;
+  for (std::size_t i = 1; i < tree.children.size() && !is_empty; ++i) {
+    Part part = build(tree.children[i], state.to_world, is_minus);
+    is_empty = !part.node && !is_minus;
+    if (part.node) cuts.push_back({is_minus, std::move(*part.node), part.levels});
+  }
+  if (!is_empty) collect_tree(tree.children.front(), state, cuts);
+  cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(before), cuts.end());
+}
+
+void SceneBuilder::inherit(const BrlcadComb& comb, State& state) {
+  if (comb.rgb && !state.rgb_is_set) {
+    state.rgb = comb.rgb;
+    state.rgb_is_set = comb.inherits;
+  }
+  if (!comb.shader.empty() && !state.shader_is_set) {
+    state.shader = comb.shader;
+    state.shader_is_set = comb.inherits;
+  }
+}
+
+void SceneBuilder::region(const BrlcadObject& object, const BrlcadComb& comb, const State& state,
+                          const std::vector<Cut>& cuts) {
+  if (comb.air != 0) return;
+  add_object(object.name, build(*comb.tree, state.to_world, false), surface_of(state, &comb), cuts);
+}
+
+BrlcadSurface SceneBuilder::surface_of(const State& state, const BrlcadComb* region) {
+  std::array<int, 3> rgb = state.rgb.value_or(kWhite);
+  if (region != nullptr) {
+    for (const BrlcadColorRange& range : database_.colors) {
+      if (region->region_id >= range.low && region->region_id <= range.high) rgb = range.rgb;
+    }
+  }
+  return brlcad_surface(state.shader, rgb, report_);
+}
+
+MaterialIndex SceneBuilder::material_of(const Material& m) {
+  const std::array<double, 10> key{m.color.r,  m.color.g,   m.color.b, m.ambient,  m.diffuse,
+                                   m.specular, m.shininess, m.reflect, m.transmit, m.ior};
+  const auto index = static_cast<MaterialIndex>(scene_.materials.size());
+  const auto [known, is_new] = materials_.emplace(key, index);
+  if (is_new) scene_.materials.push_back({"material " + std::to_string(index + 1), m});
+  return known->second;
+}
+
+void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSurface& surface,
+                              const std::vector<Cut>& cuts) {
+  for (const Cut& cut : cuts) {
+    if (!part.node) return;
+    leaves_ += leaves_below(cut.node);
+    part = join(cut.is_minus ? Operation::kDifference : Operation::kIntersection, std::move(part),
+                {cut.node, cut.levels});
+  }
+  if (!part.node || !check_limits(name, part)) return;
+  if (surface.is_light) lamps_.emplace_back(scene_.objects.size(), surface.brightness);
+  scene_.objects.push_back({printable(name), material_of(surface.material), std::move(*part.node)});
+}
+
+std::string SceneBuilder::printable(std::string name) {
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F) c = '?';
+  }
+  return name;
+}
+
+bool SceneBuilder::check_limits(const std::string& name, const Part& part) {
+  if (part.levels > kMaxBrlcadLevels) {
+    report_.error(name, "its tree has more than " + std::to_string(kMaxBrlcadLevels) + " levels");
+  } else if (leaves_ > kMaxBrlcadLeaves) {
+    report_.error(name, "the model has more than " + std::to_string(kMaxBrlcadLeaves) + " solids");
+  }
+  return !report_.has_errors();
+}
+
+Part SceneBuilder::build(const std::string& name, const Affine& to_world, bool is_cut) {
+  const BrlcadObject* object = nullptr;
+  if (!enter(name, object)) return {};
+  Part part;
+  if (const auto* comb = std::get_if<BrlcadComb>(&object->value)) {
+    if (comb->tree) part = build(*comb->tree, to_world, is_cut);
+  } else {
+    part = solid(*object, to_world, is_cut);
+  }
+  path_.pop_back();
+  return part;
+}
+
+Part SceneBuilder::build(const BrlcadTree& tree, const Affine& to_world, bool is_cut) {
+  switch (tree.op) {
+    case Op::kLeaf:
+      return build(tree.name, tree.matrix ? compose(to_world, *tree.matrix) : to_world, is_cut);
+    case Op::kNot: {
+      Part part = build(tree.children.front(), to_world, !is_cut);
+      if (!part.node) return everything();
+      return inverted(std::move(part));
+    }
+    case Op::kXor: {
+      const BrlcadTree &a = tree.children[0], &b = tree.children[1];
+      Part one =
+          join(Operation::kDifference, build(a, to_world, is_cut), build(b, to_world, !is_cut));
+      Part other =
+          join(Operation::kDifference, build(b, to_world, is_cut), build(a, to_world, !is_cut));
+      return join(Operation::kUnion, std::move(one), std::move(other));
+    }
+    default: break;
+  }
+  const Operation op = tree.op == Op::kUnion          ? Operation::kUnion
+                       : tree.op == Op::kIntersection ? Operation::kIntersection
+                                                      : Operation::kDifference;
+  Part sum = build(tree.children.front(), to_world, is_cut);
+  for (std::size_t i = 1; i < tree.children.size(); ++i) {
+    if (!sum.node && op != Operation::kUnion) return {};
+    sum = join(op, std::move(sum),
+               build(tree.children[i], to_world, is_cut != (op == Operation::kDifference)));
+  }
+  return sum;
+}
+
+Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, bool is_cut) {
+  if (const auto* foreign = std::get_if<BrlcadForeign>(&object.value)) {
+    report_.error(object.name, foreign->kind + " is not supported");
+    return {};
+  }
+  if (++leaves_ > kMaxBrlcadLeaves) {
+    report_.error(object.name,
+                  "the model has more than " + std::to_string(kMaxBrlcadLeaves) + " solids");
+    return {};
+  }
+  const BrlcadSolid& is = std::get<BrlcadSolid>(object.value);
+  triangles_ += is.mesh.faces.size();
+  if (triangles_ > kMaxMeshTriangles) {
+    report_.error(object.name, "the meshes have more than " + std::to_string(kMaxMeshTriangles) +
+                                   " triangles, each use of one counted");
+    return {};
+  }
+  BrlcadNode built = brlcad_node(is, to_world, is_cut ? kBrlcadSkin : 0);
+  if (!built.node) {
+    if (built.is_error) {
+      report_.error(object.name, built.problem);
+    } else {
+      report_.warning_once("solid " + object.name, object.name, built.problem + "; it is left out");
+    }
+    return {};
+  }
+  return {std::move(built.node), levels_of(*built.node)};
+}
+
+}  // namespace graycube::brlcad

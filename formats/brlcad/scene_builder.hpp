@@ -1,0 +1,91 @@
+// Regions of a BRL-CAD database as objects of a scene, with the materials that they inherit.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/brlcad/brlcad.hpp"
+#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/parts.hpp"
+#include "formats/brlcad/shader.hpp"
+
+namespace graycube::brlcad {
+
+/// What a name inherits from the combinations above it.
+struct State {
+  Affine to_world;
+  std::optional<std::array<int, 3>> rgb;
+  std::string shader;
+  /// A combination above has the last word.
+  bool rgb_is_set = false, shader_is_set = false;
+};
+
+/// What applies to every region found further down: minus, or within, another solid.
+struct Cut {
+  bool is_minus = false;
+  CsgNode node;
+  std::size_t levels = 0;
+};
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const BrlcadDatabase& database, BrlcadReport& report)
+      : database_(database), report_(report) {}
+
+  void add(const std::string& name);
+  Scene take() { return std::move(scene_); }
+  /// Objects that shine, by their index, and how brightly.
+  const std::vector<std::pair<std::size_t, double>>& lamps() const { return lamps_; }
+
+ private:
+  /// Goes into a name; false when it can't: unknown, a cycle, too deep, or after an error.
+  bool enter(const std::string& name, const BrlcadObject*& object);
+
+  static State within(State state, const BrlcadTree& leaf);
+
+  /// Above regions: finds them.
+  void collect(const std::string& name, State state, std::vector<Cut>& cuts);
+
+  void collect_tree(const BrlcadTree& tree, const State& state, std::vector<Cut>& cuts);
+
+  /// The first operand's regions, each cut by the others.
+  void collect_cut(const BrlcadTree& tree, const State& state, std::vector<Cut>& cuts);
+
+  static void inherit(const BrlcadComb& comb, State& state);
+
+  void region(const BrlcadObject& object, const BrlcadComb& comb, const State& state,
+              const std::vector<Cut>& cuts);
+
+  BrlcadSurface surface_of(const State& state, const BrlcadComb* region);
+
+  MaterialIndex material_of(const Material& m);
+
+  void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
+                  const std::vector<Cut>& cuts);
+
+  /// A scene's text is UTF-8; names in databases are any bytes.
+  static std::string printable(std::string name);
+
+  bool check_limits(const std::string& name, const Part& part);
+
+  /// Within a region. `is_cut`: what is built gets subtracted, and so is grown.
+  Part build(const std::string& name, const Affine& to_world, bool is_cut);
+
+  Part build(const BrlcadTree& tree, const Affine& to_world, bool is_cut);
+
+  Part solid(const BrlcadObject& object, const Affine& to_world, bool is_cut);
+
+  const BrlcadDatabase& database_;
+  BrlcadReport& report_;
+  Scene scene_;
+  std::map<std::array<double, 10>, MaterialIndex> materials_;
+  std::vector<const BrlcadObject*> path_;
+  std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
+  std::vector<std::pair<std::size_t, double>> lamps_;
+};
+
+}  // namespace graycube::brlcad

@@ -1,0 +1,16 @@
+// Trees of combinations in binary databases.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "formats/brlcad/byte_reader.hpp"
+#include "formats/brlcad/database.hpp"
+
+namespace graycube {
+
+/// Reads a combination's body into its tree, none where it is a combination of nothing. What is
+/// wrong with it, if anything is.
+std::optional<std::string> read_binary_tree(BrlcadByteReader& r, BrlcadComb& comb);
+
+}  // namespace graycube
