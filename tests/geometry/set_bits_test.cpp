@@ -1,10 +1,17 @@
 #include "set_bits.hpp"
 
+<<<<<<< HEAD
 #include <cstdint>
 #include <vector>
 
 #include "catch.hpp"
 
+=======
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <vector>
+
+>>>>>>> once
 namespace {
 
 using graycube::SetBits;
