@@ -5,7 +5,8 @@ each folder includes only what the code map of ARCHITECTURE.md says, which names
 only folders above its own row; a vendor is included only at home, Catch2 only by catch.hpp; what
 decides without a clock includes none, nor threads or sockets; folders stay small; links of Markdown
 files, and the files that they name, are there; first pages stay short, and every page of docs is
-linked from somewhere; control messages are described and have examples (messages.py).
+linked from somewhere; control messages are described and have examples (messages.py); files
+stay short, and lines narrow (sources.py).
 """
 
 import os
@@ -13,6 +14,7 @@ import re
 import sys
 
 import messages
+import sources
 
 SOURCES = (".cpp", ".hpp")
 MAX_FILES = 30
@@ -321,6 +323,7 @@ def breaches_of(root):
     check_short(tree)
     check_linked(tree)
     messages.check_messages(tree)
+    sources.check_sources(tree, SOURCES)
     return tree.breaches
 
 

@@ -4,6 +4,7 @@ import os
 import tempfile
 import unittest
 
+import sources
 import tidy
 
 HOUSE = {
@@ -197,6 +198,19 @@ class TidyTest(unittest.TestCase):
         self.expect("proto/schema/failed.schema.json:1: tests/proto/control_examples.hpp has no "
                     "example of a Failed",
                     {**house, "tests/proto/control_examples.hpp": "AllWhole{7}; FailedToo f;\n"})
+
+    def test_files_stay_short(self):
+        line = "// ?\n"
+        self.assertEqual(
+            self.breaches({"common/high/long.hpp": line * sources.MAX_LINES}), [])
+        self.expect("common/high/long.hpp:401: is longer than 400 lines",
+                    {"common/high/long.hpp": line * (sources.MAX_LINES + 1)})
+
+    def test_lines_stay_narrow(self):
+        wide = "// " + "é" * (sources.MAX_COLUMNS - 3)
+        self.assertEqual(self.breaches({"common/high/wide.hpp": wide + "\n"}), [])
+        self.expect("common/high/wide.hpp:2: is wider than 100 columns",
+                    {"common/high/wide.hpp": "\n" + wide + "e\n"})
 
     def test_experiments_are_no_crowd(self):
         many = {f"docs/lab/{i}.md": "" for i in range(tidy.MAX_FILES + 1)}
