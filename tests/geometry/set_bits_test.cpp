@@ -6,22 +6,20 @@
 
 #include "catch.hpp"
 
-=======
-#include <catch2/catch.hpp>
+    =======
 #include <cstdint>
 #include <vector>
 
->>>>>>> once
-namespace {
+    >>>>>>> once namespace {
 
-using graycube::SetBits;
+  using graycube::SetBits;
 
-template <typename Mask>
-std::vector<std::size_t> bits_of(Mask mask) {
-  std::vector<std::size_t> bits;
-  for (const std::size_t i : SetBits(mask)) bits.push_back(i);
-  return bits;
-}
+  template <typename Mask>
+  std::vector<std::size_t> bits_of(Mask mask) {
+    std::vector<std::size_t> bits;
+    for (const std::size_t i : SetBits(mask)) bits.push_back(i);
+    return bits;
+  }
 
 }  // namespace
 
