@@ -26,8 +26,8 @@ inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
 <h1>Graycube</h1>
 <div id="note" role="status"></div>
 <h2>Jobs</h2>
-<table><thead><tr><th>Job<th>Scene<th>State<th>Progress<th>Checks whether all is done<th>Picture</tr>
-</thead>
+<table><thead><tr><th>Job<th>Scene<th>State<th>Progress<th>Checks whether all is done
+<th>Picture</tr></thead>
 <tbody id="jobs"></tbody></table>
 <h2>Nodes</h2>
 <table><thead><tr><th>Rank<th>Label<th>Process<th>State<th>Threads</tr></thead>

@@ -1,25 +1,18 @@
 #include "set_bits.hpp"
 
-<<<<<<< HEAD
 #include <cstdint>
 #include <vector>
 
 #include "catch.hpp"
 
-    =======
-#include <cstdint>
-#include <vector>
+using graycube::SetBits;
 
-    >>>>>>> once namespace {
-
-  using graycube::SetBits;
-
-  template <typename Mask>
-  std::vector<std::size_t> bits_of(Mask mask) {
-    std::vector<std::size_t> bits;
-    for (const std::size_t i : SetBits(mask)) bits.push_back(i);
-    return bits;
-  }
+template <typename Mask>
+std::vector<std::size_t> bits_of(Mask mask) {
+  std::vector<std::size_t> bits;
+  for (const std::size_t i : SetBits(mask)) bits.push_back(i);
+  return bits;
+}
 
 }  // namespace
 
