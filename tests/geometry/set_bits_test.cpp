@@ -5,6 +5,8 @@
 
 #include "catch.hpp"
 
+namespace {
+
 using graycube::SetBits;
 
 template <typename Mask>
