@@ -18,6 +18,11 @@ clang_version() {
   esac
 }
 
+# clang-format formats differently from version to version: tests compare with this one's, where it is.
+formatter() {
+  [[ $(. /etc/os-release 2>/dev/null && printf '%s' "${VERSION_ID-}") != 12 ]] || printf clang-format-14
+}
+
 packages=(
   g++ cmake git ninja-build pkg-config
   libzmq3-dev cppzmq-dev nlohmann-json3-dev libsimdjson-dev libopenexr-dev libpng-dev zlib1g-dev
@@ -27,7 +32,7 @@ case "${1-}" in
   '') ;;
   --user) packages+=(openscad) ;;
   --package) packages+=(dpkg-dev file) ;;
-  --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3) ;; # spin's verifiers are C
+  --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3 $(formatter)) ;; # spin's verifiers are C
   --fuzz) packages+=(clang "libclang-rt-$(clang_version)-dev") ;;
   *) fail "usage: install_packages.sh [--user | --package | --tests | --fuzz]" ;;
 esac

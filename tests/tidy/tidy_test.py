@@ -4,6 +4,7 @@ import os
 import tempfile
 import unittest
 
+import format
 import sources
 import tidy
 
@@ -211,6 +212,17 @@ class TidyTest(unittest.TestCase):
         self.assertEqual(self.breaches({"common/high/wide.hpp": wide + "\n"}), [])
         self.expect("common/high/wide.hpp:2: is wider than 100 columns",
                     {"common/high/wide.hpp": "\n" + wide + "e\n"})
+
+    @unittest.skipUnless(format.program(), "there is no clang-format of that version")
+    def test_sources_are_formatted(self):
+        with tempfile.TemporaryDirectory() as root:
+            for name, text in ((".clang-format", "BasedOnStyle: Google\n"),
+                               ("good.hpp", "int a = 1;\n"), ("bad.hpp", "int  a=1;\n")):
+                with open(os.path.join(root, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            found = format.unformatted(root)
+        self.assertTrue(found)
+        self.assertTrue(all("bad.hpp" in line for line in found), found)
 
     def test_experiments_are_no_crowd(self):
         many = {f"docs/lab/{i}.md": "" for i in range(tidy.MAX_FILES + 1)}
