@@ -37,6 +37,11 @@ struct Complaint {
     const std::size_t parsing = what.find(kParsing), dash = what.find(kDash);
     if (dash == std::string_view::npos) {
       reason = what;
+      // Since version 3.11.3 a text without anything has words of its own.
+      if (what.find("attempting to parse an empty input") != std::string_view::npos) {
+        context = kValueContext;
+        reason = "unexpected end of input";
+      }
       return;
     }
     if (parsing < dash) context = what.substr(0, dash).substr(parsing + kParsing.size());
