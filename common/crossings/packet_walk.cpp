@@ -38,233 +38,177 @@ void each_item_of_packet(const SurfaceTree& tree, const CullingPacket& p, const 
   each_leaf_of_packet<order>(tree.nodes(), p, active, scratch, item, walk);
 }
 
-/// The first crossing of each ray of a packet.
-class FirstOfEach {
- public:
-  FirstOfEach(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
-              Crossing* found)
-      : tree_(tree),
-        packet_(packet),
-        scratch_(scratch),
-        found_(found),
-        p_(packet),
-        single_(packet, p_) {
-    for (std::size_t i = 0; i < kRays; ++i) {
-      t1_[i] = i < packet.count ? packet.t1[i] : -kInf;
-      if (i < packet.count) found[i].t = packet.t1[i];
-    }
+/// Takes the first crossing of each of some rays with an item that is one mesh, where it is the
+/// first by now; then calls shorten(ray).
+template <typename Shorten>
+void first_crossings_of_mesh(const SurfaceTree& tree, const SurfaceItem& item,
+                             const RayPacket& packet, const CullingPacket& p, Mask rays, Mask any,
+                             TreeScratch& scratch, const double* t1, Crossing* found,
+                             Shorten&& shorten) {
+  const Literal& literal = tree.literals_of(item).front();
+  const bool swaps = literal.is_inverted != item.is_complement;
+  HWY_ALIGN double end[kRays];
+  for (std::size_t i = 0; i < kRays; ++i) {
+    // At equal t the first object wins.
+    const bool wins_ties = (any >> i & 1) != 0 && item.object < found[i].object;
+    end[i] = wins_ties ? std::nextafter(t1[i], kInf) : t1[i];
   }
+  MeshPacket mesh(tree.mesh_of(item), packet, p, rays, end, true, scratch);
+  mesh.crossings<Order::kNearestFirst>([&](std::size_t i, double t, bool entering) {
+    found[i] = {t, literal.primitive, item.object, entering != swaps};
+    shorten(i);
+    return false;
+  });
+}
 
-  /// The rays that cross anything.
-  Mask run() {
-    const Mask active = packet_.all();
-    each_item_of_packet<Order::kNearestFirst>(
-        tree_, p_, active, scratch_,
-        [this](std::uint32_t index, Mask rays) { take_item(index, rays); },
-        [this](std::uint32_t node, std::size_t i) { walk(node, i); });
-    return any_;
+/// Of some rays, those that a crossing with an item that is one mesh doesn't let pass.
+template <typename Passes>
+Mask rays_ended_by_mesh(const SurfaceTree& tree, const SurfaceItem& item, const RayPacket& packet,
+                        const CullingPacket& p, Mask rays, TreeScratch& scratch, Passes&& passes) {
+  const std::uint32_t primitive = tree.literals_of(item).front().primitive;
+  Mask ended = 0;
+  MeshPacket mesh(tree.mesh_of(item), packet, p, rays, packet.t1.data(), item.is_opaque, scratch);
+  mesh.crossings<Order::kAny>([&](std::size_t i, double t, bool entering) {
+    if (passes(i, Crossing{t, primitive, item.object, entering})) return true;
+    ended |= Mask{1} << i;
+    return false;
+  });
+  return ended;
+}
+
+Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
+                    Crossing* found) {
+  CullingPacket p(packet);
+  const SingleRays single(packet, p);
+  HWY_ALIGN double t1[kRays];
+  Mask any = 0;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    t1[i] = i < packet.count ? packet.t1[i] : -kInf;
+    if (i < packet.count) found[i].t = packet.t1[i];
   }
-
- private:
-  void shorten(std::size_t i) {
-    any_ |= Mask{1} << i;
-    t1_[i] = found_[i].t;
-    p_.last[i] = float_up(found_[i].t);
-  }
-
-  /// Where the ray's search for an item's crossings ends: at equal t the first object wins.
-  double end_for(const SurfaceItem& item, std::size_t i) const {
-    const bool wins_ties = (any_ >> i & 1) != 0 && item.object < found_[i].object;
-    return wins_ties ? std::nextafter(t1_[i], kInf) : t1_[i];
-  }
-
-  void take_single(std::uint32_t index, std::size_t i) {
-    bool has = (any_ >> i & 1) != 0;
-    take_first_crossing(tree_, index, single_[i], packet_.t0[i], scratch_, found_[i], has);
+  const auto shorten = [&](std::size_t i) {
+    any |= Mask{1} << i;
+    t1[i] = found[i].t;
+    p.last[i] = float_up(found[i].t);
+  };
+  const auto take_single = [&](std::uint32_t index, std::size_t i) {
+    bool has = (any >> i & 1) != 0;
+    take_first_crossing(tree, index, single[i], packet.t0[i], scratch, found[i], has);
     if (has) shorten(i);
-  }
-
-  void take_mesh(const SurfaceItem& item, Mask rays) {
-    const Literal& literal = tree_.literals_of(item).front();
-    const bool swaps = literal.is_inverted != item.is_complement;
-    HWY_ALIGN double end[kRays];
-    for (std::size_t i = 0; i < kRays; ++i) end[i] = end_for(item, i);
-    MeshPacket mesh(tree_.mesh_of(item), packet_, p_, rays, end, true, scratch_);
-    mesh.crossings<Order::kNearestFirst>([&](std::size_t i, double t, bool entering) {
-      found_[i] = {t, literal.primitive, item.object, entering != swaps};
-      shorten(i);
-      return false;
-    });
-  }
-
-  void take_lanes(const SurfaceItem& item, std::size_t first, std::uint32_t group) {
-    group = lanes_.meet(tree_, item, packet_, p_, first, t1_, group, scratch_);
-    for (const std::size_t lane : SetBits(group)) {
-      const std::size_t i = first + lane;
-      double begin = packet_.t0[i];
-      double end = end_for(item, i);
-      if (!tree_.clip_to_cell(item, single_[i], begin, end)) continue;
-      lanes_.crossings(tree_, item, lane, begin, end, [&](const Crossing& c) {
-        found_[i] = c;
-        shorten(i);
-        return false;
-      });
-    }
-  }
-
-  void take_item(std::uint32_t index, Mask rays) {
-    const SurfaceItem& item = tree_.items()[index];
-    if (item.is_mesh && has_many(rays)) {
-      take_mesh(item, rays);
+  };
+  const auto take_mesh = [&](const SurfaceItem& it, Mask rays) {
+    first_crossings_of_mesh(tree, it, packet, p, rays, any, scratch, t1, found, shorten);
+  };
+  LaneItem lanes;
+  const auto item = [&](std::uint32_t index, Mask rays) {
+    const SurfaceItem& it = tree.items()[index];
+    if (it.is_mesh && has_many(rays)) {
+      take_mesh(it, rays);
       rays = 0;
     }
-    if (item.is_small) lanes_.look_at(tree_, item, p_, rays);
-    in_groups(
-        item, p_, rays,
-        [&](std::size_t first, std::uint32_t group) { take_lanes(item, first, group); },
-        [&](std::size_t i) { take_single(index, i); });
-    p_.update_last_of_all();
-  }
-
-  void walk(std::uint32_t node, std::size_t i) {
+    const auto take = [&](std::size_t first, std::uint32_t group) {
+      group = lanes.meet(tree, it, packet, p, first, t1, group, scratch);
+      for (const std::size_t lane : SetBits(group)) {
+        const std::size_t i = first + lane;
+        // At equal t the first object wins.
+        const bool wins_ties = (any >> i & 1) != 0 && it.object < found[i].object;
+        double begin = packet.t0[i];
+        double end = wins_ties ? std::nextafter(t1[i], kInf) : t1[i];
+        if (!tree.clip_to_cell(it, single[i], begin, end)) continue;
+        lanes.crossings(tree, it, lane, begin, end, [&](const Crossing& c) {
+          found[i] = c;
+          shorten(i);
+          return false;
+        });
+      }
+    };
+    if (it.is_small) lanes.look_at(tree, it, p, rays);
+    in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
+    p.update_last_of_all();
+  };
+  const auto walk = [&](std::uint32_t node, std::size_t i) {
     each_item_below<Order::kNearestFirst>(
-        tree_.nodes(), node, p_.ray(i), p_.first[i], [&] { return found_[i].t; }, scratch_,
+        tree.nodes(), node, p.ray(i), p.first[i], [&] { return found[i].t; }, scratch,
         [&](std::uint32_t index) {
           take_single(index, i);
           return true;
         });
-    p_.update_last_of_all();
-  }
-
-  const SurfaceTree& tree_;
-  const RayPacket& packet_;
-  TreeScratch& scratch_;
-  Crossing* const found_;
-  CullingPacket p_;
-  SingleRays single_;
-  /// By ray: where its search ends by now.
-  HWY_ALIGN double t1_[kRays];
-  Mask any_ = 0;
-  LaneItem lanes_;
-};
-
-Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
-                    Crossing* found) {
-  return FirstOfEach(tree, packet, scratch, found).run();
+    p.update_last_of_all();
+  };
+  const Mask active = packet.all();
+  each_item_of_packet<Order::kNearestFirst>(tree, p, active, scratch, item, walk);
+  return any;
 }
 
-/// The rays of a packet that no opaque surface ends; what they lose to transparent ones is taken
-/// from their light.
-class LightThrough {
- public:
-  LightThrough(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch)
-      : tree_(tree),
-        packet_(packet),
-        scratch_(scratch),
-        p_(packet),
-        single_(packet, p_),
-        active_(packet.all()),
-        last_(scratch.last_occluder[octant(packet.ray(0).direction)]) {}
-
-  Mask run(Rgb* light) {
-    scratch_.panes.clear();
-    // Neighbouring rays towards one light mostly end on the same object.
-    if (last_ < tree_.items().size()) take_item(last_, active_);
-    scratch_.panes.clear();
-    each_item_of_packet<Order::kAny>(
-        tree_, p_, active_, scratch_,
-        [this](std::uint32_t index, Mask rays) { take_item(index, rays); },
-        [this](std::uint32_t node, std::size_t i) { walk(node, i); });
-    dim(scratch_.panes, light);
-    return active_;
-  }
-
- private:
+/// The rays that no opaque surface ends; what they lose to transparent ones is taken from their
+/// light.
+Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
+                Rgb* light) {
+  const CullingPacket p(packet);
+  const SingleRays single(packet, p);
+  Mask active = packet.all();
+  auto& panes = scratch.panes;
+  panes.clear();
   /// False for an opaque surface, which ends the ray.
-  bool passes(std::size_t i, const Crossing& c) {
-    const double transmit = tree_.transmit_of(c.primitive);
-    if (transmit > 0) scratch_.panes.push_back({i, c.t, c.object, transmit});
+  const auto passes = [&](std::size_t i, const Crossing& c) {
+    const double transmit = tree.transmit_of(c.primitive);
+    if (transmit > 0) panes.push_back({i, c.t, c.object, transmit});
     return transmit > 0;
-  }
-
-  void end_rays(std::uint32_t index, Mask rays) {
-    active_ &= ~rays;
-    last_ = index;
-  }
-
-  void take_single(std::uint32_t index, std::size_t i) {
+  };
+  std::uint32_t& last = scratch.last_occluder[octant(packet.ray(0).direction)];
+  const auto end_rays = [&](std::uint32_t index, Mask rays) {
+    active &= ~rays;
+    last = index;
+  };
+  const auto take_single = [&](std::uint32_t index, std::size_t i) {
     const bool lasts =
-        tree_.for_each_item_crossing(tree_.items()[index], single_[i], packet_.t0[i], packet_.t1[i],
-                                     scratch_, [&](const Crossing& c) { return passes(i, c); });
+        tree.for_each_item_crossing(tree.items()[index], single[i], packet.t0[i], packet.t1[i],
+                                    scratch, [&](const Crossing& c) { return passes(i, c); });
     if (!lasts) end_rays(index, Mask{1} << i);
-  }
-
-  void take_mesh(std::uint32_t index, Mask rays) {
-    const SurfaceItem& item = tree_.items()[index];
-    const std::uint32_t primitive = tree_.literals_of(item).front().primitive;
-    Mask ended = 0;
-    MeshPacket mesh(tree_.mesh_of(item), packet_, p_, rays, packet_.t1.data(), item.is_opaque,
-                    scratch_);
-    mesh.crossings<Order::kAny>([&](std::size_t i, double t, bool entering) {
-      if (passes(i, Crossing{t, primitive, item.object, entering})) return true;
-      ended |= Mask{1} << i;
-      return false;
-    });
+  };
+  const auto take_mesh = [&](std::uint32_t index, Mask rays) {
+    const SurfaceItem& it = tree.items()[index];
+    const Mask ended = rays_ended_by_mesh(tree, it, packet, p, rays, scratch, passes);
     if (ended != 0) end_rays(index, ended);
-  }
-
-  void take_lanes(std::uint32_t index, const SurfaceItem& item, std::size_t first,
-                  std::uint32_t group) {
-    group = lanes_.meet(tree_, item, packet_, p_, first, packet_.t1.data(), group, scratch_);
-    std::uint32_t ended = lanes_.crossed & group;
-    if (!lanes_.is_convex || !item.is_opaque) {
-      ended = 0;
-      for (const std::size_t lane : SetBits(group)) {
-        if (!lanes_.crossings(tree_, item, lane, lanes_.begins[lane], lanes_.ends[lane],
-                              [&](const Crossing& c) { return passes(first + lane, c); })) {
-          ended |= std::uint32_t{1} << lane;
-        }
-      }
-    }
-    if (ended != 0) end_rays(index, ended << first);
-  }
-
-  void take_item(std::uint32_t index, Mask rays) {
-    const SurfaceItem& item = tree_.items()[index];
-    if (item.is_mesh && has_many(rays)) {
+  };
+  LaneItem lanes;
+  const auto item = [&](std::uint32_t index, Mask rays) {
+    const SurfaceItem& it = tree.items()[index];
+    if (it.is_mesh && has_many(rays)) {
       take_mesh(index, rays);
       rays = 0;
     }
-    if (item.is_small) lanes_.look_at(tree_, item, p_, rays);
-    in_groups(
-        item, p_, rays,
-        [&](std::size_t first, std::uint32_t group) { take_lanes(index, item, first, group); },
-        [&](std::size_t i) { take_single(index, i); });
-  }
-
-  void walk(std::uint32_t node, std::size_t i) {
+    const auto take = [&](std::size_t first, std::uint32_t group) {
+      group = lanes.meet(tree, it, packet, p, first, packet.t1.data(), group, scratch);
+      std::uint32_t ended = lanes.crossed & group;
+      if (!lanes.is_convex || !it.is_opaque) {
+        ended = 0;
+        for (const std::size_t lane : SetBits(group)) {
+          if (!lanes.crossings(tree, it, lane, lanes.begins[lane], lanes.ends[lane],
+                               [&](const Crossing& c) { return passes(first + lane, c); })) {
+            ended |= std::uint32_t{1} << lane;
+          }
+        }
+      }
+      if (ended != 0) end_rays(index, ended << first);
+    };
+    if (it.is_small) lanes.look_at(tree, it, p, rays);
+    in_groups(it, p, rays, take, [&](std::size_t i) { take_single(index, i); });
+  };
+  const auto walk = [&](std::uint32_t node, std::size_t i) {
     each_item_below<Order::kAny>(
-        tree_.nodes(), node, p_.ray(i), p_.first[i], [&] { return packet_.t1[i]; }, scratch_,
+        tree.nodes(), node, p.ray(i), p.first[i], [&] { return packet.t1[i]; }, scratch,
         [&](std::uint32_t index) {
           take_single(index, i);
-          return (active_ >> i & 1) != 0;
+          return (active >> i & 1) != 0;
         });
-  }
-
-  const SurfaceTree& tree_;
-  const RayPacket& packet_;
-  TreeScratch& scratch_;
-  const CullingPacket p_;
-  SingleRays single_;
-  Mask active_;
-  /// The item that ended a ray in this direction last.
-  std::uint32_t& last_;
-  LaneItem lanes_;
-};
-
-Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
-                Rgb* light) {
-  return LightThrough(tree, packet, scratch).run(light);
+  };
+  // Neighbouring rays towards one light mostly end on the same object.
+  if (last < tree.items().size()) item(last, active);
+  panes.clear();
+  each_item_of_packet<Order::kAny>(tree, p, active, scratch, item, walk);
+  dim(panes, light);
+  return active;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -70,10 +70,10 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
     for (std::size_t light = 0; light < model.settings.lights.size(); ++light) {
       for (int i = 0; i < 200; ++i) {
         const Vec3 d = dice.unit_vector();
-        const auto hit = tree.first_crossing({model.settings.lights[light].position, d}, 0,
-                                             Aabb::kFloatInf, scratch);
+        const auto hit =
+            tree.first_crossing({model.settings.lights[light].position, d}, 0, kInf, scratch);
         const double distance = foreign.distance(light, d);
-        REQUIRE(distance <= (hit ? hit->t : Aabb::kFloatInf));
+        REQUIRE(distance <= (hit ? hit->t : kInf));
         promised += distance > 0 ? 1 : 0;
         const double of_all = all.distance(light, d);
         beyond += distance > of_all ? 1 : 0;
@@ -97,7 +97,7 @@ TEST_CASE("a part that a node holds counts as foreign, with the surfaces that it
   };
   // The texel's directions are not quite the x axis.
   const double nothing_held = distance({{false}, {}}), whole = distance({{true}, {}});
-  CHECK(whole == Aabb::kFloatInf);
+  CHECK(whole == kInf);
   const auto tree = model.tree(model.objects[0]);
   REQUIRE(tree.size() == 3);
   TreeNode first_box = tree[1];
@@ -192,7 +192,7 @@ TEST_CASE("distances of many texels, as floats, are no longer than what they are
 TEST_CASE("a map's distances are a little shorter, or cut off at its reach") {
   std::vector<float> distances{0, 1, 99.5f, 100, 1e9f, kFloatInf};
   const HorizonMap map = HorizonMap::of(distances, 100);
-  const std::vector<double> expected{0, 1, 99.5, 100, 100, Aabb::kFloatInf};
+  const std::vector<double> expected{0, 1, 99.5, 100, 100, kInf};
   for (std::size_t i = 0; i < distances.size(); ++i) {
     INFO(i);
     CHECK(map.at(i) <= expected[i]);
