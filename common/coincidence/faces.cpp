@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "csg/box.hpp"
+#include "csg/cylinder.hpp"
 #include "csg/half_space.hpp"
 
 namespace graycube::csg {
@@ -29,8 +30,9 @@ void become_box(Primitive& p) {
     for (int w = 0; w < 3; ++w) {
       if (n[w] == 0) continue;
       const auto i = static_cast<std::size_t>(a);
-      lo[w] = (n[w] > 0 ? p.v[i] : -p.v[i + 3]) + 0.0;
-      hi[w] = (n[w] > 0 ? p.v[i + 3] : -p.v[i]) + 0.0;
+      const double lower = box_side(p.v, 0, i), upper = box_side(p.v, 1, i);
+      lo[w] = (n[w] > 0 ? lower : -upper) + 0.0;
+      hi[w] = (n[w] > 0 ? upper : -lower) + 0.0;
     }
   }
   p.kind = PrimitiveKind::kBox;
@@ -53,20 +55,19 @@ void set_face(Model& model, const Face& face) {
   const Vec3 normal = is_upper(face.slot) ? face.plane.normal : -face.plane.normal;
   const double offset = (is_upper(face.slot) ? face.plane.offset : -face.plane.offset) + 0.0;
   switch (p.kind) {
-    case PrimitiveKind::kBox: p.v[is_upper(face.slot) ? axis + 3 : axis] = offset; return;
+    case PrimitiveKind::kBox: set_box_side(p, is_upper(face.slot), axis, offset); return;
     case PrimitiveKind::kParallelepiped:
       set_row(p.to_local, axis_of(face.slot), normal);
-      p.v[is_upper(face.slot) ? axis + 3 : axis] = offset;
+      set_box_side(p, is_upper(face.slot), axis, offset);
       return;
     case PrimitiveKind::kCylinder:
     case PrimitiveKind::kCone:
     case PrimitiveKind::kEllipticCone:
-      for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = normal[i] + 0.0;
-      p.v[is_upper(face.slot) ? 4 : 3] = offset;
+      set_caps(p, normal + Vec3{}, is_upper(face.slot) ? lower_cap(p) : offset,
+               is_upper(face.slot) ? offset : upper_cap(p));
       return;
     case PrimitiveKind::kHalfSpace:
-      for (int i = 0; i < 3; ++i) p.v[static_cast<std::size_t>(i)] = face.plane.normal[i] + 0.0;
-      p.v[3] = face.plane.offset + 0.0;
+      p.v = half_space_slots({face.plane.normal + Vec3{}, face.plane.offset + 0.0});
       return;
     default: {
       const Vec3& n = face.plane.normal;
@@ -78,8 +79,7 @@ void set_face(Model& model, const Face& face) {
 
 Vec3 anchor_of(const Primitive& p, const Plane& plane) {
   if (!p.bounds.is_finite()) return plane.offset * plane.normal;
-  const Vec3 middle = p.bounds.center();
-  return middle + (plane.offset - dot(plane.normal, middle)) * plane.normal;
+  return nearest_on(plane, p.bounds.center());
 }
 
 double direction_tolerance(const Primitive& p, const Vec3& normal, const Exactness& exactness) {

@@ -4,6 +4,9 @@
 #include <cstdint>
 
 #include "coincidence/exactness.hpp"
+#include "csg/box.hpp"
+#include "csg/cylinder.hpp"
+#include "csg/half_space.hpp"
 #include "csg/model.hpp"
 
 namespace graycube::csg {
@@ -48,17 +51,19 @@ inline Vec3 heading_of(const Model& model, const Primitive& p, std::uint32_t slo
     case PrimitiveKind::kParallelepiped: return p.to_local.row(static_cast<int>(slot / 2));
     case PrimitiveKind::kPolyhedron:
     case PrimitiveKind::kQuadric: return model.planes[p.first_plane + slot].normal;
-    default: return {p.v[0], p.v[1], p.v[2]};
+    case PrimitiveKind::kHalfSpace: return half_space_plane(p).normal;
+    default: return cap_normal(p);
   }
 }
 /// Of a face, along the normal that heading_of gives.
 inline double offset_of(const Model& model, const Primitive& p, std::uint32_t slot) {
   switch (p.kind) {
     case PrimitiveKind::kBox:
-    case PrimitiveKind::kParallelepiped: return p.v[slot / 2 + 3 * (slot % 2)];
+    case PrimitiveKind::kParallelepiped: return box_side(p.v, slot % 2, slot / 2);
     case PrimitiveKind::kPolyhedron:
     case PrimitiveKind::kQuadric: return model.planes[p.first_plane + slot].offset;
-    default: return p.v[3 + slot];
+    case PrimitiveKind::kHalfSpace: return half_space_plane(p).offset;
+    default: return slot == 0 ? lower_cap(p) : upper_cap(p);
   }
 }
 /// Both faces of a pair share the normal: give them the same.

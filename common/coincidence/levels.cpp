@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <tuple>
 #include <utility>
 
+#include "geometry/infinity.hpp"
+
 namespace graycube::csg {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Finds the least distance above 0 between faces of one primitive that look opposite ways, which
 /// come by offset.
@@ -26,18 +25,18 @@ class ThicknessFinder {
 
  private:
   /// By side: the greatest offset so far, and the greatest below it.
-  std::array<double, 2> last_{-kInfinite, -kInfinite}, before_{-kInfinite, -kInfinite};
-  double least_ = kInfinite;
+  std::array<double, 2> last_{-kInf, -kInf}, before_{-kInf, -kInf};
+  double least_ = kInf;
 };
 
 double least_thickness(std::span<const Extent> run, const std::vector<Level>& given) {
-  if (run.size() < 2) return kInfinite;
+  if (run.size() < 2) return kInf;
   std::vector<const Level*> sides;
   for (const Extent& e : run) sides.push_back(&given[e.item]);
   std::sort(sides.begin(), sides.end(), [](const Level* a, const Level* b) {
     return std::tie(a->primitive, a->offset) < std::tie(b->primitive, b->offset);
   });
-  double least = kInfinite;
+  double least = kInf;
   for (std::size_t first = 0; first < sides.size();) {
     ThicknessFinder finder;
     std::size_t i = first;
@@ -69,7 +68,7 @@ Planes::Planes(std::vector<Level> levels) {
 
 void Planes::add_run(std::span<const Extent> run, const std::vector<Level>& given) {
   const double gap = least_thickness(run, given);
-  if (!(gap < kInfinite)) return add_plane(run, given);
+  if (!(gap < kInf)) return add_plane(run, given);
   constexpr double kShareOfGap = 1.0 / 8;
   std::vector<Extent> narrower(run.begin(), run.end());
   for (Extent& e : narrower) {

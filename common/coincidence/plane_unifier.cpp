@@ -51,13 +51,13 @@ void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit)
     // The kinds that there are most of need no planes looked up.
     case PrimitiveKind::kBox:
       for (std::uint32_t a = 0; a < 3; ++a)
-        visit_faces({world_axis(static_cast<int>(a)), direction, primitive, 2 * a, 2}, p.v[a],
-                    p.v[a + 3]);
+        visit_faces({world_axis(static_cast<int>(a)), direction, primitive, 2 * a, 2},
+                    box_side(p.v, 0, a), box_side(p.v, 1, a));
       return;
     case PrimitiveKind::kParallelepiped:
       for (std::uint32_t a = 0; a < 3; ++a)
-        visit_faces({p.to_local.row(static_cast<int>(a)), direction, primitive, 2 * a, 2}, p.v[a],
-                    p.v[a + 3]);
+        visit_faces({p.to_local.row(static_cast<int>(a)), direction, primitive, 2 * a, 2},
+                    box_side(p.v, 0, a), box_side(p.v, 1, a));
       return;
     default: break;
   }

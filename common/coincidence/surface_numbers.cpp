@@ -6,7 +6,12 @@
 
 #include "check.hpp"
 #include "coincidence/heading.hpp"
+#include "csg/cylinder.hpp"
+#include "csg/elliptic_cone.hpp"
+#include "csg/elliptic_torus.hpp"
 #include "csg/quadric.hpp"
+#include "csg/sphere.hpp"
+#include "csg/torus.hpp"
 
 namespace graycube::csg {
 namespace {
@@ -64,9 +69,9 @@ double form_tolerance(const Exactness& e, double square) {
 
 void ball_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const bool is_sphere = p.kind == PrimitiveKind::kSphere;
-  const Vec3 center = is_sphere ? Vec3{p.v[0], p.v[1], p.v[2]} : p.bounds.center();
+  const Vec3 center = is_sphere ? sphere_center(p.v) : p.bounds.center();
   if (n.point(center, e.distance())) return;
-  const double r = p.v[3];
+  const double r = sphere_radius(p.v);
   const Vec3 reach = is_sphere ? Vec3{r, r, r} : 0.5 * (p.bounds.hi - p.bounds.lo);
   for (int a = 0; a < 3; ++a) n.number(reach[a], e.distance());
   Form f;
@@ -94,7 +99,7 @@ void cylinder_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 }
 
 void cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  const double k = p.v[5];
+  const double k = cone_slope(p);
   const Vec3 x = p.to_local.row(0), y = p.to_local.row(1), w = k * p.to_local.row(2);
   const double determinant = dot(x, cross(y, w));
   const Vec3 apex = (-1 / determinant) *
@@ -122,13 +127,15 @@ void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   n.form(across, form_tolerance(e, larger(square(x), square(y))));
   n.form(form_of(z), form_tolerance(e, square(z)));
   const double local = e.distance() * std::sqrt(larger(square(x), larger(square(y), square(z))));
-  if (p.kind == PrimitiveKind::kTorus) return n.number(p.v[0], local);
-  const double most = larger(p.v[0], p.v[2]);
+  if (p.kind == PrimitiveKind::kTorus) return n.number(torus_minor(p), local);
+  const Vec3 ellipse = ellipse_of(p);
+  const double most = larger(ellipse.x, ellipse.z);
   const double tolerance = 2 * most * (local * std::sqrt(most) + e.direction);
-  n.number(p.v[0], tolerance);
-  n.number(p.v[2], tolerance);
+  n.number(ellipse.x, tolerance);
+  n.number(ellipse.z, tolerance);
   // The term of z changes its sign with the frame's z.
-  for (int a = 0; a < 3; ++a) n.number(p.v[1] * z[a], (tolerance + most * e.direction) * length(z));
+  for (int a = 0; a < 3; ++a)
+    n.number(ellipse.y * z[a], (tolerance + most * e.direction) * length(z));
 }
 
 /// One of an elliptic cone's two semi-axes: the plane that it is measured from, and its length,
@@ -147,7 +154,7 @@ SemiAxis semi_axis_of(const Primitive& p, int row, double k) {
 }
 
 void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, p.v[5]);
+  SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, second_slope(p));
   // Which of them is x depends on where the frame begins.
   if (std::fabs(dot(kGenericDirection, first.normal)) <
       std::fabs(dot(kGenericDirection, second.normal)))
@@ -163,10 +170,11 @@ void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
 }
 
 void quadric_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
-  const std::array<double, 3> factors{1, p.v[0], p.v[1]};
+  const auto [of_yy, of_zz, of_z, of_one] = quadric_coefficients(p);
+  const std::array<double, 3> factors{1, of_yy, of_zz};
   Form f;
   Vec3 slope;
-  double constant = p.v[3] + p.v[2] * column(p.to_local, 2), norm = 0;
+  double constant = of_one + of_z * column(p.to_local, 2), norm = 0;
   for (int row = 0; row < 3; ++row) {
     const Vec3 r = p.to_local.row(row);
     const double factor = factors[static_cast<std::size_t>(row)], at = column(p.to_local, row);
@@ -175,7 +183,7 @@ void quadric_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
     constant += factor * at * at;
     norm += std::fabs(factor) * square(r);
   }
-  slope = slope + (0.5 * p.v[2]) * p.to_local.row(2);
+  slope = slope + (0.5 * of_z) * p.to_local.row(2);
   const double size = length(p.bounds.hi - p.bounds.lo), away = length(p.bounds.center()) + size;
   const double angle = e.direction + e.distance() / size;
   const double off = e.distance() + angle * away;

@@ -5,6 +5,11 @@
 #include <tuple>
 
 #include "coincidence/clusters.hpp"
+#include "csg/cylinder.hpp"
+#include "csg/elliptic_cone.hpp"
+#include "csg/elliptic_torus.hpp"
+#include "csg/quadric.hpp"
+#include "csg/torus.hpp"
 
 namespace graycube::csg {
 namespace {
@@ -19,7 +24,7 @@ bool is_on_same_nappe(const Primitive& cone, const Primitive& other) {
   const auto to_world = other.to_local.inverse();
   if (!to_world) return false;
   const Vec3 inside = cone.to_local.point(to_world->point({0, 0, 0}));
-  return 1 + cone.v[5] * inside.z > 0;
+  return 1 + cone_slope(cone) * inside.z > 0;
 }
 
 void divide_row(Affine& map, std::size_t row, double by) {
@@ -34,22 +39,25 @@ void simplify(Primitive& p, double tolerance) {
   // What is known no better, beyond the range of floats for one, stays what it is.
   constexpr double kWorst = 1e-3;
   if (!(local < kWorst)) return;
-  if (p.kind == PrimitiveKind::kCone && std::fabs(p.v[5]) <= local) {
+  if (p.kind == PrimitiveKind::kCone && std::fabs(cone_slope(p)) <= local) {
     p.kind = PrimitiveKind::kCylinder;
-    p.v[5] = 0;
+    set_cone_slope(p, 0);
   }
   if (p.kind == PrimitiveKind::kEllipticTorus) {
-    const double minor = 1 / std::sqrt(larger(p.v[0], p.v[2]));
+    const Vec3 ellipse = ellipse_of(p);
+    const double minor = 1 / std::sqrt(larger(ellipse.x, ellipse.z));
     const double off = 2 * local / (minor * minor * minor);
-    if (std::fabs(p.v[0] - p.v[2]) <= off && std::fabs(p.v[1]) <= off) {
+    if (std::fabs(ellipse.x - ellipse.z) <= off && std::fabs(ellipse.y) <= off) {
       p.kind = PrimitiveKind::kTorus;
-      p.v = {minor, 0, 0, 0, 0, 0};
+      p.v = torus_slots(minor);
     }
   }
-  if (p.kind == PrimitiveKind::kQuadric && p.v[0] > 0 && p.v[1] == 0 && p.v[2] == 0 && p.v[3] < 0) {
-    divide_row(p.to_local, 0, std::sqrt(-p.v[3]));
-    divide_row(p.to_local, 1, std::sqrt(-p.v[3] / p.v[0]));
-    p.v = {1, 0, 0, -1, 0, 0};
+  if (p.kind != PrimitiveKind::kQuadric) return;
+  const auto [of_yy, of_zz, of_z, of_one] = quadric_coefficients(p);
+  if (of_yy > 0 && of_zz == 0 && of_z == 0 && of_one < 0) {
+    divide_row(p.to_local, 0, std::sqrt(-of_one));
+    divide_row(p.to_local, 1, std::sqrt(-of_one / of_yy));
+    p.v = quadric_slots({1, 0, 0, -1});
   }
 }
 
@@ -70,11 +78,12 @@ void take_surface(const Primitive& from, Primitive& p) {
       [[fallthrough]];
     case SurfaceFamily::kEllipticCone:
       p.to_local = from.to_local;
-      p.v[5] = from.v[5];
+      if (p.kind == PrimitiveKind::kCone) set_cone_slope(p, cone_slope(from));
+      if (p.kind == PrimitiveKind::kEllipticCone) set_second_slope(p, second_slope(from));
       return;
     case SurfaceFamily::kQuadric:
       p.to_local = from.to_local;
-      std::copy(from.v.begin(), from.v.begin() + 4, p.v.begin());
+      p.v = from.v;
       return;
     case SurfaceFamily::kNone: return;
   }

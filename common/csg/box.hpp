@@ -15,6 +15,9 @@ inline Vec3 box_hi(const Primitive& p) { return {p.v[3], p.v[4], p.v[5]}; }
 inline double box_side(const Slots& v, std::size_t side, std::size_t axis) {
   return v[3 * side + axis];
 }
+inline void set_box_side(Primitive& p, std::size_t side, std::size_t axis, double at) {
+  p.v[3 * side + axis] = at;
+}
 
 inline Interval box_interval(const Vec3& lo, const Vec3& hi, const Vec3& o, const Vec3& d) {
   Interval i;

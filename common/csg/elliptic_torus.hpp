@@ -12,6 +12,9 @@ inline Slots elliptic_torus_slots(const Vec3& ellipse, double outwards, double a
   return {ellipse.x, ellipse.y, ellipse.z, outwards, along, 0};
 }
 
+/// The coefficients of (ρ − 1)², of (ρ − 1) z, half, and of z².
+inline Vec3 ellipse_of(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
+
 Spans elliptic_torus_spans(const Primitive& p, const Ray& ray);
 bool elliptic_torus_contains(const Primitive& p, const Vec3& q);
 Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q);
