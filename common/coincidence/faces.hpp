@@ -31,8 +31,13 @@ inline std::uint32_t face_count(const Primitive& p) {
     case PrimitiveKind::kHalfSpace: return 1;
     case PrimitiveKind::kPolyhedron:
     case PrimitiveKind::kQuadric: return p.plane_count;
-    default: return 0;
+    case PrimitiveKind::kSphere:
+    case PrimitiveKind::kEllipsoid:
+    case PrimitiveKind::kTorus:
+    case PrimitiveKind::kEllipticTorus:
+    case PrimitiveKind::kMesh: break;
   }
+  return 0;
 }
 /// Faces come in pairs with one normal, backwards on the first: boxes' and parallelepipeds', and
 /// caps.
@@ -52,7 +57,10 @@ inline Vec3 heading_of(const Model& model, const Primitive& p, std::uint32_t slo
     case PrimitiveKind::kPolyhedron:
     case PrimitiveKind::kQuadric: return model.planes[p.first_plane + slot].normal;
     case PrimitiveKind::kHalfSpace: return half_space_plane(p).normal;
-    default: return cap_normal(p);
+    case PrimitiveKind::kCylinder:
+    case PrimitiveKind::kCone:
+    case PrimitiveKind::kEllipticCone: return cap_normal(p);
+    default: return {};
   }
 }
 /// Of a face, along the normal that heading_of gives.

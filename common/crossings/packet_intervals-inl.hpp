@@ -293,7 +293,15 @@ HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& mo
       i = lanes_polyhedron({model.planes.data() + p.first_plane, p.plane_count}, rays);
       break;
     }
-    default: i = lanes_parallelepiped(model.primitives[literal.primitive], rays); break;
+    case PrimitiveKind::kParallelepiped:
+      i = lanes_parallelepiped(model.primitives[literal.primitive], rays);
+      break;
+    // A line may be inside of these twice: LaneItem solves them lane by lane.
+    case PrimitiveKind::kTorus:
+    case PrimitiveKind::kEllipticCone:
+    case PrimitiveKind::kEllipticTorus:
+    case PrimitiveKind::kQuadric:
+    case PrimitiveKind::kMesh: break;
   }
   // −0 is made +0.
   i.enter = hn::Add(i.enter, hn::Zero(Lanes()));
