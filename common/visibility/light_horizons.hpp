@@ -75,8 +75,8 @@ class LightHorizons {
   struct Reach {
     /// No surface is nearer.
     double lit = 0;
-    /// Points farther get no light; it holds for rays whose first t is less than half of
-    /// `clearance`.
+    /// Points farther get no light; not to be used for rays that begin at t ≥ clearance /
+    /// 2.
     double dark = kInf;
     double clearance = 0;
   };
