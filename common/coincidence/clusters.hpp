@@ -1,5 +1,4 @@
-// Finds which of many things may be the same, by several numbers of each, with
-// tolerances.
+// Finds which of many things may be the same, by several numbers of each, with tolerances.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 // Makes surfaces that coincide in a model coincide to the bit: faces in one plane get the same
 // plane, surfaces that are one sphere, ellipsoid, cylinder, cone, torus or quadric the same
 // numbers. Then a ray crosses them at equal t, and since such crossings are taken together
-// (crossings/crossings.hpp), no skin is left where a cut is flush with a face. Surfaces become
-// one if they are as near as they are exactly known; docs/design/coincidence.md says how near
-// that is.
+// (crossings/crossings.hpp), no skin is left where a cut is flush with a face. Surfaces become one
+// if they are as near as they are exactly known; docs/design/coincidence.md says how near that is.
 #pragma once
 
 #include <array>

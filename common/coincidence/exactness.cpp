@@ -42,9 +42,8 @@ std::optional<Affine> inverse_of(const Affine& map) {
   return r;
 }
 
-/// The angle by which a normal may turn, over the relative error of the map's entries:
-/// normals go by the transposed inverse, and the inverse of A + E differs from that of A by
-/// A⁻¹ E A⁻¹.
+/// The angle by which a normal may turn, over the relative error of the map's entries: normals go
+/// by the transposed inverse, and the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
 double turn_of(const Affine& map, const Affine& magnitude) {
   const auto inverse = inverse_of(map);
   if (!inverse) return 1;

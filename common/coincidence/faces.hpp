@@ -66,8 +66,7 @@ inline double offset_of(const Model& model, const Primitive& p, std::uint32_t sl
     default: return slot == 0 ? lower_cap(p) : upper_cap(p);
   }
 }
-/// Replaces a face's plane. Both faces of a pair share the normal: give both the
-/// same.
+/// Replaces a face's plane. Both faces of a pair share the normal: give both the same.
 void set_face(Model& model, const Face& face);
 
 /// A point of the face's plane in the middle of the primitive; of an unbounded one, the point

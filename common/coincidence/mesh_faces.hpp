@@ -38,8 +38,7 @@ class MeshFaces {
   }
   MeshFace face(std::uint32_t number) const;
 
-  /// Gives a face's triangles the plane, except those that surely aren't in
-  /// it.
+  /// Gives a face's triangles the plane, except those that surely aren't in it.
   void set(std::uint32_t number, const Plane& plane);
   /// Puts the mesh with the planes set into the model, and grows its bounds; false when there are
   /// none.

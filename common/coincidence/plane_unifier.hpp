@@ -47,8 +47,7 @@ class PlaneUnifier {
   bool settle();
   std::size_t place_of_mesh(std::uint32_t primitive) const;
 
-  /// Numbers for which reserve() takes memory: a box has six faces, a cylinder two, a sphere
-  /// none.
+  /// Numbers for which reserve() takes memory: a box has six faces, a cylinder two, a sphere none.
   static constexpr std::size_t kNumbersEach = 4;
 
   Model& model_;

@@ -77,8 +77,7 @@ class TerminationRing {
   /// and then either has a verdict or launches the next round, at once or when it may.
   std::optional<Token> try_pass(bool passive, bool may_launch = true);
 
-  /// The initiator's verdict; none on other nodes. From it on no token goes out until
-  /// reset().
+  /// The initiator's verdict; none on other nodes. From it on no token goes out until reset().
   const std::optional<Verdict>& verdict() const { return verdict_; }
   bool holds_token() const { return held_.has_value(); }
   /// The number of rounds that the initiator has launched so far; 0 on other nodes.

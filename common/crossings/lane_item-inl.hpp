@@ -41,9 +41,8 @@ class LaneItem {
     }
   }
 
-  /// The lanes of the group from ray `first` on that may cross the item's surface in [t0,
-  /// t1]: for a conjunction, those in which the common interval of the upright literals meets
-  /// it.
+  /// The lanes of the group from ray `first` on that may cross the item's surface in [t0, t1]: for
+  /// a conjunction, those in which the common interval of the upright literals meets it.
   std::uint32_t meet(const SurfaceTree& tree, const SurfaceItem& item, const RayPacket& packet,
                      const CullingPacket& p, std::size_t first, const double* t1,
                      std::uint32_t lanes_wanted, TreeScratch& scratch) {

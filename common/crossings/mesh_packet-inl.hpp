@@ -48,9 +48,8 @@ class MeshPacket {
     whole_.update_last_of_all();
   }
 
-  /// Calls visit(ray, t, entering) for each ray's crossings in [t0, t1[ray]), in order,
-  /// until it returns false, as it must at once with `first_only`; then goes on with the
-  /// next ray.
+  /// Calls visit(ray, t, entering) for each ray's crossings in [t0, t1[ray]), in order, until it
+  /// returns false, as it must at once with `first_only`; then goes on with the next ray.
   template <Order order, typename Visit>
   void crossings(Visit&& visit) {
     const auto block = [&](std::uint32_t index, Mask met) {
@@ -130,8 +129,7 @@ class MeshPacket {
   std::array<std::optional<csg::MeshLine>, kRays> lines_;
   std::array<Ray, kRays> singles_;
   std::array<double, kRays> below_;
-  /// Rays that start outside the mesh, and those of them whose first crossing alone is
-  /// wanted.
+  /// Rays that start outside the mesh, and those of them whose first crossing alone is wanted.
   Mask outside_ = 0, shortened_ = 0;
 };
 

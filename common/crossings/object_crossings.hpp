@@ -16,9 +16,8 @@
 
 namespace graycube {
 
-/// One leaf of a program with its primitive's slots, in one cache line. For a kind that needs
-/// more and looks its primitive up, `v` holds grown bounds as floats: lower corner, upper
-/// corner.
+/// One leaf of a program with its primitive's slots, in one cache line. For a kind that needs more
+/// and looks its primitive up, `v` holds grown bounds as floats: lower corner, upper corner.
 struct alignas(64) Literal {
   Slots v{};
   std::uint32_t primitive = 0;

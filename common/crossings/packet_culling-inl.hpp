@@ -152,8 +152,7 @@ struct CullingPacket {
   std::size_t next_padding = 0;
 };
 
-/// Bits of the boxes of a node that any ray may meet; near[i] is set to the earliest t for box
-/// i.
+/// Bits of the boxes of a node that any ray may meet; near[i] is set to the earliest t for box i.
 HWY_INLINE std::uint32_t meet_all(const WideNode& node, const CullingPacket& p,
                                   float* HWY_RESTRICT near) {
   const hn::CappedTag<float, WideNode::kWidth> d;

@@ -193,8 +193,7 @@ class SurfaceTreeBuilder {
     return static_cast<std::size_t>(middle - items.begin());
   }
 
-  /// Puts items that are near each other in space, and their literals, near each other in
-  /// memory.
+  /// Puts items that are near each other in space, and their literals, near each other in memory.
   void put_items_in_tree_order() {
     std::vector<SurfaceItem> items;
     std::vector<Literal> literals;

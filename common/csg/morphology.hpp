@@ -27,8 +27,7 @@ using ObjectDistance = std::function<double(const Object&)>;
 /// The whole scene dilated, each object by itself; parts that are subtracted from an object are
 /// eroded instead. Nothing when an object would fill all of space.
 std::optional<Model> dilated(const Model& model, const ObjectDistance& by);
-/// The whole scene eroded, without objects that vanish or have a transparent
-/// material.
+/// The whole scene eroded, without objects that vanish or have a transparent material.
 Model eroded(const Model& model, const ObjectDistance& by);
 
 }  // namespace graycube

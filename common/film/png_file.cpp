@@ -90,9 +90,8 @@ bool encode(Writer& writer, WholeFile& file, const Layout& layout, const float* 
   } else {
     png_set_gAMA(png, writer.info, 1.0);
   }
-  // All rows as differences, compressed fast, take a third of the time of libpng's
-  // defaults, which try every filter, for files a sixth larger at most
-  // (docs/lab/2026-11-22-files.md).
+  // All rows as differences, compressed fast, take a third of the time of libpng's defaults, which
+  // try every filter, for files a sixth larger at most (docs/lab/2026-11-22-files.md).
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_compression_level(png, 1);
   png_write_info(png, writer.info);

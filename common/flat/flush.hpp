@@ -9,10 +9,9 @@
 
 namespace graycube {
 
-/// The distance up to which corners and sides count as in one place: less than a unit in the
-/// last of `digits` digits of the largest coordinate, at most a quarter of the shortest side,
-/// but at least some steps of Clipper's grid (4 · 10⁻¹² to 8 · 10⁻¹² of the largest
-/// coordinate).
+/// The distance up to which corners and sides count as in one place: less than a unit in the last
+/// of `digits` digits of the largest coordinate, at most a quarter of the shortest side, but at
+/// least some steps of Clipper's grid (4 · 10⁻¹² to 8 · 10⁻¹² of the largest coordinate).
 double flush_tolerance(std::span<const FlatLoops> operands, std::uint32_t digits);
 
 /// Like combined(), but first moves corners within the tolerance of one another to one place, that

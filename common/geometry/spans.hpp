@@ -8,9 +8,8 @@
 
 namespace graycube {
 
-/// The parts of a line inside a primitive: disjoint closed intervals [enter, leave], in
-/// order; ±infinity if the primitive is unbounded. Tangency gives an interval of length zero
-/// or none.
+/// The parts of a line inside a primitive: disjoint closed intervals [enter, leave], in order;
+/// ±infinity if the primitive is unbounded. Tangency gives an interval of length zero or none.
 class Spans {
  public:
   /// The most intervals of kinds other than meshes; more than these take memory.

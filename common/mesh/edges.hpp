@@ -34,8 +34,7 @@ class MeshEdges {
   std::optional<MeshEdge> first_unbalanced(std::span<const Triangle> triangles) const;
 
  private:
-  /// A word for each use, sorted: lower point, higher point, and 1 if it goes
-  /// down.
+  /// A word for each use, sorted: lower point, higher point, and 1 if it goes down.
   std::vector<std::uint64_t> records_;
   std::size_t count_ = 0, unbalanced_count_ = 0;
 };

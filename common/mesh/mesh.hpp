@@ -30,8 +30,7 @@ class Mesh {
   const MeshTree& tree() const;
   std::size_t memory_bytes() const;
 
-  /// These do for a mesh what the functions of csg/primitive.hpp do for any
-  /// primitive.
+  /// These do for a mesh what the functions of csg/primitive.hpp do for any primitive.
   Spans spans(const Ray& ray) const;
   bool contains(const Vec3& point) const;
   Vec3 outward_normal(const Ray& ray, double t) const;

@@ -80,8 +80,7 @@ bool may_touch_any(const MeshTree& tree, std::uint32_t index, const Aabb& cell) 
 
 }  // namespace
 
-/// The `Parts` of a mesh's WideTreeBuilder: triangles, of which blocks become
-/// items.
+/// The `Parts` of a mesh's WideTreeBuilder: triangles, of which blocks become items.
 class MeshTreeBuilder {
  public:
   using Box = FloatBox;

@@ -16,8 +16,7 @@ struct CameraFrame {
   /// Width of one (square) pixel: at distance 1 along `forward` in perspective, in scene units
   /// otherwise.
   double pixel_size = 0;
-  /// A ray's point in its subcell: share of the width from the left, of the height from the
-  /// top.
+  /// A ray's point in its subcell: share of the width from the left, of the height from the top.
   double sample_x = 0.5, sample_y = 0.5;
 
   /// The camera must be valid (read_scene checks): eye ≠ look_at, up not along the view, fov in

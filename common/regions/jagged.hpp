@@ -16,8 +16,7 @@ inline constexpr std::int64_t kCutStep = 4;
 /// Pixel edges between parts, each strictly increasing and inside the picture.
 struct JaggedCuts {
   std::vector<std::int64_t> rows;
-  /// Edges of the first row of parts, then of the second and so on: one fewer than columns a
-  /// row.
+  /// Edges of the first row of parts, then of the second and so on: one fewer than columns a row.
   std::vector<std::int64_t> columns;
 };
 

@@ -35,8 +35,7 @@ struct PicturePart {
 ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share,
                                 const PicturePart* beside = nullptr);
 
-/// The model with only `contents`, renumbered; objects keep order and id; settings, materials
-/// stay.
+/// The model with only `contents`, renumbered; objects keep order and id; settings, materials stay.
 Model extract(const Model& model, const ModelContents& contents);
 
 /// The model that looks like the whole one inside each region of the share.

@@ -16,8 +16,7 @@
 namespace graycube {
 namespace {
 
-/// Counts the leaves of all objects, references expanded; a prism is one, whatever it
-/// becomes.
+/// Counts the leaves of all objects, references expanded; a prism is one, whatever it becomes.
 class LeafCounter {
  public:
   explicit LeafCounter(const Scene& scene) : scene_(scene), shapes_(scene.shapes.size()) {}

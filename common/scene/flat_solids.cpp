@@ -81,8 +81,7 @@ class TurnedPiece {
     }
     margin_ = kReachBeyond * (high_ - low_);
     if (level > 0) {
-      // Subtracted pieces may end anywhere beyond their corners, except at a side that is
-      // level.
+      // Subtracted pieces may end anywhere beyond their corners, except at a side that is level.
       low_ -= margin_;
       high_ += margin_;
     }

@@ -71,8 +71,7 @@ struct PolyhedronShape {
   friend bool operator==(const PolyhedronShape&, const PolyhedronShape&) = default;
 };
 
-/// A solid between ellipses: semi-axes a, b about `base`, and top_a · a, top_b · b about
-/// `top`.
+/// A solid between ellipses: semi-axes a, b about `base`, and top_a · a, top_b · b about `top`.
 struct EllipticConeShape {
   Vec3 base, top, a, b;
   double top_a = 0, top_b = 0;

@@ -1,5 +1,4 @@
-// Settings that only `serial` accepts: both a farm's client and its frontal ask for
-// these.
+// Settings that only `serial` accepts: both a farm's client and its frontal ask for these.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +18,7 @@ struct ExceededLimit {
   std::uint64_t most = 0, found = 0;
 };
 
-/// The settings beyond what a tile's sum of credit can hold exactly (see
-/// kMaxCreditDepth).
+/// The settings beyond what a tile's sum of credit can hold exactly (see kMaxCreditDepth).
 inline std::vector<ExceededLimit> exceeded_credit_limits(const RenderSettings& settings) {
   std::vector<ExceededLimit> exceeded;
   if (settings.max_depth > kMaxCreditDepth) {

@@ -39,14 +39,12 @@ class Hypercube {
   /// The bit across which two nodes are linked; nothing when they are not.
   std::optional<std::uint32_t> link_between(Rank a, Rank b) const;
 
-  /// The bit of the first link from one node towards another, which is as many links away as
-  /// their labels differ in bits; `but` is taken only if it is the last. The nodes must
-  /// differ.
+  /// The bit of the first link from one node towards another, which is as many links away as their
+  /// labels differ in bits; `but` is taken only if it is the last. The nodes must differ.
   std::uint32_t first_bit(Rank from, Rank to,
                           std::optional<std::uint32_t> but = std::nullopt) const;
 
-  /// The next node on the Gray-code Hamiltonian cycle 0 → … → 0 over links; itself if
-  /// alone.
+  /// The next node on the Gray-code Hamiltonian cycle 0 → … → 0 over links; itself if alone.
   Rank ring_next(Rank rank) const;
   Rank ring_previous(Rank rank) const;
 

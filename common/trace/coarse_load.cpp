@@ -174,8 +174,7 @@ class CoarseTrace {
     }
   }
 
-  /// Queues a ray that left region `from`. Shadow rays in their first region have made no
-  /// hops.
+  /// Queues a ray that left region `from`. Shadow rays in their first region have made no hops.
   void take_leaving(RayTask& ray, RegionIndex from) {
     const bool is_shadow = ray.kind == RayKind::kShadow;
     if (is_shadow && ray.hops == 0) {
@@ -248,8 +247,7 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells,
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
     trace.add_pixel(middle(at % across, across, image.width),
                     middle(at / across, count / across, image.height));
-    // Also finished when the pixels have doubled, so that their work is known in good
-    // time.
+    // Also finished when the pixels have doubled, so that their work is known in good time.
     const std::uint32_t done = i + 1;
     if (trace.has_many_waiting() || (std::has_single_bit(done) && !is_cheap)) {
       trace.finish();

@@ -26,8 +26,7 @@ struct LeavingLight {
 };
 
 struct CoarseLoad {
-  /// For each cell, the cost of tracing a few evenly spread pixels, in tests of
-  /// primitives.
+  /// For each cell, the cost of tracing a few evenly spread pixels, in tests of primitives.
   LoadMap map;
   /// The average number of rays that descend from a primary ray, itself included.
   double rays_per_primary;

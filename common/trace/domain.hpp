@@ -49,8 +49,7 @@ struct Territory {
 struct CrossingScratch {
   TreeScratch tree;
   Mailbox mailbox;
-  /// One for each place of Domain::borrowed_: what a scratch remembers belongs to one
-  /// tree.
+  /// One for each place of Domain::borrowed_: what a scratch remembers belongs to one tree.
   std::vector<TreeScratch> borrowed;
   TreeScratch foreign;
 
@@ -95,8 +94,7 @@ class Domain {
   void set_foreign_horizons(std::shared_ptr<const LightHorizons> horizons) {
     foreign_horizons_ = std::move(horizons);
   }
-  /// Sets boxes around what this domain does not hold; rays that meet none of them need not
-  /// leave.
+  /// Sets boxes around what this domain does not hold; rays that meet none of them need not leave.
   void set_foreign_bounds(std::shared_ptr<const ForeignBounds> bounds) {
     foreign_bounds_ = std::move(bounds);
   }
@@ -107,8 +105,7 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
-  /// A domain like this one of a neighbour's regions, without foreign horizons and bounds as
-  /// yet.
+  /// A domain like this one of a neighbour's regions, without foreign horizons and bounds as yet.
   std::shared_ptr<Domain> of_neighbour(const RegionShare& share, Model model) const;
   /// A domain with the same model, whose regions are those of a share of `grid`.
   Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
@@ -169,8 +166,7 @@ class Domain {
   /// holds a crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
-  /// Like pass_light(), for each ray of a packet: bit i of the result tells if light[i]
-  /// arrives.
+  /// Like pass_light(), for each ray of a packet: bit i of the result tells if light[i] arrives.
   RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                               std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.

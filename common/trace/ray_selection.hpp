@@ -14,8 +14,7 @@ struct RaySelection {
   /// The number, in the whole packet, of each ray of the selection.
   std::array<std::size_t, RayPacket::kSize> numbers;
 
-  /// Adds ray number i of the whole packet, t from `from` to `to`; there must be room for
-  /// it.
+  /// Adds ray number i of the whole packet, t from `from` to `to`; there must be room for it.
   void add(std::size_t i, const Ray& ray, double from, double to) {
     numbers[packet.count] = i;
     packet.add(ray, from, to);

@@ -18,8 +18,7 @@ enum class RayKind : std::uint8_t { kPrimary, kShadow, kReflection, kRefraction 
 inline constexpr int kRayKinds = 4;
 
 struct RayTask {
-  /// The ray as created; never restarted at a boundary, so that every node computes the same
-  /// t.
+  /// The ray as created; never restarted at a boundary, so that every node computes the same t.
   Ray ray;
   /// The parameter reached so far: crossings before it are behind the ray.
   double t = 0;

@@ -270,8 +270,7 @@ RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPa
   return leaving;
 }
 
-/// Like shorten_to_exits(), but rays that can be finished here keep their whole way to the
-/// light.
+/// Like shorten_to_exits(), but rays that can be finished here keep their whole way to the light.
 RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
                                               std::span<RegionExit, RayPacket::kSize> exits) {
   if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;

@@ -39,8 +39,7 @@ struct RayCounts {
 struct Step {
   /// Rays that left the domain, each with the region it goes on in and the t reached.
   std::vector<RayTask> leaving;
-  /// A shadow ray, as it left the domain's own regions, that waits for the model of
-  /// `region`.
+  /// A shadow ray, as it left the domain's own regions, that waits for the model of `region`.
   struct Lacking {
     RayTask task;
     RegionIndex region;

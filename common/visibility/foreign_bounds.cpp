@@ -116,8 +116,7 @@ class Pruning {
     return {node.box(place), WideNode::kItemFlag};
   }
 
-  /// One box, maybe too large, around all that is foreign below a place; nothing if nothing
-  /// is.
+  /// One box, maybe too large, around all that is foreign below a place; nothing if nothing is.
   std::optional<Branch> all_together(const WideNode& parent, std::size_t place) const {
     Branch all = place_branch(parent, place);
     return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all)

@@ -201,8 +201,7 @@ class DepthMaker {
     }
   }
 
-  /// Aims at a square of texels, from (x0, y0) on, of a block of `split` × `split`
-  /// texels.
+  /// Aims at a square of texels, from (x0, y0) on, of a block of `split` × `split` texels.
   void aim(std::size_t block, std::uint32_t split, std::uint32_t x0, std::uint32_t y0) {
     constexpr std::uint32_t kSide = LightHorizons::kSide;
     const std::uint32_t texel = depths_.blocks[block];

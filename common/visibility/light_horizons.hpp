@@ -36,9 +36,8 @@ struct LightDepths {
   double clearance = 0;
   /// Texels of the horizon map that have a block, increasing.
   std::vector<std::uint32_t> blocks;
-  /// Distances in units, block by block, row by row: surely no surface is nearer to the light
-  /// than `lit`, whatever the horizon map says of the block; points farther than `dark` are in
-  /// shadow.
+  /// Distances in units, block by block, row by row: surely no surface is nearer to the light than
+  /// `lit`, whatever the horizon map says of the block; points farther than `dark` are in shadow.
   std::vector<std::uint16_t> lit, dark;
 
   std::uint32_t dark_split() const { return split * kGroup; }
@@ -75,8 +74,7 @@ class LightHorizons {
   struct Reach {
     /// No surface is nearer.
     double lit = 0;
-    /// Points farther get no light; not to be used for rays that begin at t ≥ clearance /
-    /// 2.
+    /// Points farther get no light; not to be used for rays that begin at t ≥ clearance / 2.
     double dark = kInf;
     double clearance = 0;
   };

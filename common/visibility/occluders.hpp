@@ -35,8 +35,7 @@ class Occluders {
   /// Entries beyond which lists cost more memory and time than they are likely to save.
   static constexpr std::size_t kMostEntries = std::size_t{1} << 22;
 
-  /// Occluders of a whole model; empty if LightHorizons::kMaxWork or kMostEntries would be
-  /// passed.
+  /// Occluders of a whole model; empty if LightHorizons::kMaxWork or kMostEntries would be passed.
   static Occluders of(const Model& model);
 
   bool is_empty() const { return lights_.empty(); }
@@ -48,8 +47,7 @@ class Occluders {
   /// The horizons of all objects, the same as LightHorizons::of() makes.
   LightHorizons horizons() const;
   /// The horizons of objects that a node does not hold whole, and of the parts that it holds:
-  /// beyond its macro-regions a part has other surfaces than its object. `model` is the whole
-  /// one.
+  /// beyond its macro-regions a part has other surfaces than its object. `model` is the whole one.
   LightHorizons foreign_horizons(const ModelContents& contents, const Model& model) const;
 
  private:
