@@ -154,8 +154,7 @@ class CoarseTrace {
     return cells_.region_of_pixel(pixel % width, pixel / width);
   }
 
-  /// Spreads a step's cost over its pixels' cells by their contributions, or gives it to its
-  /// region.
+  /// Spreads a step's cost over its pixels' cells by contributions, or gives it to its region.
   void add_cost(RegionIndex at, double cost) {
     if (!stays_.all()) {
       map_.at(at.column, at.row) += cost;

@@ -126,7 +126,7 @@ void Wakeup::clear() {
 struct Connection::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::dealer) {}
   zmq::socket_t socket;
-  /// What was received last.
+  /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
 };
 
@@ -182,7 +182,7 @@ struct Inbox::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::router) {}
   zmq::socket_t socket;
   std::string endpoint;
-  /// What was received last.
+  /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
 };
 

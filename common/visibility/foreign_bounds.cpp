@@ -122,8 +122,7 @@ class Pruning {
     return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all)
                                                                           : std::nullopt;
   }
-  /// Whether something below a node is foreign; `box` grows to hold the whole of objects held in
-  /// part.
+  /// Whether something below a node is foreign; `box` grows to enclose all objects held in part.
   bool add_foreign_below(const WideNode& node, FloatBox& box) const {
     bool any = false;
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {

@@ -46,8 +46,7 @@ struct Cone {
   }
 };
 
-/// The least s at which s · (a cone's direction) may be in a solid, and on its surface; or
-/// infinity.
+/// The least s at which s · (a cone's direction) may be in a solid, and on its surface, if any.
 struct Begin {
   double solid, surface;
 };
@@ -141,8 +140,7 @@ class ObjectView {
     std::uint32_t first, end;
     std::uint32_t count() const { return end - first; }
   };
-  /// Texels of a face along `axis` that a box between depths `nearest` > 0 and `farthest` may
-  /// cover.
+  /// Texels along `axis` that a box between depths `nearest` > 0 and `farthest` may cover.
   static TexelRange texels_of(const Aabb& box, int axis, double nearest, double farthest) {
     const double lo = box.lo[axis] / (box.lo[axis] > 0 ? farthest : nearest);
     const double hi = box.hi[axis] / (box.hi[axis] > 0 ? nearest : farthest);
