@@ -1,4 +1,4 @@
-// Assertions that stay on in release builds. A failed one is a bug of ours, never bad input.
+// Assertions that stay on in release builds. A failure is a bug of this program, never bad input.
 #pragma once
 
 #include <cstdio>

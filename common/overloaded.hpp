@@ -1,4 +1,4 @@
-// One function of several, for std::visit: the compiler says which alternative was forgotten.
+// Makes one function of several, for std::visit: the compiler reports a forgotten alternative.
 #pragma once
 
 namespace graycube {

@@ -14,7 +14,7 @@ constexpr std::size_t kLeastBeginning = 3;
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Rows of the usual table: two back, one back, this one.
+  // Three rows of the usual table: the row before the last, the last row, this row.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

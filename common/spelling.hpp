@@ -1,4 +1,4 @@
-// Did-you-mean, and quotes.
+// Suggestions for misspelt words ("did you mean …?"), and quotes.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace graycube {
 
-/// So many candidates are compared at most; scenes may name a million materials.
+/// The most candidates that are compared; scenes may name a million materials.
 inline constexpr std::size_t kMaxSpellingCandidates = 4096;
 
-/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one string into the
-/// other, no character touched twice (optimal string alignment). Bytes, not characters; case
+/// The fewest insertions, deletions, replacements and swaps of neighbours that turn one string
+/// into the other, none of whose bytes is touched twice (optimal string alignment). Case
 /// matters.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to what was written, if it is near enough to be what was meant: a third of
-/// its characters changed, or one a beginning of the other (from three characters). The first of
-/// equals.
+/// The candidate nearest to `written`, if it is near enough to be meant: at most about a third of
+/// the characters differ, or one is a beginning of the other (of three characters or more). The
+/// first of equally near ones.
 std::optional<std::string_view> closest(std::string_view written,
                                         std::span<const std::string_view> candidates);
 
-/// In double quotes.
+/// The string in double quotes.
 std::string quoted(std::string_view s);
 
 /// "; did you mean \"…\"?", or nothing.

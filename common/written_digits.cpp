@@ -9,7 +9,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether a 24-bit number, written with so many digits, is `value`.
+/// Whether `value` is a 24-bit number rounded to that many digits.
 bool is_single_precision(double value, std::uint32_t digits) {
   const auto single = static_cast<double>(static_cast<float>(value));
   if (!std::isfinite(single)) return false;

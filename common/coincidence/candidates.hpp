@@ -1,5 +1,5 @@
-// Which of many measured things may be as near to another as to be one: nearly none, mostly. What
-// is left is worth sorting.
+// Finds which of many measured things may be near enough to another to be the same: mostly hardly
+// any. Those few are worth sorting.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace graycube::csg {
 
-/// To be told all values first, and asked about each afterwards. Takes 4 to 8 bytes for each.
+/// All values are marked first, then each can be asked about. Takes 4 to 8 bytes for each value.
 class Candidates {
  public:
-  /// Of about `count` values, whose tolerances are `tolerance` on average.
+  /// For about `count` values, whose tolerances are `tolerance` on average.
   Candidates(double tolerance, std::size_t count) {
     while ((std::size_t{1} << bits_) < kBucketsEach * count) ++bits_;
     once_.assign((std::size_t{1} << bits_) / 64, 0);
@@ -44,8 +44,8 @@ class Candidates {
     });
   }
 
-  /// False only where no other's values come within its own and that one's tolerance: such values
-  /// have a step in common.
+  /// False only if no other value is within the sum of both tolerances: values that are have a step
+  /// in common.
   bool may_meet(const Measured& m) const {
     if (!is_number(m)) return false;
     if (is_crowded_ || m.tolerance > widest_) return true;
@@ -68,7 +68,7 @@ class Candidates {
   static constexpr std::size_t kMostWide = 32;
 
   static bool is_number(const Measured& m) {
-    // What isn't finite makes this NaN.
+    // Values that aren't finite make this NaN.
     return m.tolerance >= 0 && (m.value - m.value) + (m.tolerance - m.tolerance) == 0;
   }
   /// Calls visit(step) for the one or two steps that the value may lie in.
@@ -77,18 +77,18 @@ class Candidates {
     constexpr double kFarthest = 0x1p+62;
     const double at = m.value * scale_;
     const double near = at < kFarthest ? (at > -kFarthest ? at : -kFarthest) : kFarthest;
-    // The floor, without a call of the library.
+    // The floor, without a library call.
     const auto whole = static_cast<std::int64_t>(near);
     const std::int64_t step = static_cast<double>(whole) > near ? whole - 1 : whole;
     visit(step);
-    // Scaling rounds; where that is as much as a tolerance, steps are larger than values by far.
+    // Scaling rounds; allowing for it costs nothing, unless values are far larger than steps.
     constexpr double kRounding = 0x1p-50;
     const double within = near - static_cast<double>(step),
                  tolerance = m.tolerance * scale_ + kRounding * std::fabs(near);
     if (within <= tolerance) visit(step - 1);
     if (within >= 1 - tolerance) visit(step + 1);
   }
-  /// Fibonacci hashing (Knuth, volume 3, 6.4): steps side by side part.
+  /// Fibonacci hashing (Knuth, volume 3, 6.4), which scatters neighbouring steps.
   std::size_t bucket_of(std::int64_t step) const {
     return static_cast<std::size_t>(static_cast<std::uint64_t>(step) * 0x9E3779B97F4A7C15u >>
                                     (64 - bits_));
@@ -96,7 +96,7 @@ class Candidates {
 
   unsigned bits_ = 6;
   double scale_ = 0;
-  /// Half a step, a little less.
+  /// The largest tolerance that steps are made for: a little less than half a step.
   double widest_ = 0;
   bool is_crowded_ = false;
   std::vector<Measured> wide_;

@@ -4,11 +4,11 @@
 
 namespace graycube::csg {
 
-/// A tree of pieces: joined over the gaps between middles, the smallest first. What doesn't have a
-/// point in common never comes to have one by what is joined to it.
+/// Joins pieces in a tree, over the gaps between the extents' middles, the smallest gap first. A
+/// piece without a common point never gets one from what is joined to it.
 ChainCutter::ChainCutter(std::span<Extent> chain) : chain_(chain) {
   const auto middle = [](const Extent& e) { return 0.5 * e.lo + 0.5 * e.hi; };
-  // By order alone: of equal middles the one known better first.
+  // The result depends on order alone: of equal middles the better known comes first.
   std::sort(chain.begin(), chain.end(), [&](const Extent& a, const Extent& b) {
     const double m = middle(a), n = middle(b);
     return m != n ? m < n : a.lo != b.lo ? a.lo > b.lo : a.item < b.item;
@@ -30,7 +30,7 @@ ChainCutter::ChainCutter(std::span<Extent> chain) : chain_(chain) {
             [](const auto& a, const auto& b) { return a.data() < b.data(); });
 }
 
-/// Of the pieces on both sides of the gap.
+/// Joins the pieces on both sides of a gap.
 void ChainCutter::join(std::size_t gap) {
   Piece& before = pieces_[piece_of_[gap]];
   const Piece& behind = pieces_[piece_of_[gap + 1]];

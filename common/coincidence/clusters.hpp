@@ -1,4 +1,4 @@
-// Finds which of many things may be one: things measured by several numbers, each with a tolerance.
+// Finds which of many things may be the same, by several numbers of each, with tolerances.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace graycube::csg {
 
-/// A number that may be off by the tolerance.
+/// A number that may be off by its tolerance.
 struct Measured {
   double value = 0, tolerance = 0;
 };
@@ -22,16 +22,16 @@ struct Extent {
 };
 
 /// Cuts extents that overlap like the links of a chain, but have no point in common, into runs that
-/// have one: what is nearest is put together first, as far as that goes.
+/// have one: the nearest extents are joined first, as long as they have a common point.
 class ChainCutter {
  public:
   explicit ChainCutter(std::span<Extent> chain);
-  /// One after the other. Neither the order given nor the items' numbers matter for what makes a
+  /// The runs, in order. Neither the given order nor the items' numbers affect which extents make a
   /// run.
   std::vector<std::span<Extent>> runs() const { return runs_; }
 
  private:
-  /// Extents side by side, from `first` to before `end`, and the interval that they have in common.
+  /// The extents from `first` to before `end`, and the interval that they have in common if is_run.
   struct Piece {
     std::size_t first, end;
     double most_lo, least_hi;
@@ -42,21 +42,21 @@ class ChainCutter {
 
   std::span<Extent> chain_;
   std::vector<Piece> pieces_;
-  /// By extent: the piece that it is the first or the last of; without meaning for those between.
+  /// For each extent that is the first or last of a piece, that piece; meaningless for all others.
   std::vector<std::size_t> piece_of_;
   std::vector<std::span<Extent>> runs_;
 };
 
-/// Sorts the extents and calls visit(run) for each run of them that have a point in common. What is
-/// one has its true value in common, so it is in one run, if nothing else is as near; and nothing
-/// grows by chaining: all of a run are within tolerance of each other. Neither the order given nor
-/// the items' numbers matter for what makes a run.
+/// Sorts the extents and calls visit(run) for each run of them that has a point in common. Things
+/// that are the same share their true value, so they are in one run, if nothing else is as near;
+/// and runs don't grow by chaining: all of a run are within tolerance of each other. Neither the
+/// given order nor the items' numbers affect which extents make a run.
 template <typename Visit>
 void for_each_run(std::span<Extent> extents, Visit&& visit) {
   const auto end_of_numbers = std::partition(extents.begin(), extents.end(), [](const Extent& e) {
     return std::isfinite(e.lo) && std::isfinite(e.hi);
   });
-  // What overflowed equals nothing.
+  // Values that overflowed equal nothing.
   extents = extents.first(static_cast<std::size_t>(end_of_numbers - extents.begin()));
   std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
     return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.item < b.item;
@@ -78,7 +78,7 @@ void for_each_run(std::span<Extent> extents, Visit&& visit) {
   }
 }
 
-/// Splits items by their numbers until those that are left together can't be told apart by any.
+/// Splits items by their numbers until those left together can't be told apart by any number.
 template <typename Measure, typename Visit>
 class Clusters {
  public:
@@ -88,8 +88,8 @@ class Clusters {
   void find(std::vector<Extent> items) { split(items, 0, 0, 0); }
 
  private:
-  /// Splits may reopen numbers that were looked at before; no honest scene needs more than two
-  /// rounds.
+  /// A split may make it worth comparing earlier numbers again; no ordinary scene needs more than
+  /// two rounds.
   static constexpr int kMostRounds = 4;
 
   void split(std::span<Extent> items, int dimension, int agreeing, int passes) {
@@ -110,7 +110,7 @@ class Clusters {
     });
   }
 
-  /// Of two, which mostly is all there are, each number is looked at once.
+  /// Compares just two items, which is the usual case, by each number once.
   bool agree(std::uint32_t a, std::uint32_t b) const {
     for (int i = 0; i < dimensions_; ++i) {
       const Measured x = measure_(a, i), y = measure_(b, i);
@@ -124,8 +124,8 @@ class Clusters {
   const Visit& visit_;
 };
 
-/// Calls visit(span of Extent) for each set of two or more of the items that may be one:
-/// measure(item, dimension) gives their numbers. O(n log n) for a bounded number of rounds.
+/// Calls visit(span of Extent) for each set of two or more of the items that may be the same:
+/// measure(item, dimension) gives their numbers. O(n log n), as the number of rounds is bounded.
 template <typename Measure, typename Visit>
 void for_each_cluster(std::vector<Extent> items, int dimensions, const Measure& measure,
                       const Visit& visit) {

@@ -30,8 +30,8 @@ bool CoincidenceUnifier::unify() {
   GRAYCUBE_CHECK(exactness_.size() == model_.primitives.size(), "%zu of %zu", exactness_.size(),
                  model_.primitives.size());
   for (const std::uint32_t i : late_) {
-    // A half-space has no size to measure its offset by, which may be what is left of larger
-    // numbers: that of the others does.
+    // A half-space has no size by which to judge its offset, which may be the small difference of
+    // larger numbers: the exactness of the bounded primitives stands in.
     constexpr float kPart = 1.0f / 8;
     if (!model_.primitives[i].bounds.is_finite()) {
       auto& along = exactness_[i].along;

@@ -1,8 +1,8 @@
-// What coincides in a model coincides to the bit: faces in one plane get the same plane, surfaces
-// that are one sphere, ellipsoid, cylinder, cone, torus or quadric get the same numbers. Then a ray
-// crosses them at equal parameters, and what is taken together at equal t (crossings/crossings.hpp)
-// leaves no skin where a cut is flush with a face. A model's own surfaces become one where they lie
-// within how exactly they are known; docs/design/coincidence.md says how near that is.
+// Makes surfaces that coincide in a model coincide to the bit: faces in one plane get the same
+// plane, surfaces that are one sphere, ellipsoid, cylinder, cone, torus or quadric the same
+// numbers. Then a ray crosses them at equal t, and since such crossings are taken together
+// (crossings/crossings.hpp), no skin is left where a cut is flush with a face. Surfaces become one
+// if they are as near as they are exactly known; docs/design/coincidence.md says how near that is.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace graycube {
 
-/// To be told of each primitive as soon as the model has it, while it lies in the processor's
+/// Is told of each primitive as soon as the model has it, while it lies in the processor's
 /// cache.
 class CoincidenceUnifier {
  public:
@@ -26,13 +26,13 @@ class CoincidenceUnifier {
       : model_(model), planes_(model, exactness_), surfaces_(model, exactness_) {}
 
   void reserve(std::size_t primitives);
-  /// Tells how exactly the next primitive is known, which the model has by now; may simplify its
+  /// Adds the next primitive of the model, which is known to `exactness`; may simplify its
   /// kind.
   void add(const Exactness& exactness);
-  /// Changes the model's primitives, planes and meshes, and the bounds of primitives, in place.
-  /// Whether anything changed. Deterministic, and independent of the order of primitives; surfaces
-  /// without a partner keep their bits. Object bounds, trees and delta are left alone: compute them
-  /// afterwards.
+  /// Changes the model's primitives, planes and meshes, and the bounds of primitives, in place;
+  /// returns whether anything changed. Deterministic, and independent of the order of primitives;
+  /// surfaces without a partner keep their bits. Object bounds, trees and delta are left alone:
+  /// compute them afterwards.
   bool unify();
 
  private:
@@ -40,13 +40,13 @@ class CoincidenceUnifier {
   std::vector<Exactness> exactness_;
   csg::PlaneUnifier planes_;
   csg::SurfaceUnifier surfaces_;
-  /// The worst along each axis that anything bounded is known.
+  /// The worst exactness along each axis of any bounded primitive.
   std::array<float, 3> worst_{};
   /// Unbounded primitives and meshes, which are compared with all others.
   std::vector<std::uint32_t> late_;
 };
 
-/// The same for a model that is whole; `exactness` has one element for each primitive.
+/// Unifies the surfaces of a finished model; `exactness` has one element for each primitive.
 bool unify_coincident_surfaces(Model& model, std::span<const Exactness> exactness);
 
 }  // namespace graycube

@@ -8,9 +8,9 @@
 namespace graycube {
 namespace {
 
-/// Entries that stand alone in their row scale, and are off by a share of themselves. Those of a
-/// rotation come from sines and their products: however small, they are off by the last places of
-/// numbers about as large as the largest.
+/// The sizes by which the errors of a map's entries are measured. An entry alone in its row scales,
+/// and is off by a share of itself. Entries of a rotation come from sines and their products:
+/// however small, they have rounding errors of numbers about as large as the row's largest.
 Affine magnitude_of(const Affine& map) {
   constexpr double kLeastPart = 1.0 / 8;
   Affine r;
@@ -24,8 +24,8 @@ Affine magnitude_of(const Affine& map) {
   return r;
 }
 
-/// A similarity's inverse is its transposed, but for a factor: cheaper, and near enough to measure
-/// by.
+/// The inverse, exact enough for measuring errors: that of a near similarity is, more cheaply, its
+/// transpose times a factor.
 std::optional<Affine> inverse_of(const Affine& map) {
   constexpr double kNearEnough = 1e-3;
   const Vec3 x = map.row(0), y = map.row(1), z = map.row(2);
@@ -42,8 +42,8 @@ std::optional<Affine> inverse_of(const Affine& map) {
   return r;
 }
 
-/// By how much more a normal may turn than the map's entries are off, as a share: normals go by the
-/// inverse transposed, and the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
+/// The angle by which a normal may turn, over the relative error of the map's entries: normals go
+/// by the transposed inverse, and the inverse of A + E differs from that of A by A⁻¹ E A⁻¹.
 double turn_of(const Affine& map, const Affine& magnitude) {
   const auto inverse = inverse_of(map);
   if (!inverse) return 1;
@@ -83,7 +83,7 @@ MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
     r.map = compose(then.map, r.map);
     r.magnitude = compose(then.magnitude, r.magnitude);
   } else {
-    // As composing does: maps that are equal have equal bits.
+    // Turns −0 into +0 as compose() does: maps that are equal have equal bits.
     for (auto& row : r.map.m) {
       for (double& x : row) x += 0.0;
     }

@@ -1,6 +1,6 @@
 // How exactly the surfaces of a primitive are known. The numbers of a file are rounded, and every
 // map that carries them into the world rounds again, by a share of the largest numbers on the way.
-// What lies closer together than that was one in the model (coincidence/coincidence.hpp).
+// Surfaces closer together than that are taken to be the same (coincidence/coincidence.hpp).
 #pragma once
 
 #include <algorithm>
@@ -12,24 +12,24 @@
 
 namespace graycube {
 
-/// What a double may be off by, as a share: 64 halves of its last place. A map of nested transforms
-/// and a point under it take some four a level at the very worst; the rest is for whoever computed
-/// the numbers of the file.
+/// The relative error that a double may have: 64 halves of its last place. A map of nested
+/// transforms and a point under it take some four of these a level at the very worst; the rest is
+/// for the program that computed the numbers of the file.
 inline constexpr double kRoundedShare = 64 * 0x1p-53;
 
-/// Digits of a double; more are taken as so many.
+/// The decimal digits of a double; a larger number of digits is taken as this.
 inline constexpr std::uint32_t kDoubleDigits = 17;
 
-/// What a number of so many significant decimal digits may be off by, as a share: half a unit of
-/// the last one at worst, but kRoundedShare at least. 0 digits: all that a double has.
+/// The relative error that a number of that many significant decimal digits may have: half a unit
+/// of the last digit at worst, but at least kRoundedShare. 0 digits means all that a double has.
 double share_of_digits(std::uint32_t digits);
 
-/// A map made of others, and what its rounding errors are measured against.
+/// A map composed of others, and the numbers by which its rounding errors are measured.
 struct MeasuredMap {
   Affine map;
   /// The product of the absolute values of the maps' entries.
   Affine magnitude;
-  /// How many times worse the directions of normals are known under it than its entries.
+  /// The factor by which normals under the map are known worse than its entries.
   double turn = 1;
   /// Nothing is composed yet.
   bool is_identity = true;
@@ -45,12 +45,12 @@ struct Exactness {
   float direction = 0;
 
   Vec3 position() const { return {along[0], along[1], along[2]}; }
-  /// How far off points may be in any direction, along one axis.
+  /// How far off points may be along the axis on which they are known worst.
   double distance() const { return std::max(along[0], std::max(along[1], along[2])); }
 };
 
-/// Of a shape whose points have local coordinates of at most `reach` along each axis, and whose
-/// directions are known `turn` ≥ 1 times worse than their numbers.
+/// The exactness of a shape whose points have local coordinates of at most `reach` along each axis,
+/// and whose directions are known `turn` ≥ 1 times worse than its numbers, to a `share` of these.
 Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share);
 
 }  // namespace graycube

@@ -22,7 +22,7 @@ void set_row(Affine& map, int row, const Vec3& v) {
   map.m[static_cast<std::size_t>(row)] = {v.x + 0.0, v.y + 0.0, v.z + 0.0, 0};
 }
 
-/// Of a parallelepiped with normals along the world's axes.
+/// Makes a parallelepiped with normals along the world's axes a box.
 void become_box(Primitive& p) {
   Vec3 lo, hi;
   for (int a = 0; a < 3; ++a) {
@@ -105,7 +105,7 @@ void settle_faces(Model& model, std::uint32_t primitive, double moved) {
   } else if (p.kind == PrimitiveKind::kHalfSpace) {
     p.bounds = half_space_bounds(half_space_plane(p));
   } else {
-    // Where a face meets others at a small angle its edge moves farther than the face.
+    // If a face meets others at a small angle, its edges move farther than the face does.
     constexpr double kFarther = 8;
     p.bounds = p.bounds.grown(kFarther * moved);
   }

@@ -11,16 +11,16 @@
 
 namespace graycube::csg {
 
-/// A plane of a primitive, its normal outward and unit. Numbers of `slot` count the primitive's own
-/// planes.
+/// A plane of a primitive; its normal is outward and unit. `slot` is its number among the
+/// primitive's own planes.
 struct Face {
   Plane plane;
   std::uint32_t primitive = 0;
   std::uint32_t slot = 0;
 };
 
-/// How many plane faces a primitive has; those of meshes aren't counted
-/// (coincidence/mesh_faces.hpp).
+/// The number of a primitive's plane faces; 0 for a mesh, whose faces are found by
+/// coincidence/mesh_faces.hpp.
 inline std::uint32_t face_count(const Primitive& p) {
   switch (p.kind) {
     case PrimitiveKind::kBox:
@@ -39,13 +39,13 @@ inline std::uint32_t face_count(const Primitive& p) {
   }
   return 0;
 }
-/// Faces come in pairs with one normal, backwards on the first: boxes' and parallelepipeds', and
-/// caps.
+/// Whether faces come in pairs that share a normal, which the first looks against: the faces of
+/// boxes and parallelepipeds, and caps.
 inline bool has_opposite_faces(const Primitive& p) {
   return p.kind != PrimitiveKind::kHalfSpace && p.plane_count == 0;
 }
 Face face_of(const Model& model, std::uint32_t primitive, std::uint32_t slot);
-/// The normal of a pair's second face, which looks along it, or of a single one.
+/// The normal of a single face, or of the second face of a pair.
 inline Vec3 heading_of(const Model& model, const Primitive& p, std::uint32_t slot) {
   switch (p.kind) {
     case PrimitiveKind::kBox: {
@@ -63,7 +63,7 @@ inline Vec3 heading_of(const Model& model, const Primitive& p, std::uint32_t slo
     default: return {};
   }
 }
-/// Of a face, along the normal that heading_of gives.
+/// The offset of a face along the normal that heading_of() gives.
 inline double offset_of(const Model& model, const Primitive& p, std::uint32_t slot) {
   switch (p.kind) {
     case PrimitiveKind::kBox:
@@ -74,7 +74,7 @@ inline double offset_of(const Model& model, const Primitive& p, std::uint32_t sl
     default: return slot == 0 ? lower_cap(p) : upper_cap(p);
   }
 }
-/// Both faces of a pair share the normal: give them the same.
+/// Replaces a face's plane. Both faces of a pair share the normal: give both the same.
 void set_face(Model& model, const Face& face);
 
 /// A point of the face's plane in the middle of the primitive; of an unbounded one, the point

@@ -13,7 +13,7 @@ Measured direction_number(const Heading& heading, int which) {
       const double along = dot(kGenericDirection, n);
       return {along * along, tolerance};
     }
-    // Products of two coordinates don't tell a direction from its opposite.
+    // Products of two coordinates are the same for a direction and its opposite.
     case 1: return {n.x * n.y, tolerance};
     case 2: return {n.y * n.z, tolerance};
     case 3: return {n.z * n.x, tolerance};

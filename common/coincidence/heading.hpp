@@ -1,5 +1,5 @@
-// Directions of plane faces, which have no sense: a face and the one that it lies upon look
-// opposite ways.
+// Directions of plane faces, without a sense: a face and the face that it lies upon look opposite
+// ways.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace graycube::csg {
 
-/// One or two faces of a primitive with one direction: those numbered `slot` and, of a pair
+/// One or two faces of a primitive that have the same direction: number `slot` and, for a pair
 /// (coincidence/faces.hpp), slot + 1.
 struct Heading {
   Vec3 normal;
-  /// Radians.
+  /// How far off the normal may be, in radians.
   double tolerance = 0;
   std::uint32_t primitive = 0;
   std::uint32_t slot = 0;
@@ -23,12 +23,12 @@ struct Heading {
 /// A direction that no model is likely to have two different things across.
 inline constexpr Vec3 kGenericDirection{0.5359, 0.6411, 0.5497};
 
-/// Numbers that tell directions apart, the same for opposite ones. By the first nearly all part
-/// that differ.
+/// Numbers that tell directions apart and are the same for opposite ones. The first alone differs
+/// for nearly all directions that differ.
 inline constexpr int kDirectionNumbers = 6;
 Measured direction_number(const Heading& heading, int which);
 
-/// The world's axis that the heading is along, to within its tolerance; 3 for none.
+/// The number of the world's axis that the heading is along, to within its tolerance; 3 if none.
 int world_axis_of(const Heading& heading);
 inline Vec3 world_axis(int axis) {
   Vec3 e;
@@ -36,10 +36,10 @@ inline Vec3 world_axis(int axis) {
   return e;
 }
 
-/// Of a direction and its opposite the one that comes first; a choice among bits, not a
-/// measurement.
+/// The direction or its opposite, whichever has its first coordinate other than 0 positive: an
+/// arbitrary but fixed choice.
 Vec3 turned_first(const Vec3& direction);
-/// Whether the first is known better, or comes first where both are known as well.
+/// Whether `a` is known better than `b`, or comes first if both are known equally well.
 bool is_better_direction(const Heading& a, const Heading& b);
 
 }  // namespace graycube::csg

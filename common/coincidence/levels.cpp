@@ -10,8 +10,8 @@
 namespace graycube::csg {
 namespace {
 
-/// Finds the least distance above 0 between faces of one primitive that look opposite ways, which
-/// come by offset.
+/// Finds the least distance above 0 between faces of one primitive that look opposite ways. Faces
+/// are added in order of their offsets.
 class ThicknessFinder {
  public:
   void add(const Level& f) {
@@ -24,7 +24,7 @@ class ThicknessFinder {
   double least() const { return least_; }
 
  private:
-  /// By side: the greatest offset so far, and the greatest below it.
+  /// The greatest offset so far, and the greatest below it, of forward [0] and backward faces [1].
   std::array<double, 2> last_{-kInf, -kInf}, before_{-kInf, -kInf};
   double least_ = kInf;
 };

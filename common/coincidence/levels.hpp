@@ -1,5 +1,5 @@
-// Faces of one direction, by how far along it they lie: those that may lie in one plane come
-// together.
+// Sorts faces of one direction by their offsets along it, and groups those that may lie in one
+// plane.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace graycube::csg {
 
 /// A face as seen along the direction of its group.
 struct Level {
-  /// As it is, turned to the side that the direction looks to.
+  /// The face's own plane, turned over if it looks against the direction.
   Plane own;
   double offset = 0;
   double tolerance = 0;
   std::uint32_t primitive = 0;
   std::uint32_t slot = 0;
-  /// It looks against the direction.
+  /// The face looks against the direction.
   bool is_backward = false;
   /// Its normal is the direction already, or its opposite, bit for bit.
   bool has_direction = false;
@@ -30,14 +30,14 @@ struct Level {
 /// Whether the faces are of more than one primitive.
 bool is_shared(std::span<const Level> levels);
 
-/// Sorts levels into planes. A solid never becomes thinner than it was written: where opposite
-/// faces of one would come together, its numbers are better than was thought, and what lies there
-/// is told apart by an eighth of their distance.
+/// Groups levels into planes. A solid never becomes thinner than it was written: if opposite faces
+/// of one would come together, its numbers are better than was thought, and levels there are told
+/// apart by an eighth of the faces' distance.
 class Planes {
  public:
   explicit Planes(std::vector<Level> levels);
 
-  /// Whether faces of different primitives lie in one plane that don't agree to the bit.
+  /// Whether faces of different primitives lie in one plane but don't agree to the bit.
   bool has_unequal() const { return has_unequal_; }
 
   /// Calls visit(levels of one plane, its offset) for each; the offset is that of the face that is
@@ -58,7 +58,7 @@ class Planes {
   static double best_offset(std::span<const Level> plane);
 
   std::vector<Level> levels_;
-  /// Where each plane's levels end.
+  /// The index in levels_ at which each plane's levels end.
   std::vector<std::size_t> ends_;
   bool has_unequal_ = false;
 };

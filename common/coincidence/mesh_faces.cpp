@@ -6,8 +6,8 @@
 namespace graycube::csg {
 namespace {
 
-/// Primitives times meshes that are compared by their bounds; beyond it all triangles count as
-/// near.
+/// The most primitives times meshes that are compared by their bounds; beyond it all triangles
+/// count as near.
 constexpr std::size_t kMostComparisons = std::size_t{1} << 22;
 
 Aabb touched_part(const Model& model, std::uint32_t primitive, double tolerance) {
@@ -45,7 +45,7 @@ MeshFaces::MeshFaces(const Model& model, std::uint32_t primitive, const Exactnes
 
 MeshFace MeshFaces::face(std::uint32_t number) const {
   const Flat& flat = flats_.flats()[number];
-  // NaN, of triangles without an area, is no direction either.
+  // NaN, which triangles without an area give, counts as no known direction either.
   const double turned = exactness_.distance() / flat.width;
   return {flat.plane, flat.middle, turned <= 1 ? exactness_.direction + turned : 1.0};
 }

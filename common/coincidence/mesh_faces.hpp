@@ -13,14 +13,14 @@ namespace graycube::csg {
 
 struct MeshFace {
   Plane plane;
-  /// A point of it, in its middle.
+  /// A point in the middle of the face.
   Vec3 middle;
   double direction_tolerance = 0;
 };
 
 /// The flat parts of one mesh that may touch other primitives, and the planes that they get. The
-/// mesh's corners and what is counted by them stay as they are: closed stays closed, only the
-/// parameter at which a line meets a triangle is that of the plane.
+/// mesh's corners, and the counts of lines that pass between them, stay as they are: a closed mesh
+/// stays closed; only the parameter at which a line meets a triangle becomes that of the plane.
 class MeshFaces {
  public:
   MeshFaces(const Model& model, std::uint32_t primitive, const Exactness& exactness);
@@ -28,7 +28,7 @@ class MeshFaces {
   std::uint32_t primitive() const { return primitive_; }
 
   std::size_t count() const { return flats_.flats().size(); }
-  /// Calls visit(number of the face, MeshFace) for those wide enough to know their planes by.
+  /// Calls visit(number of the face, MeshFace) for each face wide enough for its plane to be known.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (std::uint32_t i = 0; i < count(); ++i) {
@@ -38,14 +38,14 @@ class MeshFaces {
   }
   MeshFace face(std::uint32_t number) const;
 
-  /// Triangles that aren't in the plane, as exactly as their corners are known, are left alone.
+  /// Gives a face's triangles the plane, except those that surely aren't in it.
   void set(std::uint32_t number, const Plane& plane);
   /// Puts the mesh with the planes set into the model, and grows its bounds; false when there are
   /// none.
   bool settle(Model& model);
 
  private:
-  /// Radians; faces that know their normals worse are too slender.
+  /// Faces whose normals are known worse than this (radians) are too slender.
   static constexpr double kWorstDirection = 1e-3;
 
   const TriangleMesh& surface() const { return mesh_.surface(); }

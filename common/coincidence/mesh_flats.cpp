@@ -13,7 +13,7 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 Vec3 twice_area(const Corners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
-/// 0 for triangles without an area.
+/// The least height of a triangle; 0 if it has no area.
 double least_height(const Corners& c) {
   const double longest =
       std::max(length(c[1] - c[0]), std::max(length(c[2] - c[1]), length(c[0] - c[2])));
@@ -21,7 +21,7 @@ double least_height(const Corners& c) {
   return height > 0 ? height : 0;
 }
 
-/// The widest triangle found between the corners of a flat part, which the plane is known by.
+/// The widest triangle found so far between the corners of a flat part; it gives the part's plane.
 class WidestTriangle {
  public:
   explicit WidestTriangle(const Corners& corners)
@@ -29,8 +29,8 @@ class WidestTriangle {
     measure();
   }
 
-  /// Whether a point that is off by `distance` as the corners are may be in their plane: it is a
-  /// sum of the corners, and so are the errors.
+  /// Whether a point that may be off by `distance`, like the corners, may be in their plane: it is
+  /// a weighted sum of the corners, and so its error is one of theirs.
   bool may_hold(const Vec3& p, double distance) const {
     const auto& [a, b, c] = corners_;
     const double u = dot(normal_, cross(c - b, p - b)) / area_,
@@ -39,7 +39,7 @@ class WidestTriangle {
     return std::fabs(dot(normal_, p - a)) <= distance * errors;
   }
   void widen(const Vec3& p) {
-    // Little by little would be as many steps as there are corners.
+    // Smaller gains aren't taken: they could take as many steps as there are corners.
     constexpr double kWorthIt = 1.0625;
     Corners best = corners_;
     double width = kWorthIt * width_;
@@ -81,8 +81,8 @@ class WidestTriangle {
   double area_ = 0;
 };
 
-/// Grows flat parts from triangle to triangle, the widest first. Triangles go by their place in the
-/// list.
+/// Grows flat parts from triangle to triangle, the widest first. Triangles are numbered by their
+/// places in the list.
 class Grower {
  public:
   Grower(const TriangleMesh& mesh, std::span<const std::uint32_t> list, double distance)
@@ -132,7 +132,7 @@ class Grower {
   Corners corners_of(const Triangle& t) const {
     return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
   }
-  /// The other side of a sheet is no part of this one, however thin.
+  /// Whether the triangle belongs to the other side of a sheet, which may be however thin.
   bool looks_back(std::uint32_t place, const Vec3& normal) const {
     constexpr double kSurelyWide = 4;
     return heights_[place] > kSurelyWide * distance_ &&

@@ -1,6 +1,6 @@
 // The flat parts of a mesh: neighbouring triangles that lie in one plane as exactly as their
-// corners are known. Most triangles of a face are too slender to know its plane by; together they
-// know it as well as the face is wide.
+// corners are known. Most triangles of a face are too slender to tell its plane; all together they
+// tell it as exactly as the width of the face allows.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace graycube::csg {
 
 struct Flat {
   Plane plane;
-  /// A point of the plane, among the triangles.
+  /// A point of the plane, in the middle of the widest triangle.
   Vec3 middle;
   /// The least height of the widest triangle between corners: the plane's normal is off by a
-  /// corner's error over it, in radians. 0 or not a number for triangles without an area.
+  /// corner's error divided by this, in radians. 0 or NaN for triangles without an area.
   double width = 0;
-  /// Of MeshFlats' triangles.
+  /// A range of MeshFlats' triangles.
   std::uint32_t first = 0, count = 0;
 };
 
 class MeshFlats {
  public:
-  /// Of some of the mesh's triangles, whose corners may be off by `distance`. Each is of one flat
-  /// part. O(n log n).
+  /// Takes some of the mesh's triangles, whose corners may be off by `distance`. Each of them
+  /// becomes part of one flat part. O(n log n).
   MeshFlats(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles, double distance);
 
   std::span<const Flat> flats() const { return flats_; }

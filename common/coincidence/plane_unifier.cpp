@@ -10,24 +10,24 @@ namespace graycube::csg {
 namespace {
 
 /// Faces through the origin are told apart by their directions, which weigh as much as an offset of
-/// so many units.
+/// this many scene units.
 constexpr double kDirectionWeight = 1;
 
-/// How far off the number of a face is that lies no farther from the origin than `reach`.
+/// The tolerance of the number of a face that lies no farther from the origin than `reach`.
 double number_tolerance(double distance, double direction, double reach) {
   return 2 * distance + 8 * (reach + kDirectionWeight) * direction;
 }
 
-/// The largest coordinate of what is bounded.
+/// The largest absolute coordinate of the bounds; 0 if they are infinite.
 double reach_of(const Aabb& bounds) {
   return bounds.is_finite() ? larger(max_abs(bounds.lo), max_abs(bounds.hi)) : 0.0;
 }
 
 }  // namespace
 
-/// Calls visit(heading, the first and the last of its faces' numbers): a number, the same whichever
-/// way the plane's normal looks, that differs for nearly all planes that differ. It is the plane's
-/// place along a generic direction, seen along its normal.
+/// Calls visit(heading, number of its first face, number of its last face). The number is the same
+/// whichever way the plane's normal looks, and differs for nearly all planes that differ: it is the
+/// plane's place along a generic direction, seen along its normal.
 template <typename Visit>
 void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit) const {
   const Primitive& p = model_.primitives[primitive];
@@ -48,7 +48,7 @@ void PlaneUnifier::for_each_heading(std::uint32_t primitive, const Visit& visit)
                     f.plane.offset);
       });
       return;
-    // The kinds that there are most of need no planes looked up.
+    // The most frequent kinds are handled without looking up planes.
     case PrimitiveKind::kBox:
       for (std::uint32_t a = 0; a < 3; ++a)
         visit_faces({world_axis(static_cast<int>(a)), direction, primitive, 2 * a, 2},
@@ -123,9 +123,9 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
       around.include(anchors.back());
     }
   }
-  // What faces in one plane but apart come to, seen along a direction that is a little off. It
-  // counts from the place nearest the origin among them: how far all of them are from there parts
-  // none.
+  // Along a direction that is a little off, offsets of faces that are apart in one plane differ.
+  // That error is measured from the place nearest the origin among the faces, since the distance
+  // that they share separates none of them.
   Vec3 from;
   for (int a = 0; a < 3; ++a) from[a] = std::min(std::max(0.0, around.lo[a]), around.hi[a]);
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -135,7 +135,7 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
   unify_offsets(direction, std::move(group));
 }
 
-/// The heading's faces along a direction that its own can't be told from.
+/// Appends the levels of a heading's faces along a direction that its own can't be told from.
 void PlaneUnifier::add_levels(const Heading& heading, const Vec3& direction,
                               std::vector<Level>& group) const {
   for (std::uint32_t slot = heading.slot; slot < heading.slot + heading.count; ++slot)
@@ -164,7 +164,7 @@ Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot,
   level.is_backward = dot(direction, plane.normal) < 0;
   level.own = level.is_backward ? Plane{-plane.normal, -plane.offset} : plane;
   level.has_direction = level.own.normal == direction;
-  // Otherwise it is turned about its middle.
+  // A face whose normal differs is turned about its middle.
   level.offset =
       level.has_direction ? level.own.offset : dot(direction, anchor_of_face(primitive, slot));
   const Vec3 position = exactness_[primitive].position();
@@ -173,12 +173,12 @@ Level PlaneUnifier::level_of(std::uint32_t primitive, std::uint32_t slot,
   return level;
 }
 
-/// Of faces whose normals are one direction, or its opposite.
+/// Unifies the offsets of faces whose normals are one direction or its opposite.
 void PlaneUnifier::unify_offsets(const Vec3& direction, std::vector<Level> group) {
   const Planes planes(std::move(group));
-  // Where no planes coincide, or all that do are equal already, normals that differ in their last
-  // places may go on doing so. Otherwise all get the same, and opposite faces go on having one
-  // normal.
+  // If no planes coincide, or all that do are equal already, normals that differ in their last
+  // places may stay as they are. Otherwise all get the same normal, so that opposite faces still
+  // share one.
   if (!planes.has_unequal()) return;
   planes.for_each([&](std::span<const Level> plane, double offset) {
     const bool is_shared_plane = is_shared(plane);
@@ -206,7 +206,7 @@ void PlaneUnifier::set(const Level& level, const Vec3& direction, double offset,
 bool PlaneUnifier::settle() {
   std::sort(changed_.begin(), changed_.end());
   for (std::size_t i = 0; i < changed_.size(); ++i) {
-    // The last of a primitive's faces has moved most.
+    // The last entry of a primitive is that of the face that has moved most.
     if (i + 1 < changed_.size() && changed_[i + 1].first == changed_[i].first) continue;
     settle_faces(model_, changed_[i].first, changed_[i].second);
   }

@@ -17,8 +17,8 @@
 
 namespace graycube::csg {
 
-/// Nearly no primitive has a face in another's plane. So each is measured once, when it is added,
-/// and only those that may have one are looked at again.
+/// Hardly any primitive has a face in another's plane. So each is measured once, when it is added,
+/// and only those that may have such a face are looked at again.
 class PlaneUnifier {
  public:
   /// `exactness` has an element for each primitive of the model by the time that it is added.
@@ -26,9 +26,9 @@ class PlaneUnifier {
       : model_(model), exactness_(exactness) {}
 
   void reserve(std::size_t primitives) { sightings_.reserve(kNumbersEach * primitives); }
-  /// Each primitive once; meshes after all others, with which they are compared.
+  /// Adds a primitive: each once, and meshes after all others, with which they are compared.
   void add(std::uint32_t primitive);
-  /// Changes the faces that lie in one plane; whether any differ now.
+  /// Gives faces that lie in one plane the same plane; returns whether any face has changed.
   bool unify();
 
  private:
@@ -36,7 +36,7 @@ class PlaneUnifier {
   void for_each_heading(std::uint32_t primitive, const Visit& visit) const;
   void collect(std::uint32_t primitive);
   Plane plane_of(std::uint32_t primitive, std::uint32_t slot) const;
-  /// A point of the face, in its middle.
+  /// A point in the middle of the face.
   Vec3 anchor_of_face(std::uint32_t primitive, std::uint32_t slot) const;
   void add_levels(const Heading& heading, const Vec3& direction, std::vector<Level>& group) const;
   Level level_of(std::uint32_t primitive, std::uint32_t slot, const Vec3& direction) const;
@@ -47,17 +47,17 @@ class PlaneUnifier {
   bool settle();
   std::size_t place_of_mesh(std::uint32_t primitive) const;
 
-  /// Room that mostly is enough: a box has six faces, a cylinder two, a sphere none.
+  /// Numbers for which reserve() takes memory: a box has six faces, a cylinder two, a sphere none.
   static constexpr std::size_t kNumbersEach = 4;
 
   Model& model_;
   const std::vector<Exactness>& exactness_;
   Sightings sightings_;
-  /// Across the world's axes, and others.
+  /// Faces across each of the world's axes, and the headings of all other faces.
   std::array<std::vector<Level>, 3> along_;
   std::vector<Heading> others_;
   std::vector<MeshFaces> mesh_faces_;
-  /// Primitives with how far a face has moved.
+  /// Primitives with the distance by which one of their faces has moved.
   std::vector<std::pair<std::uint32_t, double>> changed_;
 };
 

@@ -1,4 +1,4 @@
-// Which of many things may be one, told by one measured number of each, as the things come by.
+// Finds which of many things may be the same, by measured numbers noted as the things are made.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace graycube::csg {
 
-/// Keeps 16 bytes a number, so that the things themselves, which are much larger, are looked at
-/// once: while they are made.
+/// Keeps 16 bytes for each number, so that the things themselves, which are much larger, are looked
+/// at only once: while they are made.
 class Sightings {
  public:
   void reserve(std::size_t numbers) { seen_.reserve(numbers); }
 
-  /// All numbers of one primitive in a row.
+  /// Adds a number of a primitive; all numbers of one primitive must be added in a row.
   void add(std::uint32_t primitive, const Measured& number) {
-    // A float is off by less than that.
+    // Rounded up: a float's rounding error is less than this share.
     constexpr float kUp = 1 + std::numeric_limits<float>::epsilon();
     const float tolerance = static_cast<float>(number.tolerance) * kUp;
     seen_.push_back({number.value, tolerance, primitive});
     tolerances_ += double{tolerance};
   }
 
-  /// Calls visit(primitive) for each that has a number within tolerance of another one, its own
-  /// others included. After that may_meet() answers.
+  /// Calls visit(primitive) for each that has a number within tolerance of another number, be it
+  /// one of its own. Only after that may_meet() can be called.
   template <typename Visit>
   void for_each_candidate(Visit&& visit) {
     if (seen_.empty()) return;

@@ -16,7 +16,7 @@
 namespace graycube::csg {
 namespace {
 
-/// A symmetric matrix: xx, yy, zz, xy, yz, zx.
+/// A symmetric matrix, as its entries xx, yy, zz, xy, yz, zx.
 struct Form {
   std::array<double, 6> m{};
 
@@ -32,7 +32,7 @@ Form form_of(const Vec3& v) {
   return f;
 }
 
-/// Hands out numbers in turn until the one asked for comes.
+/// Takes a surface's numbers in turn, and keeps the one that is wanted.
 class Numbers {
  public:
   explicit Numbers(int wanted) : wanted_(wanted) {}
@@ -40,7 +40,7 @@ class Numbers {
   void number(double value, double tolerance) {
     if (wanted_-- == 0) found_ = {value, tolerance};
   }
-  /// Whether that was enough.
+  /// Takes the numbers of a point; returns whether the wanted one was among those so far.
   bool point(const Vec3& p, double tolerance) {
     number(dot(kGenericDirection, p), 2 * tolerance);
     if (is_done()) return true;
@@ -61,8 +61,8 @@ class Numbers {
 double column(const Affine& map, int row) { return map.m[static_cast<std::size_t>(row)][3]; }
 double square(const Vec3& v) { return dot(v, v); }
 
-/// How far forms of the frame's rows, of squared length `square`, may be off: as much as surfaces
-/// are in places, by their size, and as they are in direction.
+/// How far off forms of the frame's rows, of squared length `square`, may be: relatively by the
+/// error of places over the surface's size, and by that of directions.
 double form_tolerance(const Exactness& e, double square) {
   return 2 * square * (e.distance() * std::sqrt(square) + e.direction);
 }
@@ -118,7 +118,7 @@ void cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   n.form(f, 4 * angle);
 }
 
-/// Of tori of both kinds.
+/// The numbers of a round or an elliptic torus.
 void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   if (n.point(p.bounds.center(), e.distance())) return;
   const Vec3 x = p.to_local.row(0), y = p.to_local.row(1), z = p.to_local.row(2);
@@ -133,13 +133,13 @@ void ring_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   const double tolerance = 2 * most * (local * std::sqrt(most) + e.direction);
   n.number(ellipse.x, tolerance);
   n.number(ellipse.z, tolerance);
-  // The term of z changes its sign with the frame's z.
+  // The coefficient of (ρ − 1) z changes its sign with the frame's z, so both are multiplied.
   for (int a = 0; a < 3; ++a)
     n.number(ellipse.y * z[a], (tolerance + most * e.direction) * length(z));
 }
 
-/// One of an elliptic cone's two semi-axes: the plane that it is measured from, and its length,
-/// which grows linearly with the place.
+/// One of an elliptic cone's two semi-axes: the plane from which it is measured, and its length, a
+/// linear function of the place.
 struct SemiAxis {
   Vec3 normal, foot;
   double length_at_origin;
@@ -155,7 +155,7 @@ SemiAxis semi_axis_of(const Primitive& p, int row, double k) {
 
 void elliptic_cone_numbers(const Primitive& p, const Exactness& e, Numbers& n) {
   SemiAxis first = semi_axis_of(p, 0, 1), second = semi_axis_of(p, 1, second_slope(p));
-  // Which of them is x depends on where the frame begins.
+  // Which of them is the frame's x depends on where the frame begins, so they are put in order.
   if (std::fabs(dot(kGenericDirection, first.normal)) <
       std::fabs(dot(kGenericDirection, second.normal)))
     std::swap(first, second);

@@ -1,8 +1,8 @@
 // Numbers by which curved surfaces are recognised, whatever frames they were given in: two
-// primitives have the same surface when all of their numbers agree. A ball's frame may be turned
-// any way, a cylinder's may be turned about its axis and moved along it, a cone's may begin
-// anywhere on it; so the numbers are of symmetric forms, axes without a sense, and points that the
-// surface determines.
+// primitives have the same surface if all of their numbers agree. A ball's frame may be turned any
+// way, a cylinder's may be turned about its axis and moved along it, a cone's may begin anywhere on
+// it; so the numbers describe symmetric forms, axes without a sense, and points that the surface
+// determines.
 #pragma once
 
 #include "coincidence/clusters.hpp"
@@ -26,8 +26,8 @@ inline constexpr std::size_t kSurfaceFamilies = 7;
 
 SurfaceFamily family_of(const Primitive& p);
 int number_count(SurfaceFamily family);
-/// Number `which` of number_count, and what it may be off by. The first one differs for nearly all
-/// surfaces that differ. Number 0 is quick to compute.
+/// Number `which` of number_count, with its tolerance. Number 0 differs for nearly all surfaces
+/// that differ, and is quick to compute.
 Measured surface_number(const Primitive& p, const Exactness& exactness, int which);
 
 }  // namespace graycube::csg

@@ -19,7 +19,7 @@ void copy_rows(const Affine& from, int count, Affine& to) {
     to.m[static_cast<std::size_t>(i)] = from.m[static_cast<std::size_t>(i)];
 }
 
-/// The cone's half that the other is on, too.
+/// Whether the other cone is on the same half (nappe) of the double cone.
 bool is_on_same_nappe(const Primitive& cone, const Primitive& other) {
   const auto to_world = other.to_local.inverse();
   if (!to_world) return false;
@@ -31,12 +31,12 @@ void divide_row(Affine& map, std::size_t row, double by) {
   for (double& x : map.m[row]) x /= by;
 }
 
-/// Makes a cone whose ends are equal, an elliptic torus that is round, and a quadric that is a
-/// cylinder what they are, up to `tolerance` in the world.
+/// Makes a cone whose ends are equal a cylinder, an elliptic torus that is round a torus, and
+/// brings a quadric that is a cylinder to one form; all up to `tolerance` (scene units).
 void simplify(Primitive& p, double tolerance) {
-  // In the frame, across the axis.
+  // The tolerance in the frame, across the axis.
   const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
-  // What is known no better, beyond the range of floats for one, stays what it is.
+  // Surfaces known worse than this (those beyond the range of floats, for example) are left alone.
   constexpr double kWorst = 1e-3;
   if (!(local < kWorst)) return;
   if (p.kind == PrimitiveKind::kCone && std::fabs(cone_slope(p)) <= local) {
@@ -114,7 +114,7 @@ bool SurfaceUnifier::unify() {
   return has_changed_;
 }
 
-/// Simpler kinds first, then what is known best; the rest is a choice among bits.
+/// Prefers simpler kinds, then the better known; beyond that the choice is arbitrary but fixed.
 bool SurfaceUnifier::is_better(std::uint32_t a, std::uint32_t b) const {
   const Primitive &p = model_.primitives[a], &q = model_.primitives[b];
   if (p.kind != q.kind) return p.kind < q.kind;

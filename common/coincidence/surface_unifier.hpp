@@ -15,7 +15,7 @@
 
 namespace graycube::csg {
 
-/// As PlaneUnifier: each surface is measured when it is added, and few are looked at again.
+/// Like PlaneUnifier, measures each surface when it is added, and looks at few of them again.
 class SurfaceUnifier {
  public:
   /// `exactness` has an element for each primitive of the model by the time that it is added.
@@ -23,10 +23,10 @@ class SurfaceUnifier {
       : model_(model), exactness_(exactness) {}
 
   void reserve(std::size_t primitives) { sightings_.reserve(primitives); }
-  /// Each primitive once. Makes a cone whose ends are equal, an elliptic torus that is round, and a
-  /// quadric that is a cylinder what they are.
+  /// Adds a primitive, each once. Simplifies a cone whose ends are equal to a cylinder, an elliptic
+  /// torus that is round to a torus, and a quadric that is a cylinder to a standard form.
   void add(std::uint32_t primitive);
-  /// Changes the surfaces that are one; whether any differ now.
+  /// Gives surfaces that are one the same numbers; returns whether any surface has changed.
   bool unify();
 
  private:

@@ -1,6 +1,6 @@
 // Exact sums of tile credit (Mattern's weight throwing). Every primary ray starts with credit 1; a
-// ray with credit 2^-e splits it among its children and its own contribution; a tile is whole when
-// as many units came back as it has primary rays.
+// ray with credit 2^-e splits it among its children and its own contribution; a tile is whole once
+// the credit that came back equals its number of primary rays.
 #pragma once
 
 #include <array>

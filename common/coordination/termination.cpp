@@ -8,7 +8,7 @@ namespace graycube {
 
 namespace {
 
-/// Wraps: a token's count comes off the wire and may be anything.
+/// A sum that wraps: a token's count comes off the wire and may be anything.
 std::int64_t plus(std::int64_t a, std::uint64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + b);
 }
@@ -70,7 +70,7 @@ Token TerminationRing::pass_on(Token token) {
 }
 
 Token TerminationRing::launch(std::uint32_t round, std::uint32_t hops) {
-  // The initiator's own counts are added when the token is back, not now.
+  // The initiator's own counts are added when the token comes back, not now.
   black_ = false;
   last_round_ = round;
   return {.round = round, .hops = hops + 1};

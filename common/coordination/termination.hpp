@@ -1,9 +1,9 @@
-// Knowing when nothing is left to do anywhere: the coloured token of Dijkstra, Feijen and van
+// Detects when nothing is left to do anywhere: the coloured token of Dijkstra, Feijen and van
 // Gasteren (1983) on the ring of nodes, with Safra's message count (Dijkstra, EWD 998). The 1983
 // rules alone assume that messages take no time; over asynchronous links they detect too early
-// (tests/model/token.pml shows how). One TerminationRing per node; it knows nothing of links,
-// clocks or epochs: the caller stamps tokens with job and epoch, drops those of another, and resets
-// the ring when an epoch begins.
+// (tests/model/token.pml shows how). Each node has one TerminationRing, which knows nothing of
+// links, clocks or epochs: the caller stamps tokens with job and epoch, drops those of another, and
+// resets the ring when an epoch begins.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace graycube {
 
-/// What goes round the ring.
+/// The token that goes round the ring.
 struct Token {
-  /// Some node it has passed received a message since the token's last visit.
+  /// Whether some node that it has passed received a message since the token's last visit.
   bool black = false;
   /// Messages sent less messages received, over the nodes passed.
   std::int64_t count = 0;
-  /// Times round the ring, this one included.
+  /// The number of rounds of the ring, this one included.
   std::uint32_t round = 0;
-  /// Times handed on, over all rounds.
+  /// The number of times that it was handed on, over all rounds.
   std::uint32_t hops = 0;
   /// Contribution batches sent to the frontal, over the nodes passed.
   std::uint64_t contribution_batches = 0;
@@ -27,7 +27,7 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-/// What rank 0 has learnt from the token.
+/// The conclusion that rank 0 has drawn from the token.
 struct Verdict {
   enum class Outcome : std::uint8_t {
     kQuiet,  ///< every node is passive and no message is under way
@@ -36,17 +36,17 @@ struct Verdict {
   Outcome outcome = Outcome::kQuiet;
   std::uint32_t rounds = 0;
   std::uint32_t hops = 0;
-  /// kQuiet: how many batches the frontal must hold in the end.
+  /// For kQuiet: the number of batches that the frontal must hold in the end.
   std::uint64_t contribution_batches = 0;
-  /// kLost: messages sent and not received; below zero, received twice.
+  /// For kLost: the number of messages sent but not received; if negative, received twice.
   std::int64_t missing = 0;
 
   friend bool operator==(const Verdict&, const Verdict&) = default;
 };
 
-/// So many white rounds in a row with one and the same non-zero sum are taken for a loss. A message
-/// that is merely slower than the token going round twice looks the same; acting on it then costs
-/// an epoch, not the picture. A caller whose links may be so slow waits before each try_pass while
+/// This many white rounds in a row with the same non-zero sum are taken for a loss. A message that
+/// is merely slower than the token going round twice looks the same; acting on it then costs an
+/// epoch, not the picture. A caller whose links may be that slow waits before each try_pass while
 /// stalled_rounds() > 0.
 inline constexpr std::uint32_t kRoundsUntilLoss = 2;
 
@@ -61,8 +61,8 @@ class TerminationRing {
   /// contributions. Sent when handed to the link (or to its outbox), received when taken from it.
   void message_sent(std::uint64_t messages = 1);
   void message_received(std::uint64_t messages = 1);
-  /// Work of this node was done by another: what the token has learnt from the nodes before this
-  /// one may be out of date.
+  /// Call this when another node has done work of this node: what the token has learnt from the
+  /// nodes before this one may be out of date.
   void work_was_taken() { black_ = true; }
   void contribution_batch_sent(std::uint64_t batches = 1);
 
@@ -77,15 +77,15 @@ class TerminationRing {
   /// and then either has a verdict or launches the next round, at once or when it may.
   std::optional<Token> try_pass(bool passive, bool may_launch = true);
 
-  /// The initiator's; none on other nodes. Once there is one, no token goes out until reset.
+  /// The initiator's verdict; none on other nodes. From it on no token goes out until reset().
   const std::optional<Verdict>& verdict() const { return verdict_; }
   bool holds_token() const { return held_.has_value(); }
-  /// The initiator's, so far.
+  /// The number of rounds that the initiator has launched so far; 0 on other nodes.
   std::uint32_t rounds_launched() const { return role_ == Role::kInitiator ? last_round_ : 0; }
-  /// The initiator's white rounds in a row, up to the last one judged, with the same non-zero sum.
+  /// The number of the initiator's latest white rounds in a row with the same non-zero sum.
   std::uint32_t stalled_rounds() const { return stalled_rounds_; }
 
-  /// A new epoch: forgets token, colour, counts and verdict.
+  /// Begins a new epoch: forgets token, colour, counts and verdict.
   void reset();
 
  private:
@@ -100,7 +100,7 @@ class TerminationRing {
   std::uint64_t contribution_batches_ = 0;
   std::uint32_t last_round_ = 0;  // launched by the initiator, passed on by the others
   std::optional<Token> held_;
-  /// The initiator's: came back and gave no verdict, so that another round is due.
+  /// The initiator's token that came back and gave no verdict, so that another round is due.
   std::optional<Token> judged_;
   std::optional<Verdict> verdict_;
   std::uint32_t stalled_rounds_ = 0;

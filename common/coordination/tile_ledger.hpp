@@ -9,11 +9,11 @@
 
 namespace graycube {
 
-/// Most tiles of a picture: every pixel one (a ledger of so many takes 3 GiB).
+/// The most tiles of a picture, one for each pixel (a ledger of that many takes 3 GiB).
 inline constexpr std::size_t kMaxTiles = std::size_t{1} << 26;
 
-/// What a tile is after credit was added to it. The last two mean that a batch was lost, repeated
-/// or forged; they leave the ledger as it was.
+/// The state of a tile after credit was added to it. The last two values mean that a batch was
+/// lost, repeated or forged; they leave the ledger as it was.
 enum class CreditResult : std::uint8_t {
   kOpen,
   kWhole,        ///< it has just become so

@@ -89,8 +89,8 @@ class BspBuilder {
     return child;
   }
 
-  /// The unbounded space around the finite primitives is cut off by six planes; what lies outside
-  /// holds only unbounded primitives and is not cut further.
+  /// Cuts the unbounded space around the finite primitives off with six planes; the cells outside
+  /// hold only unbounded primitives and are not cut further.
   void split_off_outside(const Aabb& extent, CellContent content) {
     std::uint32_t node = 0;
     Aabb cell = Aabb::everything();
@@ -113,7 +113,7 @@ class BspBuilder {
     subdivide(node, cell, restrict_content(content, cell), 6);
   }
 
-  /// The boxes of the surfaces in a cell: each primitive's bounds within those of what it bounds.
+  /// Adds boxes of the surfaces in a cell: each primitive's bounds within `within`, its object's.
   static void add_surfaces(std::span<const TreeNode> tree, const Aabb& within, const Model& model,
                            SplitFinder& finder) {
     for (const TreeNode& n : tree) {
@@ -178,8 +178,8 @@ class BspBuilder {
     bsp_.programs_.push_back(program);
   }
 
-  /// Hands every leaf region its neighbour links. `outer` are those of the cell of `node`; a link
-  /// goes down as long as one child touches the whole face.
+  /// Gives every leaf region below `node` its neighbour links. `outer` holds the links of the cell
+  /// of `node`; a link goes down as long as one child touches the whole face.
   void link(const std::array<std::uint32_t, 6>& outer, std::uint32_t node) {
     const BspNode n = bsp_.nodes_[node];
     if (n.axis == BspNode::kLeafAxis) {

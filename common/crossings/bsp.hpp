@@ -29,7 +29,7 @@ struct CellProgram {
 
   /// Index into Model::objects.
   std::uint32_t object = 0;
-  /// Range in Bsp::nodes_of; for kSingle one node, for kAllOf and kAnyOf the literals only.
+  /// Range in Bsp::program_nodes; one node for kSingle, only the literals for kAllOf and kAnyOf.
   std::uint32_t first_node = 0;
   std::uint32_t node_count = 0;
   /// Number of leaves among the nodes.
@@ -39,8 +39,8 @@ struct CellProgram {
 
 struct BspLeaf {
   Aabb cell;
-  /// Per face (axis · 2 + upper): the smallest subtree that touches the whole face; kNoNeighbour
-  /// outside.
+  /// For each face (axis · 2 + upper), the root node of the smallest subtree that touches the whole
+  /// face; kNoNeighbour if there is nothing beyond the face.
   std::array<std::uint32_t, 6> neighbour{};
   std::uint32_t first_program = 0;
   std::uint32_t program_count = 0;
@@ -48,7 +48,7 @@ struct BspLeaf {
 inline constexpr std::uint32_t kNoNeighbour = 0xFFFFFFFFu;
 
 struct BspOptions {
-  /// Cost of one step of the walk, in units of one primitive's test.
+  /// Cost of one step of the walk, in tests of a primitive.
   double step_cost = 0.6;
   /// Leaf regions are never deeper than this.
   int max_depth = 48;

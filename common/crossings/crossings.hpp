@@ -1,4 +1,4 @@
-// Where a ray crosses the surface of an object, found from the object's program in one leaf region.
+// Finds where a ray crosses the surface of an object, from the object's program in one leaf region.
 // Crossings of the object's primitives at equal t are taken together: the object's surface is
 // crossed where its membership before and after the group differs.
 #pragma once
@@ -42,8 +42,8 @@ inline bool member(std::span<const TreeNode> tree, std::span<const std::uint64_t
   return result;
 }
 
-/// Of a subtree whose membership changed: the primitive reached by descending into the first child
-/// whose own membership changed.
+/// For a subtree whose membership changed, the primitive reached by descending, at each node, into
+/// the first child whose own membership changed.
 inline std::uint32_t changed_primitive(std::span<const TreeNode> tree,
                                        std::span<const std::uint64_t> before,
                                        std::span<const std::uint64_t> after,
@@ -101,9 +101,9 @@ class ProgramView {
 };
 
 /// Takes the events of a program in groups of equal t, and calls visit(t, entering) where the
-/// membership before and after a group differs, until it returns false; false then. `before` holds
-/// the flags before the first event; during a visit `before` and `after` are those around its
-/// group.
+/// membership before and after a group differs, until visit returns false; then returns false.
+/// `before` holds the flags before the first event; during a visit `before` and `after` are the
+/// flags around its group.
 template <typename IsMember, typename Visit>
 bool grouped(std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& before,
              std::vector<std::uint64_t>& after, IsMember&& is_member, Visit&& visit) {
@@ -125,8 +125,8 @@ bool grouped(std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& be
   return true;
 }
 
-/// Adds the events of one literal's spans that lie in [t0, t1), and its flag at t0, which comes
-/// from all events before it.
+/// Appends the ends of one literal's spans that lie in [t0, t1) to `events`, and sets its bit of
+/// `flags` if the line is inside its primitive just before t0.
 inline void gather(const Spans& spans, std::uint32_t literal, double t0, double t1,
                    std::vector<Mailbox::Event>& events, std::vector<std::uint64_t>& flags) {
   for (int i = 0; i < spans.count; ++i) {
@@ -137,7 +137,7 @@ inline void gather(const Spans& spans, std::uint32_t literal, double t0, double 
   }
 }
 
-/// One primitive is the whole object here: its own interval ends are the crossings.
+/// Visits the crossings of an object that is one primitive here: the ends of its intervals.
 template <typename Visit>
 bool single(const TreeNode& node, std::uint32_t object, const Spans& spans, double t0, double t1,
             Visit&& visit) {

@@ -1,5 +1,5 @@
-// An item of the surface tree along the rays of a packet, as many at a time as there are lanes of
-// doubles.
+// Finds crossings of one item of the surface tree with a packet's rays, as many at a time as a
+// vector has lanes of doubles.
 #if defined(GRAYCUBE_SPACE_LANE_ITEM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_LANE_ITEM_INL
 #undef GRAYCUBE_SPACE_LANE_ITEM_INL
@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 /// The intervals of a small item's literals along the rays of one group of lanes.
 class LaneItem {
  public:
-  /// To be called before the item's groups: which of a packet's rays may meet the bounds of each
-  /// literal.
+  /// Finds which of a packet's rays may meet the bounds of each literal. To be called before the
+  /// item's groups of lanes are taken.
   void look_at(const SurfaceTree& tree, const SurfaceItem& item, const CullingPacket& p,
                Mask rays) {
     const auto literals = tree.literals_of(item);
@@ -41,8 +41,8 @@ class LaneItem {
     }
   }
 
-  /// Lanes of the group, from ray `first` on, that may cross the item's surface in [t0, t1]:
-  /// conjunctions only where the common interval of the upright literals meets it.
+  /// The lanes of the group from ray `first` on that may cross the item's surface in [t0, t1]: for
+  /// a conjunction, those in which the common interval of the upright literals meets it.
   std::uint32_t meet(const SurfaceTree& tree, const SurfaceItem& item, const RayPacket& packet,
                      const CullingPacket& p, std::size_t first, const double* t1,
                      std::uint32_t lanes_wanted, TreeScratch& scratch) {
@@ -89,7 +89,7 @@ class LaneItem {
       }
       common.enter_after(own.enter);
       common.leave_before(own.leave);
-      // At equal t the item may still win a tie.
+      // At an equal t the item may still win a tie, so equality keeps a lane.
       const auto alive = hn::And(hn::Lt(common.enter, common.leave),
                                  hn::And(hn::Ge(common.leave, begin), hn::Le(common.enter, end)));
       lanes_wanted &= bits_of(alive);
@@ -158,8 +158,8 @@ class LaneItem {
     double enter, leave;
   };
 
-  /// Solves a literal for each lane wanted; returns what reaches from the first interval to the
-  /// last.
+  /// Solves a literal for each wanted lane; returns the stretch from its first to its last
+  /// interval.
   LaneInterval one_by_one(const Model& model, const Literal& literal, std::size_t index,
                           const RayPacket& packet, std::size_t first, std::uint32_t wanted) {
     const Lanes d;
@@ -182,7 +182,7 @@ class LaneItem {
     return {hn::Load(d, enter[index]), hn::Load(d, last)};
   }
 
-  /// Of items that aren't simple conjunctions. Apart, so that the way of most items is short.
+  /// Crossings of items that aren't simple conjunctions. Not inlined: most items don't come here.
   template <typename Visit>
   HWY_NOINLINE bool event_crossings(const SurfaceTree& tree, const SurfaceItem& item,
                                     std::size_t lane, double t0, double t1, Visit&& visit) const {
@@ -196,14 +196,14 @@ class LaneItem {
     return tree.event_crossings(item, events, visit);
   }
 
-  /// Kinds that cost little more than their bounds. Of few literals all are mostly met.
+  /// Kinds that cost little more than their bounds: for few literals those tests don't pay.
   static bool is_cheap(PrimitiveKind kind) {
     return kind == PrimitiveKind::kCylinder || kind == PrimitiveKind::kEllipsoid ||
            kind == PrimitiveKind::kParallelepiped;
   }
   static constexpr std::size_t kFewLiterals = 4;
 
-  /// By literal: rays that may meet its bounds. Unless `has_near_`, all may.
+  /// The rays that may meet each literal's bounds. Only used if `has_near_`; else all rays may.
   std::array<Mask, crossings::kMaxFlatLiterals> near_;
   bool has_near_ = false;
   std::size_t second_count_ = 0;
@@ -226,7 +226,7 @@ class LaneItem {
   }
 };
 
-/// The packet's rays, one by one, as the items see them.
+/// The packet's rays, one by one, prepared for the items' tests.
 class SingleRays {
  public:
   SingleRays(const RayPacket& packet, const CullingPacket& culling)
@@ -241,8 +241,8 @@ class SingleRays {
   const CullingPacket& culling_;
 };
 
-/// Calls take(group's first ray, lanes) for the groups of lanes with rays that can go through the
-/// item together, and single(ray) for the others.
+/// Calls take(group's first ray, lanes) for each group of lanes with rays that can be solved
+/// together for the item, and single(ray) for each other ray.
 template <typename Take, typename Single>
 HWY_INLINE void in_groups(const SurfaceItem& item, const CullingPacket& p, Mask rays, Take&& take,
                           Single&& single) {

@@ -1,6 +1,6 @@
-// What one evaluator remembers of the ray under way: a small direct-mapped cache of intersections,
-// so that a primitive that reaches into several leaf regions is intersected once (Arnaldi's
-// mailbox), and scratch space. One per thread; nothing in it is shared or survives a ray's meaning.
+// An evaluator's memory of its current ray: a small direct-mapped cache of intersections, so that a
+// primitive that reaches into several leaf regions is intersected once (Arnaldi's mailbox), and
+// scratch space. Each thread has its own; nothing in it is shared, or valid for another ray.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace graycube {
 struct WalkCounts {
   std::uint64_t cells_visited = 0;
   std::uint64_t primitives_tested = 0;
-  /// Those of them that took a quartic equation.
+  /// Those tests among them that solved a quartic equation.
   std::uint64_t quartics_solved = 0;
 
   void count_test(PrimitiveKind kind, std::uint64_t rays = 1) {
@@ -45,7 +45,7 @@ class Mailbox {
     }
   }
 
-  /// The intervals of a primitive along the ray under way.
+  /// The intervals of a primitive along the current ray.
   const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
     Entry& e = entries_[primitive % kEntries];
     if (e.ray != ray_ || e.primitive != primitive) {
@@ -65,7 +65,7 @@ class Mailbox {
     std::uint32_t literal;
   };
   std::vector<Event> events;
-  /// One bit a literal: inside its primitive?
+  /// One bit for each literal: whether the ray is inside its primitive.
   std::vector<std::uint64_t> flags_before, flags_after;
 
  private:

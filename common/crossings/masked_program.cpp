@@ -5,8 +5,8 @@ namespace {
 
 bool is_leaf(const TreeNode& n) { return n.size == 1; }
 
-/// Appends the subtree's operations, children first; returns its own bit. Moves `literal` past its
-/// leaves.
+/// Appends the subtree's operations, children first; returns the bit that holds its result. Moves
+/// `literal` past the subtree's leaves.
 std::uint64_t append_subtree(std::span<const TreeNode> tree, std::size_t& literal, std::size_t& bit,
                              std::vector<MaskOperation>& operations) {
   const TreeNode& root = tree.front();

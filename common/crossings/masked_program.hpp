@@ -1,5 +1,5 @@
-// Programs of few literals as operations on bits of one word, and the few events of such a program
-// along a ray, kept sorted: what general objects, which nearly all are small, are solved with.
+// Programs of few literals as operations on the bits of one word, and the few events of such a
+// program along a ray, kept sorted. They solve general objects, nearly all of which are small.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ namespace graycube::crossings {
 /// Literals of programs that are solved without taking memory; larger ones take the general way.
 inline constexpr std::size_t kMaxFlatLiterals = 32;
 
-/// An operation on bits of a word: literals come first, then the operations' own results.
+/// An operation on bits of a word: the literals' bits come first, then the operations' results.
 struct MaskOperation {
   std::uint64_t children = 0;
   bool is_and = true;
-  /// Of those below it.
+  /// The lowest number of the literals below this operation.
   std::uint8_t first_literal = 0;
 };
 
@@ -29,7 +29,7 @@ struct MaskOperation {
 /// whole.
 class MaskedProgram {
  public:
-  /// Bits of a word.
+  /// The bits of a word: one for each literal or operation.
   static constexpr std::size_t kMaxNodes = 64;
 
   MaskedProgram(std::span<const MaskOperation> operations, std::uint64_t inverted,
@@ -45,14 +45,14 @@ class MaskedProgram {
     return (word_of(flags) >> (literal_count_ + operations_.size() - 1) & 1) != 0;
   }
 
-  /// Of a program whose membership changed: the literal reached by descending into the first child
-  /// whose own membership changed.
+  /// For a program whose membership changed, the literal reached by descending, at each node, into
+  /// the first child whose own membership changed.
   std::size_t changed_literal(std::uint64_t before, std::uint64_t after) const {
     const std::uint64_t changed = word_of(before) ^ word_of(after);
     const std::uint64_t all_literals = (std::uint64_t{1} << literal_count_) - 1;
     for (std::size_t at = operations_.size() - 1;;) {
       const std::uint64_t children = operations_[at].children & changed;
-      // Of a node's operations the first has the lowest bit.
+      // The first of a node's child operations has the lowest bit.
       const auto literal = static_cast<std::size_t>(std::countr_zero(children & all_literals));
       const std::uint64_t below = children >> literal_count_;
       if (below == 0) return literal;
@@ -63,7 +63,7 @@ class MaskedProgram {
   }
 
  private:
-  /// Membership of each literal, then of each operation.
+  /// A word that holds the membership of each literal, then of each operation.
   std::uint64_t word_of(std::uint64_t flags) const {
     std::uint64_t word = flags ^ inverted_;
     std::size_t bit = literal_count_;
@@ -94,7 +94,7 @@ class FewEvents {
   bool is_empty() const { return count_ == 0; }
 
   /// Calls visit(t, entering, flags before, flags after) where membership changes, events at equal
-  /// t taken together, until it returns false; false then.
+  /// t taken together, until visit returns false; then returns false.
   template <typename IsMember, typename Visit>
   bool visit_changes(IsMember&& is_member, Visit&& visit) const {
     std::uint64_t before = flags_;

@@ -1,4 +1,4 @@
-// A mesh along the rays of a packet, which go through its tree together.
+// Finds a mesh's crossings with the rays of a packet, which go through the mesh's tree together.
 #if defined(GRAYCUBE_SPACE_MESH_PACKET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_MESH_PACKET_INL
 #undef GRAYCUBE_SPACE_MESH_PACKET_INL
@@ -39,8 +39,8 @@ class MeshPacket {
         outside_ |= Mask{1} << i;
         below_[i] = t1[i];
       } else {
-        // What lies behind t1 matters to rays that may start within the mesh: all their cuts ahead
-        // tell whether they do.
+        // Cuts beyond t1 matter to a ray that may start within the mesh: all cuts ahead of it tell
+        // whether it does.
         whole_.last[i] = kFloatInf;
       }
     }
@@ -48,8 +48,8 @@ class MeshPacket {
     whole_.update_last_of_all();
   }
 
-  /// Calls visit(ray, t, entering) for the crossings of each ray in [t0, t1[ray]), in order, until
-  /// it returns false, as it does at once where only the first is wanted; then for the next ray.
+  /// Calls visit(ray, t, entering) for each ray's crossings in [t0, t1[ray]), in order, until it
+  /// returns false, as it must at once with `first_only`; then goes on with the next ray.
   template <Order order, typename Visit>
   void crossings(Visit&& visit) {
     const auto block = [&](std::uint32_t index, Mask met) {
@@ -73,8 +73,8 @@ class MeshPacket {
   }
 
  private:
-  /// As Mesh::is_before_bounds, with the reciprocals given. A NaN, of a ray in a plane of the
-  /// bounds, says nothing.
+  /// Like Mesh::is_before_bounds(), with the reciprocals given. A NaN, which a ray in a plane of
+  /// the bounds gives, is ignored.
   bool is_before(const Aabb& box, double size, std::size_t i, const CullingPacket& p) const {
     const Ray& ray = singles_[i];
     const double margin = 1e-6 * (size + max_abs(ray.origin));
@@ -88,7 +88,7 @@ class MeshPacket {
     return packet_.t0[i] < enter;
   }
 
-  /// Nothing behind a ray's first cut, of those from number `known` on, is looked for any more.
+  /// Ends a ray's search at the nearest of its cuts from number `known` on, if its first is enough.
   void shorten(std::size_t i, std::size_t known) {
     if ((shortened_ >> i & 1) == 0) return;
     const auto& cuts = scratch_.packet_cuts[i];
@@ -113,7 +113,7 @@ class MeshPacket {
     Mesh::visit_crossings(cuts, winding, t1_[i], visit_one);
   }
 
-  /// Not where faces that touch take each other away.
+  /// Whether the first cut is a crossing: not if faces that touch there cancel each other.
   static bool crosses_first(const std::vector<MeshCut>& cuts) {
     std::int32_t sum = 0;
     for (std::size_t k = 0; k < cuts.size() && cuts[k].t == cuts[0].t; ++k) sum += cuts[k].count;
@@ -129,7 +129,7 @@ class MeshPacket {
   std::array<std::optional<csg::MeshLine>, kRays> lines_;
   std::array<Ray, kRays> singles_;
   std::array<double, kRays> below_;
-  /// Rays that start outside, and those of them whose first crossing alone is wanted.
+  /// Rays that start outside the mesh, and those of them whose first crossing alone is wanted.
   Mask outside_ = 0, shortened_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// Crossings of one object along a whole ray, without a subdivision underneath: what the leaves of
-// the surface tree are tested with. Gives the same crossings, bit for bit, as crossings.hpp gives
-// cell by cell.
+// Finds crossings of one object along a whole ray, without a subdivision underneath, for the items
+// of the surface tree. They are the same, bit for bit, as those that crossings.hpp finds cell by
+// cell.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace graycube {
 
-/// One leaf of a program with what its kind needs beside it: a cache line. Kinds that need more
-/// look their primitive up, and have its bounds here, grown, as floats: lower corner, upper corner.
+/// One leaf of a program with its primitive's slots, in one cache line. For a kind that needs more
+/// and looks its primitive up, `v` holds grown bounds as floats: lower corner, upper corner.
 struct alignas(64) Literal {
   Slots v{};
   std::uint32_t primitive = 0;
@@ -26,7 +26,7 @@ struct alignas(64) Literal {
 };
 static_assert(sizeof(Literal) == 64);
 
-/// A ray with what every box test needs of it.
+/// A ray with the reciprocals of its direction, which every box test needs.
 struct PreparedRay {
   explicit PreparedRay(const Ray& r) : ray(r) {
     for (int a = 0; a < 3; ++a) inverse[a] = 1.0 / r.direction[a];
@@ -38,7 +38,7 @@ struct PreparedRay {
 
 namespace crossings {
 
-/// As csg::clip_to_slab, with the reciprocal given.
+/// Like csg::clip_to_slab(), with the reciprocal given.
 inline void clip_to_prepared_slab(csg::Interval& i, double lo, double hi, double o,
                                   double inverse) {
   if (!std::isfinite(inverse)) [[unlikely]] {
@@ -54,8 +54,8 @@ inline void clip_to_prepared_slab(csg::Interval& i, double lo, double hi, double
   }
 }
 
-/// An interval of a line, in arrays of which mostly the first few are used: unlike csg::Interval it
-/// isn't filled in before.
+/// An interval of a line. Unlike csg::Interval it isn't initialized, since it stands in arrays of
+/// which mostly only the first few elements are used.
 struct Ends {
   double enter, leave;
 };
@@ -116,14 +116,14 @@ inline bool has_lane_interval(PrimitiveKind kind) {
 /// Kinds that a line may be inside of twice.
 inline bool may_have_two_intervals(PrimitiveKind kind) { return !has_lane_interval(kind); }
 
-/// Kinds that look their primitive up; their literals hold bounds.
+/// Kinds whose literals hold bounds, since solving them looks their primitive up.
 inline bool has_bounds(PrimitiveKind kind) {
   constexpr std::uint32_t kAllSlots = csg::kinds_with(&csg::KindTraits::is_all_slots);
   return !csg::is_among(kind, kAllSlots);
 }
 
-/// False only when the line passes the literal's bounds, surely, or is in them before t0 or after
-/// t1 only. For kinds with has_bounds.
+/// False only when the line surely misses the literal's bounds, or is in them only before t0 or
+/// after t1. For kinds with has_bounds().
 inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, double t1) {
   const double error = 1e-12 * max_abs(ray.ray.origin);
   for (int a = 0; a < 3; ++a) {
@@ -131,7 +131,7 @@ inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, 
     const double inverse = ray.inverse[a];
     const double lo = (csg::box_side(literal.v, 0, axis) - error - ray.ray.origin[a]) * inverse;
     const double hi = (csg::box_side(literal.v, 1, axis) + error - ray.ray.origin[a]) * inverse;
-    // Written so that a NaN, of a line in a plane of the bounds, says nothing.
+    // Written so that a NaN, which a line in a plane of the bounds gives, is ignored.
     const double enter = inverse > 0 ? lo : hi;
     const double leave = inverse > 0 ? hi : lo;
     if (enter > t0) t0 = enter;
@@ -171,8 +171,8 @@ std::uint32_t changed_literal(std::span<const Literal> literals, IntervalOf&& in
 /// crossings at t, a literal holds where enter ≤ t < leave. So the conjunction is the upright
 /// literals' common interval without the inverted ones', and its ends are its crossings.
 ///
-/// Calls visit(t, entering) for those with t0 ≤ t < t1, in order, until it returns false; false
-/// then.
+/// Calls visit(t, entering) for the crossings with t0 ≤ t < t1, in order, until visit returns
+/// false; then returns false.
 template <typename Visit>
 bool conjunction_ends(std::span<const Ends> removed, double from, double to, double t0, double t1,
                       Visit&& visit) {
@@ -213,22 +213,22 @@ struct SurfaceItem {
   std::uint32_t literal_count = 0;
   /// Index into SurfaceTree::cells; kAllSpace when the whole object is here.
   std::uint32_t cell = kAllSpace;
-  /// General programs: first of the tree's nodes; kFlat for a conjunction or its complement.
+  /// First of the nodes of a general program; kFlat for a conjunction or its complement.
   std::uint32_t first_node = kFlat;
   std::uint32_t node_count = 0;
-  /// Of programs with MaskedProgram: the first of the tree's operations, node_count − literal_count
-  /// of them.
+  /// First of the operations of a general program that is small (for MaskedProgram); there are
+  /// node_count − literal_count of them.
   std::uint32_t first_operation = 0;
   /// The literals are those of the complement, which is a conjunction: entering and leaving swap.
   bool is_complement = false;
   /// No crossing of it lets light through.
   bool is_opaque = true;
-  /// Of few literals, none of them a mesh: solved without taking memory, several rays at once.
+  /// It has few literals and no mesh: it is solved without taking memory, several rays at once.
   bool is_small = false;
-  /// Each literal is inside of one interval of any line.
+  /// Any line is inside each literal's primitive in one interval at most.
   bool is_simple = false;
 
-  /// The whole of one mesh.
+  /// The item is one mesh, uncut.
   bool is_mesh = false;
 
   bool is_flat() const { return first_node == kFlat; }

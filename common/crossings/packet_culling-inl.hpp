@@ -1,5 +1,5 @@
-// A packet of rays as the boxes of the surface tree see it, and the tests of all rays at once and
-// of each.
+// A packet of rays in floats, as tests of boxes need it; and these tests, for all rays at once and
+// for each ray.
 #if defined(GRAYCUBE_SPACE_PACKET_CULLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_CULLING_INL
 #undef GRAYCUBE_SPACE_PACKET_CULLING_INL
@@ -27,7 +27,7 @@ using Mask = RayPacket::Mask;
 constexpr std::size_t kRays = RayPacket::kSize;
 using FloatLanes = hn::CappedTag<float, 16>;
 
-/// The packet as the boxes see it.
+/// The packet in floats that are rounded so that box tests stay conservative.
 struct CullingPacket {
   explicit CullingPacket(const RayPacket& packet) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -74,7 +74,7 @@ struct CullingPacket {
   using DoublesOfAll = std::array<double, kRays>;
 
   alignas(64) std::array<Floats, 3> near_inverse, far_inverse, near_origin, far_origin;
-  /// The stretch of each ray that is still of interest.
+  /// Parameters at which the stretch of each ray that is still searched begins and ends.
   alignas(64) Floats first, last;
   alignas(64) std::array<std::array<double, kRays>, 3> inverse;
   /// Rays parallel to a coordinate plane: their items are looked up singly.
@@ -85,11 +85,11 @@ struct CullingPacket {
   std::array<float, 3> least_near_inverse, greatest_near_inverse, least_far_inverse,
       greatest_far_inverse, extreme_near_origin, extreme_far_origin;
   std::array<std::size_t, 3> near_side;
-  /// Rays go both ways along the axis: it says nothing about all of them.
+  /// The packet's rays go both ways along the axis, so it can't cull them all at once.
   std::array<bool, 3> is_mixed;
 
  private:
-  /// Empty places repeat the first ray.
+  /// A ray coordinate whose empty places repeat the first ray's.
   const DoublesOfAll& padded(const DoublesOfAll& v, std::size_t count) {
     if (count == kRays) return v;
     DoublesOfAll& copy = padding[next_padding++ % padding.size()];
@@ -97,7 +97,7 @@ struct CullingPacket {
     return copy;
   }
 
-  /// As CullingAxis for every ray, and the bounds of what comes out.
+  /// Computes what CullingAxis does, for every ray, and the bounds of the results.
   void set_axis(std::size_t a, const DoublesOfAll& origin, const DoublesOfAll& direction) {
     alignas(64) Floats o, u;
     for (std::size_t i = 0; i < kRays; ++i) {
@@ -128,7 +128,7 @@ struct CullingPacket {
     greatest_far_inverse[a] = far_inverses.greatest();
     is_mixed[a] = least_near_inverse[a] < 0 && greatest_near_inverse[a] > 0;
     near_side[a] = least_near_inverse[a] < 0 ? 1 : 0;
-    // The origin that brings the near plane nearest, and the far one farthest.
+    // The origins that bring the near plane nearest, and the far plane farthest.
     const bool up = near_side[a] == 0;
     extreme_near_origin[a] = up ? near_origins.greatest() : near_origins.least();
     extreme_far_origin[a] = up ? far_origins.least() : far_origins.greatest();
@@ -152,7 +152,7 @@ struct CullingPacket {
   std::size_t next_padding = 0;
 };
 
-/// Which of a node's boxes may any ray of the packet meet, and from where on?
+/// Bits of the boxes of a node that any ray may meet; near[i] is set to the earliest t for box i.
 HWY_INLINE std::uint32_t meet_all(const WideNode& node, const CullingPacket& p,
                                   float* HWY_RESTRICT near) {
   const hn::CappedTag<float, WideNode::kWidth> d;
@@ -180,8 +180,8 @@ HWY_INLINE std::uint32_t meet_all(const WideNode& node, const CullingPacket& p,
   return mask;
 }
 
-/// Which of the rays may meet a box? By the arithmetic of `meet`. plane(side, axis) gives the box's
-/// planes, lower ones at side 0.
+/// Those of `rays` that may meet a box, by the arithmetic of meet(). plane(side, axis) gives the
+/// coordinates of the box's planes, the lower ones for side 0.
 template <typename PlaneOf>
 HWY_INLINE Mask meet_box(PlaneOf&& plane, const CullingPacket& p, Mask rays) {
   const FloatLanes d;
@@ -216,7 +216,7 @@ HWY_INLINE Mask meet_box(PlaneOf&& plane, const CullingPacket& p, Mask rays) {
   return mask & rays;
 }
 
-/// Which of the rays may meet one box of a node?
+/// Those of `rays` that may meet the box in place `slot` of a node.
 HWY_INLINE Mask meet_each(const WideNode& node, std::size_t slot, const CullingPacket& p,
                           Mask rays) {
   return meet_box([&](std::size_t side, std::size_t a) { return node.planes[side][a][slot]; }, p,

@@ -1,6 +1,6 @@
-// The intervals of a literal along several rays at once: one ray a lane. Every lane goes through
-// the very expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp, csg/cylinder.hpp and
-// csg/cone.cpp in doubles, so that it gets the bits that interval_of gives for its ray.
+// The intervals of a literal along several rays at once, one ray in each lane. Every lane goes
+// through the very expressions of csg/sphere.hpp, csg/box.hpp, csg/half_space.hpp, csg/cylinder.hpp
+// and csg/cone.cpp in doubles, so that it gets the bits that interval_of gives for its ray.
 #if defined(GRAYCUBE_SPACE_PACKET_INTERVALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
 #undef GRAYCUBE_SPACE_PACKET_INTERVALS_INL
@@ -32,8 +32,8 @@ HWY_INLINE Doubles lanes_dot(const LaneVec& a, const LaneVec& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-/// Rays side by side, and what every box test needs of them. All reciprocals are finite: other rays
-/// are looked up singly.
+/// Rays side by side, with the reciprocals of their directions. All of these are finite: other rays
+/// are traced singly.
 struct LaneRays {
   LaneVec origin, direction, inverse;
 };
@@ -65,7 +65,7 @@ HWY_INLINE LaneInterval lanes_sphere(const LaneVec& origin, const LaneVec& direc
   return i;
 }
 
-/// A slab that no lane is parallel to.
+/// Clips to a slab that no lane is parallel to.
 HWY_INLINE void clip_lanes_to_slab(LaneInterval& i, double lo, double hi, Doubles o,
                                    Doubles inverse) {
   const Doubles a = hn::Mul(hn::Sub(every(lo), o), inverse);
@@ -75,7 +75,7 @@ HWY_INLINE void clip_lanes_to_slab(LaneInterval& i, double lo, double hi, Double
   i.leave_before(hn::IfThenElse(upward, b, a));
 }
 
-/// Any slab, as csg::clip_to_slab.
+/// Clips to any slab, like csg::clip_to_slab().
 HWY_INLINE void clip_lanes_to_any_slab(LaneInterval& i, double lo, double hi, Doubles o,
                                        Doubles d) {
   const Doubles inverse = hn::Div(every(1.0), d);
@@ -88,7 +88,7 @@ HWY_INLINE void clip_lanes_to_any_slab(LaneInterval& i, double lo, double hi, Do
   i.leave = hn::IfThenElse(crosses, clipped.leave, i.leave);
 }
 
-/// As csg::clip_to_half_space.
+/// Like csg::clip_to_half_space(), for each lane.
 HWY_INLINE void clip_lanes_to_half_space(LaneInterval& i, double offset, Doubles o, Doubles d) {
   const Doubles inverse = hn::Div(every(1.0), d);
   const Doubles t = hn::Mul(hn::Sub(every(offset), o), inverse);
@@ -107,7 +107,7 @@ HWY_INLINE LaneInterval lanes_half_space(double offset, Doubles o, Doubles d) {
   return i;
 }
 
-/// Ends early where all lanes' intervals are empty.
+/// Ends early when the intervals of all lanes are empty.
 HWY_INLINE LaneInterval lanes_polyhedron(std::span<const Plane> faces, const LaneRays& rays) {
   LaneInterval i = LaneInterval::whole();
   for (const Plane& f : faces) {
@@ -131,7 +131,7 @@ HWY_INLINE LaneVec lanes_point(const Affine& map, const LaneVec& p) {
           hn::Add(v.z, every(map.m[2][3]))};
 }
 
-/// Where x² + y² ≤ 1.
+/// The part of each lane's line with x² + y² ≤ 1.
 HWY_INLINE LaneInterval lanes_tube(const LaneVec& o, const LaneVec& d) {
   const Doubles dd = hn::Add(hn::Mul(d.x, d.x), hn::Mul(d.y, d.y));
   const Doubles nearest = hn::Div(hn::Neg(hn::Add(hn::Mul(o.x, d.x), hn::Mul(o.y, d.y))), dd);
@@ -142,7 +142,7 @@ HWY_INLINE LaneInterval lanes_tube(const LaneVec& o, const LaneVec& d) {
   const Doubles half = hn::Sqrt(hn::Div(h2, dd));
   LaneInterval i{hn::Sub(nearest, half), hn::Add(nearest, half)};
   i.make_empty(hn::Not(hn::Ge(h2, hn::Zero(Lanes()))));
-  // Parallel to the axis.
+  // Lines parallel to the axis.
   i.enter = hn::IfThenElse(slants, i.enter, every(-kInf));
   i.leave = hn::IfThenElse(slants, i.leave, every(kInf));
   const Doubles axis_distance2 = hn::Add(hn::Mul(o.x, o.x), hn::Mul(o.y, o.y));
@@ -181,7 +181,7 @@ HWY_INLINE Doubles lanes_fmax(Doubles a, Doubles b) {
   return hn::IfThenElse(hn::IsNaN(b), a, hn::IfThenElse(hn::Gt(a, b), a, b));
 }
 
-/// As csg::cone_interval's: the part of the lines with w + t·wd ≥ 0.
+/// The part of each lane's line with w + t·wd ≥ 0, like positive_nappe() of csg/cone.cpp.
 HWY_INLINE LaneInterval lanes_positive_nappe(Doubles w, Doubles wd) {
   const Doubles zero = hn::Zero(Lanes());
   const Doubles apex = hn::Div(hn::Neg(w), wd);
@@ -199,7 +199,7 @@ HWY_INLINE LaneInterval choose(LaneMask mask, const LaneInterval& yes, const Lan
   return {hn::IfThenElse(mask, yes.enter, no.enter), hn::IfThenElse(mask, yes.leave, no.leave)};
 }
 
-/// As csg::cone_interval, every branch of which is computed for all lanes.
+/// Like csg::cone_interval(), every branch of which is computed for all lanes.
 HWY_INLINE LaneInterval lanes_double_cone(double k, const LaneVec& o, const LaneVec& d) {
   const Lanes lanes;
   const Doubles zero = hn::Zero(lanes);

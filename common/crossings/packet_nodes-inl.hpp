@@ -1,4 +1,4 @@
-// A packet of rays through a hierarchy of boxes: the surface tree's, or a mesh's.
+// Takes a packet of rays through a hierarchy of boxes: the surface tree's, or a mesh's.
 #if defined(GRAYCUBE_SPACE_PACKET_NODES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_SPACE_PACKET_NODES_INL
 #undef GRAYCUBE_SPACE_PACKET_NODES_INL
@@ -18,13 +18,13 @@ HWY_BEFORE_NAMESPACE();
 namespace graycube {
 namespace HWY_NAMESPACE {
 
-/// So many rays or fewer are walked singly: a node costs a packet about three single visits.
+/// This many rays or fewer are walked singly: a node costs a packet about three single visits.
 constexpr int kFewRays = 3;
 
-/// Takes a packet through the nodes, of which the first is the root: calls leaf(index, rays) for
-/// each leaf that any of the packet's rays may meet, with those rays; and walk(node, ray) for each
-/// of few rays that are left to visit a subtree. Rays that `active` drops in the meantime are left
-/// out.
+/// Takes a packet through the nodes, of which the first is the root. Calls leaf(index, rays) for
+/// each leaf that some of the packet's rays may meet, with those rays; and walk(node, ray) for each
+/// of the last few rays that have a subtree left to visit. Rays that `active` drops in the meantime
+/// are left out.
 template <Order order, typename Leaf, typename Walk>
 void each_leaf_of_packet(const std::vector<WideNode>& nodes, const CullingPacket& p,
                          const Mask& active, TreeScratch& scratch, Leaf&& leaf, Walk&& walk) {

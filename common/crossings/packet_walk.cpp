@@ -1,7 +1,7 @@
-// Packets of rays through the surface tree. A whole packet is tested against a node's eight boxes
-// at once, by the bounds of its rays (float operations are monotonic, so only what each ray's own
-// test would cull is culled); then each child by each ray, when its turn comes. Where few rays are
-// left, they go on singly.
+// Takes packets of rays through the surface tree. A whole packet is tested against a node's eight
+// boxes at once, by the bounds of its rays (float operations are monotonic, so that culls only what
+// each ray's own test would cull); then each child is tested for each ray, when its turn comes.
+// When few rays are left, they go on singly.
 #include <algorithm>
 #include <cmath>
 
@@ -24,11 +24,11 @@ HWY_BEFORE_NAMESPACE();
 namespace graycube {
 namespace HWY_NAMESPACE {
 
-/// Whether it pays to take the rays through a mesh together.
+/// Whether there are enough rays for going through a mesh together to pay.
 bool has_many(Mask rays) { return __builtin_popcount(rays) > kFewRays; }
 
-/// Takes a packet through the tree, as each_leaf_of_packet, and through the items without bounds
-/// first.
+/// Takes a packet through the items without bounds, then through the tree like
+/// each_leaf_of_packet().
 template <Order order, typename Item, typename Walk>
 void each_item_of_packet(const SurfaceTree& tree, const CullingPacket& p, const Mask& active,
                          TreeScratch& scratch, Item&& item, Walk&& walk) {
@@ -38,8 +38,8 @@ void each_item_of_packet(const SurfaceTree& tree, const CullingPacket& p, const 
   each_leaf_of_packet<order>(tree.nodes(), p, active, scratch, item, walk);
 }
 
-/// Takes the first crossing of each of some rays with an item that is one mesh, where it is the
-/// first by now; then calls shorten(ray).
+/// Finds the first crossing of each of `rays` with an item that is one mesh. Where it is the first
+/// of all crossings so far, stores it and calls shorten(ray).
 template <typename Shorten>
 void first_crossings_of_mesh(const SurfaceTree& tree, const SurfaceItem& item,
                              const RayPacket& packet, const CullingPacket& p, Mask rays, Mask any,
@@ -61,7 +61,7 @@ void first_crossings_of_mesh(const SurfaceTree& tree, const SurfaceItem& item,
   });
 }
 
-/// Of some rays, those that a crossing with an item that is one mesh doesn't let pass.
+/// Those of `rays` for which passes(ray, crossing) is false at some crossing with a mesh's item.
 template <typename Passes>
 Mask rays_ended_by_mesh(const SurfaceTree& tree, const SurfaceItem& item, const RayPacket& packet,
                         const CullingPacket& p, Mask rays, TreeScratch& scratch, Passes&& passes) {
@@ -140,8 +140,8 @@ Mask FirstCrossings(const SurfaceTree& tree, const RayPacket& packet, TreeScratc
   return any;
 }
 
-/// The rays that no opaque surface ends; what they lose to transparent ones is taken from their
-/// light.
+/// The rays that no opaque surface ends; `light` is dimmed by the transparent surfaces that they
+/// cross.
 Mask PassLights(const SurfaceTree& tree, const RayPacket& packet, TreeScratch& scratch,
                 Rgb* light) {
   const CullingPacket p(packet);

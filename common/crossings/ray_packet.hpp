@@ -1,5 +1,5 @@
-// Rays that are looked up together, because they mostly go the same way: a block of neighbouring
-// primary rays, or the shadow rays of such a block towards one light. What is found for a ray never
+// Rays that are traced together, because they mostly go the same way: a block of neighbouring
+// primary rays, or the shadow rays of such a block towards one light. The result for a ray never
 // depends on the others.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace graycube {
 
-/// Up to kSize rays, side by side by coordinate.
+/// Up to kSize rays, stored as one array for each coordinate.
 struct RayPacket {
   static constexpr std::size_t kSize = 16;
   /// Bit i stands for ray i.

@@ -1,5 +1,5 @@
-// Where to cut a cell: the surface-area heuristic (MacDonald & Booth 1990) over the bounds of what
-// is in it.
+// Finds where to cut a cell: the surface-area heuristic (MacDonald & Booth 1990) over the bounds of
+// the surfaces in it.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Split {
   double cost = kInf;
 };
 
-/// Chooses a plane for a cell: the extents of the surfaces in it, and sweeps over their ends.
+/// Chooses a plane for a cell by sweeping over the ends of the surfaces' extents.
 class SplitFinder {
  public:
   SplitFinder(const Aabb& cell, double gap, double step_cost)
@@ -50,7 +50,7 @@ class SplitFinder {
   static constexpr std::size_t kExactLimit = 256;
   static constexpr int kBins = 64;
 
-  /// Cost of the plane with so many surfaces below and above.
+  /// Makes the plane `best` if it costs less, given the numbers of surfaces below and above it.
   void offer(int axis, double at, std::size_t below, std::size_t above, Split& best) const {
     if (!(at > cell_.lo[axis] + gap_ && at < cell_.hi[axis] - gap_)) return;
     Aabb lower = cell_;
@@ -61,7 +61,7 @@ class SplitFinder {
     double cost = (lower.half_area() * static_cast<double>(below) +
                    upper.half_area() * static_cast<double>(above)) /
                   area;
-    // A cell without surfaces costs nothing but the step into it.
+    // A plane that cuts empty space off costs less: nothing is tested there.
     if (below == 0 || above == 0) cost *= kEmptyDiscount;
     cost += step_cost_;
     if (cost < best.cost) best = {axis, at, cost};

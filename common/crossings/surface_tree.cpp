@@ -53,7 +53,7 @@ class SurfaceTreeBuilder {
   using Run = std::span<std::uint32_t>;
   static constexpr std::size_t kMostTogether = 1;
 
-  /// A few items need no more slices than there are items, by far the most groups are such.
+  /// A group needs no more slices than it has items; by far the most groups have few items.
   static std::size_t bins_for(std::size_t items) {
     return std::clamp<std::size_t>(items, 2, kMaxBins);
   }
@@ -140,7 +140,7 @@ class SurfaceTreeBuilder {
     return literal;
   }
 
-  /// One of `bins` slices of the centres' extent along each axis.
+  /// Cuts the extent of the items' centres into `bins` equal slices along each axis.
   struct Slices {
     Slices(const Aabb& centers, std::size_t bins)
         : lo(centers.lo), last(static_cast<double>(bins - 1)) {
@@ -193,7 +193,7 @@ class SurfaceTreeBuilder {
     return static_cast<std::size_t>(middle - items.begin());
   }
 
-  /// Items that are near each other in space become so in memory, with their literals.
+  /// Puts items that are near each other in space, and their literals, near each other in memory.
   void put_items_in_tree_order() {
     std::vector<SurfaceItem> items;
     std::vector<Literal> literals;

@@ -39,11 +39,11 @@ class SurfaceTree {
   /// it.
   bool pass_light(const Ray& ray, double t0, double t1, TreeScratch& scratch, Rgb& light) const;
 
-  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a
-  /// crossing.
+  /// Like first_crossing(), for each ray of a packet: bit i of the result tells whether found[i]
+  /// holds a crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, TreeScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
-  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  /// Like pass_light(), for each ray of a packet: bit i of the result tells if light[i] arrives.
   RayPacket::Mask pass_lights(const RayPacket& packet, TreeScratch& scratch,
                               std::span<Rgb, RayPacket::kSize> light) const;
 
@@ -64,7 +64,7 @@ class SurfaceTree {
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const std::vector<SurfaceItem>& items() const { return items_; }
   const std::vector<std::uint32_t>& unbounded_items() const { return unbounded_; }
-  /// Of items that are one mesh.
+  /// The mesh of an item that is one mesh.
   const Mesh& mesh_of(const SurfaceItem& item) const {
     return model_->meshes[model_->primitives[literals_of(item).front().primitive].mesh];
   }
@@ -86,11 +86,11 @@ class SurfaceTree {
 
  private:
   friend class SurfaceTreeBuilder;
-  /// Of an item that is one mesh.
+  /// The crossings of an item that is one mesh.
   template <typename Visit>
   bool mesh_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                       TreeScratch& scratch, Visit&& visit) const;
-  /// Of small items.
+  /// The crossings of an item that is small but not a simple conjunction.
   template <typename Visit>
   bool small_crossings(const SurfaceItem& item, const PreparedRay& ray, double t0, double t1,
                        TreeScratch& scratch, Visit&& visit) const;
@@ -108,8 +108,8 @@ class SurfaceTree {
   std::vector<std::uint32_t> unbounded_;
 };
 
-/// The half-open piece of a ray in a cell, by the same expressions as the walk's: each t of a line
-/// lies in exactly one cell of a subdivision. False when there is none in [t0, t1).
+/// Clips to the half-open piece of a ray in a cell by the same expressions as the walk's, so that
+/// each t of a line lies in exactly one cell of a subdivision. False when no piece is in [t0, t1).
 inline bool SurfaceTree::clip_to_cell(const SurfaceItem& item, const PreparedRay& ray, double& t0,
                                       double& t1) const {
   if (item.cell == SurfaceItem::kAllSpace) return true;
@@ -189,8 +189,8 @@ bool SurfaceTree::small_crossings(const SurfaceItem& item, const PreparedRay& ra
                                   double t1, TreeScratch& scratch, Visit&& visit) const {
   const auto literals = literals_of(item);
   crossings::FewEvents events(t0, t1);
-  // Of conjunctions: as in for_each_item_crossing, all crossings lie where all that is not taken
-  // away reaches.
+  // All crossings of a conjunction lie in the common extent of its upright literals (as in
+  // for_each_item_crossing).
   double from = t0;
   double to = t1;
   for (std::uint32_t i = 0; i < literals.size(); ++i) {
@@ -262,8 +262,8 @@ bool SurfaceTree::general_crossings(const SurfaceItem& item, const PreparedRay& 
     const Spans spans = spans_along(model_->primitives[primitive], model_->data(), ray.ray);
     crossings::gather(spans, i, t0, t1, events, before);
     if (!is_flat || literals[i].is_inverted) continue;
-    // As in for_each_item_crossing: all crossings of a conjunction lie where all that is not taken
-    // away reaches.
+    // All crossings of a conjunction lie in the common extent of its upright literals (as in
+    // for_each_item_crossing).
     if (spans.count == 0) return true;
     from = std::fmax(from, spans.interval[0].enter);
     to = std::fmin(to, spans.interval[static_cast<std::size_t>(spans.count - 1)].leave);

@@ -1,4 +1,4 @@
-// Single rays through the surface tree.
+// Takes single rays through the surface tree.
 #include "crossings/surface_tree.hpp"
 #include "geometry/simd.hpp"
 
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace graycube {
 namespace HWY_NAMESPACE {
 
-/// As each_item_below, for the whole tree.
+/// Like each_item_below(), for the whole tree.
 template <Order order, typename End, typename Visit>
 bool each_item(const SurfaceTree& tree, const Ray& ray, double t0, End&& t1, TreeScratch& scratch,
                Visit&& visit) {

@@ -1,4 +1,4 @@
-// What one evaluator needs to walk a surface tree.
+// The scratch memory with which one evaluator walks a surface tree.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace graycube {
 
-/// Where the last rays are inside of meshes that are parts of objects cut into cells: a ray asks
-/// for them in each cell, and a packet's rays ask in turn.
+/// Remembers the spans of recent rays inside meshes that are parts of objects cut into cells: a ray
+/// asks for them in each cell, and the rays of a packet ask in turn.
 class MeshMemo {
  public:
-  /// From t = 0 on, which is all that walks look at.
+  /// The spans from t = 0 on, which are all that walks look at.
   const Spans& spans(const Model& model, std::uint32_t primitive, const Ray& ray) {
     const Mesh& mesh = model.meshes[model.primitives[primitive].mesh];
     Entry& e = entries_[slot_of(primitive, ray)];
@@ -32,7 +32,7 @@ class MeshMemo {
  private:
   static constexpr std::size_t kEntries = 64;
   struct Entry {
-    /// Held, so that no other takes its place in memory.
+    /// Kept alive, so that no other mesh can take its place in memory and be taken for it.
     Mesh mesh;
     Ray ray;
     Spans spans;
@@ -65,7 +65,7 @@ struct TreeScratch {
   std::vector<Mailbox::Event> events;
   std::vector<std::uint64_t> flags_before, flags_after;
   std::vector<MeshCut> cuts;
-  /// Of each ray of a packet.
+  /// The cuts of a mesh by each ray of a packet.
   std::array<std::vector<MeshCut>, RayPacket::kSize> packet_cuts;
   MeshMemo meshes;
   WalkCounts counts;

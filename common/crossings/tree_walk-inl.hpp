@@ -35,12 +35,12 @@ HWY_INLINE std::size_t octant(const Vec3& d) {
   return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
 }
 
-/// What finds the first crossing wants near boxes first; for what asks whether there is any,
-/// sorting costs more than it saves.
+/// The order in which boxes are visited. A search for the first crossing takes near boxes first;
+/// for a search for any crossing, sorting costs more than it saves.
 enum class Order { kNearestFirst, kAny };
 
-/// Moves what is nearer than t, from `base` on, up by one place of a stack; returns the place left
-/// free.
+/// Moves the entries of a stack from `base` on that are nearer than t up by one place; returns the
+/// place that becomes free.
 template <typename Entry>
 HWY_INLINE std::size_t make_place(Entry* stack, std::size_t base, std::size_t top, float t) {
   while (top > base && stack[top - 1].t < t) {
@@ -99,7 +99,7 @@ HWY_INLINE void take_first_crossing(const SurfaceTree& tree, std::uint32_t index
   });
 }
 
-/// Takes what the panes keep back from the light of their rays; `light` is indexed by ray.
+/// Dims the light of each ray by the panes that it crosses; `light` is indexed by ray.
 inline void dim(std::vector<TreeScratch::Pane>& panes, Rgb* light) {
   if (panes.empty()) return;
   using Pane = TreeScratch::Pane;

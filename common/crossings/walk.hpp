@@ -25,7 +25,7 @@ class PlaneOrder {
 
   int sense(int axis) const { return sense_[static_cast<std::size_t>(axis)]; }
   double parameter(int axis, double at) const { return (at - origin_[axis]) * inverse_[axis]; }
-  /// Is the ray on the upper side of the plane at parameter t?
+  /// Whether the ray is on the upper side of the plane at parameter t.
   bool is_above(int axis, double at, double t) const {
     switch (sense(axis)) {
       case 1: return t >= parameter(axis, at);
@@ -49,8 +49,8 @@ inline const BspLeaf& leaf_at(const Bsp& bsp, std::uint32_t node, const PlaneOrd
   }
 }
 
-/// Where the ray leaves the cell, and through which face (axis · 2 + upper); −1 when it stays for
-/// good.
+/// The parameter at which a ray leaves a cell, and the face (axis · 2 + upper) through which it
+/// does; face −1 when it stays for good.
 struct CellExit {
   double t;
   int face;

@@ -1,5 +1,5 @@
 // Boxes along the world's axes; and parallelepipeds, which `to_local` maps to such a box. Its rows
-// are the unit normals of the faces, which so are planes of the world.
+// are the unit normals of the faces, so that faces are planes of the world.
 #pragma once
 
 #include "csg/roots.hpp"
@@ -56,7 +56,7 @@ inline CellSide classify_box(const Primitive& p, const Aabb& cell) {
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
-/// Also a parallelepiped.
+/// Moves a box or a parallelepiped.
 inline bool move_box(Primitive& p, double by) {
   for (std::size_t a = 0; a < 3; ++a) {
     p.v[a] -= by;

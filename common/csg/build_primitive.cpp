@@ -245,7 +245,7 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
   Primitive p;
   p.kind = PrimitiveKind::kEllipticTorus;
   p.to_local = inverse_of(map);
-  // How far the ellipse reaches in direction (u, w) of its plane.
+  // The ellipse's reach in direction (u, w) of its plane.
   const auto reach = [&](double u, double w) {
     const double along = major * (c * u + s * w), beside = minor * (c * w - s * u);
     return std::sqrt(along * along + beside * beside);
@@ -264,7 +264,7 @@ Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const
 
 namespace {
 
-/// Bounds of a quadric's slice between two heights: of the ellipse, or the rectangle, that holds
+/// Bounds of a quadric's slice between two heights: those of an ellipse, or rectangle, around
 /// it.
 Aabb slice_bounds(const Affine& map, const std::array<double, 4>& q, const Vec3& lo, const Vec3& hi,
                   double z0, double z1) {

@@ -12,7 +12,7 @@
 
 namespace graycube {
 
-/// All take the map from the shape's coordinates to the world (invertible) and valid shape
+/// All these take the map from the shape's coordinates to the world (invertible) and valid shape
 /// parameters (read_scene's limits); `material` is left 0.
 Primitive build_sphere(const Affine& to_world, const Vec3& center, double radius);
 /// The image of the unit sphere under linearly independent axes, moved to `center`.

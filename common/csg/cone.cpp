@@ -74,7 +74,7 @@ bool move_cone(Primitive& p, double by) {
 
 Aabb grown_cone_bounds(const Primitive& p, double by) {
   const double along = by * length(p.to_local.row(2));
-  // Below its larger end it goes on growing.
+  // Below its larger end the cone goes on widening.
   const double wider = by * stretch(p.to_local, 2) + 2 * std::fabs(cone_slope(p)) * along;
   return grown_bounds(p, {wider, wider, along});
 }

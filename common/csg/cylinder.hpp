@@ -12,7 +12,7 @@ inline Vec3 cap_normal(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
 /// The caps' offsets along the normal.
 inline double lower_cap(const Primitive& p) { return p.v[3]; }
 inline double upper_cap(const Primitive& p) { return p.v[4]; }
-/// The normal is unit and without −0.
+/// Sets both caps; the normal must be a unit vector without −0.
 inline void set_caps(Primitive& p, const Vec3& normal, double lower, double upper) {
   p.v[0] = normal.x;
   p.v[1] = normal.y;
@@ -31,8 +31,8 @@ inline void clip_to_caps(Interval& i, const Primitive& p, const Ray& ray) {
   clip_to_slab(i, lower_cap(p), upper_cap(p), dot(n, ray.origin), dot(n, ray.direction));
 }
 
-/// The cap that a parameter belongs to, as an outward normal; zero when it is the lateral
-/// surface's.
+/// The outward normal of the cap that is crossed at parameter t; zero when t is on the lateral
+/// surface.
 inline Vec3 cap_at(const Primitive& p, const Ray& ray, double t) {
   const Vec3 n = cap_normal(p);
   const double o = dot(n, ray.origin);
@@ -53,7 +53,7 @@ inline bool misses_caps(const Primitive& p, const Aabb& cell) {
   return least_along(n, cell) > upper_cap(p) || greatest_along(n, cell) < lower_cap(p);
 }
 
-/// Where x² + y² ≤ 1.
+/// The part of the line o + t d with x² + y² ≤ 1.
 inline Interval tube_interval(const Vec3& o, const Vec3& d) {
   const double dd = d.x * d.x + d.y * d.y;
   const double nearest = -(o.x * d.x + o.y * d.y) / dd;
@@ -110,8 +110,8 @@ inline Aabb grown_cylinder_bounds(const Primitive& p, double by) {
 inline double cone_slope(const Primitive& p) { return p.v[5]; }
 inline void set_cone_slope(Primitive& p, double k) { p.v[5] = k; }
 
-/// Where x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is one interval; the
-/// caps cut the other nappe off.
+/// The part of the line with x² + y² ≤ (1 + k z)² on the nappe with 1 + k z ≥ 0, as far as that is
+/// one interval; the caps cut the other nappe off.
 Interval cone_interval(double k, const Vec3& o, const Vec3& d);
 
 inline Spans cone_spans(const Primitive& p, const Ray& ray) {

@@ -6,7 +6,7 @@
 namespace graycube::csg {
 namespace {
 
-/// How far beyond its bounds a solid is looked for, in parts of their size: there its quartic is
+/// How far beyond its bounds, as a share of their size, a solid is looked for: there its quartic is
 /// positive.
 constexpr double kBeyond = 1e-9;
 
@@ -19,8 +19,8 @@ Range radius_over(double k, double lo, double hi) {
   return {std::fmax(0, std::fmin(a, b)), std::fmax(0, std::fmax(a, b))};
 }
 
-/// Whether a line passes outside of the ellipse a cone has where it is widest in [enter, leave] of
-/// s. A little larger than the cone: what is left out has no roots.
+/// Whether the line q + s u passes outside the widest ellipse of the cone for s in [enter, leave].
+/// The ellipse is taken a little too large, so that a line that misses it has no roots.
 bool misses_widest(const Vec3& q, const Vec3& u, double k, double enter, double leave) {
   constexpr double kWider = 1 + 1e-6;
   const double z0 = q.z + enter * u.z, z1 = q.z + leave * u.z;
@@ -48,8 +48,8 @@ Spans elliptic_cone_spans(const Primitive& p, const Ray& ray) {
   const Vec3 d = p.to_local.vector(ray.direction);
   const double speed = length(d);
   const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
-  // Recentred at the point nearest the frame's origin, and roots settled: whoever has the same
-  // surface between other caps meets it at the same parameters.
+  // Recentred at the point nearest the frame's origin, and roots settled: so all solids that share
+  // a surface between different caps are met at the same parameters.
   const double nearest = -dot(o, u);
   const Vec3 q = o + nearest * u;
   if (misses_widest(q, u, k, i.enter * speed - nearest, i.leave * speed - nearest)) return {};
@@ -86,7 +86,7 @@ CellSide classify_elliptic_cone(const Primitive& p, const Aabb& cell) {
   const Range a = radius_over(1, l.lo.z, l.hi.z);
   const Range b = radius_over(second_slope(p), l.lo.z, l.hi.z);
   const double x = distance_to_zero(l.lo.x, l.hi.x), y = distance_to_zero(l.lo.y, l.hi.y);
-  // Multiplied out, as radii may be 0.
+  // Multiplied out, since radii may be 0.
   if (x * x * b.hi * b.hi + y * y * a.hi * a.hi > a.hi * a.hi * b.hi * b.hi)
     return CellSide::kOutside;
   const double far_x = std::fmax(-l.lo.x, l.hi.x), far_y = std::fmax(-l.lo.y, l.hi.y);

@@ -1,6 +1,6 @@
-// Cones between two ellipses of different shape: caps as a cone's, with the axes shrinking by
+// Cones between two ellipses of different shapes: capped like cones, with axes that shrink by
 // different shares. In the primitive's frame the solid is x² / (1 − z)² + y² / (1 − k z)² ≤ 1
-// between its caps; k, the second slope, lies in [−1, 1). It needs not be convex.
+// between its caps; k, the second slope, lies in [−1, 1). It need not be convex.
 #pragma once
 
 #include "csg/cylinder.hpp"

@@ -7,12 +7,12 @@
 
 namespace graycube::csg {
 
-/// The ellipse's three coefficients, and how far it reaches.
+/// Slots from the ellipse's three coefficients and its reach outwards and along the axis.
 inline Slots elliptic_torus_slots(const Vec3& ellipse, double outwards, double along) {
   return {ellipse.x, ellipse.y, ellipse.z, outwards, along, 0};
 }
 
-/// The coefficients of (ρ − 1)², of (ρ − 1) z, half, and of z².
+/// The coefficient of (ρ − 1)², half that of (ρ − 1) z, and that of z².
 inline Vec3 ellipse_of(const Primitive& p) { return {p.v[0], p.v[1], p.v[2]}; }
 
 Spans elliptic_torus_spans(const Primitive& p, const Ray& ray);

@@ -72,7 +72,7 @@ inline bool polyhedron_contains(std::span<const Plane> faces, const Vec3& q) {
   }
   return true;
 }
-/// The first face whose parameter is t.
+/// The normal of the first face that the ray crosses at parameter t.
 inline Vec3 polyhedron_normal(std::span<const Plane> faces, const Ray& ray, double t) {
   for (const Plane& f : faces) {
     if (is_on_plane(f.offset, dot(f.normal, ray.origin), dot(f.normal, ray.direction), t)) {
@@ -93,7 +93,7 @@ inline CellSide classify_polyhedron(const Primitive& p, std::span<const Plane> f
   return inside ? CellSide::kInside : CellSide::kCrosses;
 }
 
-/// Its planes, moved, are appended to `planes`.
+/// Appends the moved planes to `planes`.
 inline bool move_polyhedron(Primitive& p, std::span<const Plane> faces, double by,
                             std::vector<Plane>& planes) {
   p.first_plane = static_cast<std::uint32_t>(planes.size());
@@ -101,7 +101,7 @@ inline bool move_polyhedron(Primitive& p, std::span<const Plane> faces, double b
   return true;
 }
 
-/// Infinite but for a half-space across a world axis.
+/// Bounds of a half-space: infinite except for one across a world axis.
 Aabb half_space_bounds(const Plane& plane);
 
 /// Bounds of the intersection of the half-spaces. When it is unbounded, or a vertex lies farther

@@ -1,5 +1,5 @@
-// The list of the kinds of primitives: a row a kind, with all that the engine must know of it. What
-// a row names is in the kind's own file.
+// The table of the kinds of primitives: one row for each, with all that the engine must know of it.
+// The functions that a row names are in the kind's own file.
 #pragma once
 
 #include <array>
@@ -30,16 +30,16 @@ struct KindTraits {
   PrimitiveKind kind;
   std::string_view name;
   Solvers solvers;
-  /// A line may be inside of it twice. Others are solved for several rays at once
-  /// (crossings/packet_intervals-inl.hpp).
+  /// A line may be inside it in two intervals (or more). Other kinds are solved for several rays at
+  /// once (crossings/packet_intervals-inl.hpp).
   bool has_two_intervals = false;
-  /// Its slots are all that it takes to solve it.
+  /// It can be solved from its slots alone.
   bool is_all_slots = false;
-  /// Mostly a quartic has to be solved, which is counted.
+  /// Its solver mostly solves a quartic, which WalkCounts counts.
   bool is_quartic = false;
-  /// Moves the surface, appending moved planes; null where no solid of the kind is the moved one.
+  /// Moves the surface outwards, appending moved planes; null if no solid of the kind can be that.
   bool (*move)(Primitive&, const PrimitiveData&, double by, std::vector<Plane>&) = nullptr;
-  /// The bounds of a solid that was moved outwards; null where they are as much larger.
+  /// The bounds of a solid that was moved outwards; null if its bounds just grow by as much.
   Aabb (*grown_bounds)(const Primitive&, double by) = nullptr;
 };
 
@@ -59,7 +59,7 @@ auto ask(const Primitive& p, const PrimitiveData& data, const Arguments&... argu
   }
 }
 
-/// `normal` may ask for the point or for the ray and its parameter.
+/// A kind's solvers. `normal` may take the point, or the ray and its parameter.
 template <auto spans, auto contains, auto normal, auto classify>
 constexpr Solvers solvers() {
   return {[](const Primitive& p, const PrimitiveData& data, const Ray& ray) {
@@ -80,7 +80,7 @@ constexpr Solvers solvers() {
           }};
 }
 
-/// A move that needs no planes, as KindTraits takes it.
+/// Wraps a move that needs no planes for KindTraits::move.
 template <auto function>
 bool plain_move(Primitive& p, const PrimitiveData&, double by, std::vector<Plane>&) {
   return function(p, by);
@@ -90,7 +90,7 @@ inline bool move_faces(Primitive& p, const PrimitiveData& data, double by,
   return move_polyhedron(p, faces_of(p, data.planes), by, planes);
 }
 
-/// In the order of PrimitiveKind, whose values are what goes over wires.
+/// In the order of PrimitiveKind, whose values go over the wire.
 inline constexpr std::array<KindTraits, kPrimitiveKinds> kKinds{{
     {.kind = PrimitiveKind::kSphere,
      .name = "sphere",
@@ -167,8 +167,8 @@ constexpr const KindTraits& traits_of(PrimitiveKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
 }
 
-/// Bit k: the kind with number k has a trait. One test tells, where that is asked for every literal
-/// of every ray.
+/// A mask in which bit k tells that kind number k has a trait: a quick test for code that asks for
+/// every literal of every ray.
 constexpr std::uint32_t kinds_with(bool KindTraits::*trait) {
   std::uint32_t mask = 0;
   for (std::size_t k = 0; k < kKinds.size(); ++k) mask |= std::uint32_t{kKinds[k].*trait} << k;

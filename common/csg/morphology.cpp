@@ -20,7 +20,7 @@ Primitive box_around(const Primitive& p, double by) {
   return box;
 }
 
-/// A kind's move, on a copy. Nothing when no such solid is known, or it is empty.
+/// A moved copy of a primitive; nothing when its kind can't be moved, or nothing is left of it.
 std::optional<Primitive> moved(Primitive p, const PrimitiveData& data, double by,
                                std::vector<Plane>& planes) {
   const auto& kind = csg::traits_of(p.kind);
@@ -33,7 +33,7 @@ Aabb dilated_bounds(const Primitive& p, double by) {
   return kind.grown_bounds != nullptr ? kind.grown_bounds(p, by) : p.bounds.grown(by);
 }
 
-/// One scene from another, leaf by leaf.
+/// Makes a dilated or eroded scene from another, leaf by leaf.
 class Resizing {
  public:
   Resizing(const Model& model, const ObjectDistance& by, bool grows)
@@ -106,7 +106,7 @@ class Resizing {
   bool grows_;
   Model out_;
   std::vector<TreeNode> tree_;
-  /// By leaf of the tree under way.
+  /// For each leaf of the current object's tree, whether nothing is left of it.
   std::vector<bool> is_gone_;
 };
 
@@ -130,7 +130,7 @@ std::optional<Primitive> eroded(const Primitive& p, const PrimitiveData& data, d
 std::optional<Model> dilated(const Model& model, const ObjectDistance& by) {
   return Resizing(model, by, true).run();
 }
-// A smaller solid never fills space.
+// An eroded solid never fills all of space, so there always is a result.
 Model eroded(const Model& model, const ObjectDistance& by) {
   return *Resizing(model, by, false).run();
 }

@@ -1,5 +1,5 @@
-// Solids made larger or smaller by a distance, after Minkowski and Serra: what is true of every
-// line near another follows from that one line through such solids.
+// Solids made larger or smaller by a distance, after Minkowski and Serra: one line through such
+// solids tells what holds for all lines near it.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,23 @@
 namespace graycube {
 
 /// A solid that holds every point at most `by` from `p` (scene units). Often a little larger: kinds
-/// that have no simple one become a box. New planes of polyhedra are appended to `planes`, whose
-/// numbers it has.
+/// that can't be moved become a box. New planes of a polyhedron are appended to `planes`, to which
+/// its plane numbers refer.
 Primitive dilated(const Primitive& p, const PrimitiveData& data, double by,
                   std::vector<Plane>& planes);
 
-/// A solid of which every point lies in `p` together with all that is at most `by` from it. Often a
-/// little smaller; nothing where there may be no such point, and for kinds that have no simple one.
+/// A solid whose points all lie in `p` together with everything at most `by` from them. Often a
+/// little smaller; nothing when there may be no such point, and for kinds that can't be moved.
 std::optional<Primitive> eroded(const Primitive& p, const PrimitiveData& data, double by,
                                 std::vector<Plane>& planes);
 
 /// How far an object's surface moves.
 using ObjectDistance = std::function<double(const Object&)>;
 
-/// The whole scene so, each object for itself: what is taken away from a solid changes the other
-/// way round. Nothing when an object would fill all of space.
+/// The whole scene dilated, each object by itself; parts that are subtracted from an object are
+/// eroded instead. Nothing when an object would fill all of space.
 std::optional<Model> dilated(const Model& model, const ObjectDistance& by);
-/// Only the objects of which something is left, and without any that has a transparent material.
+/// The whole scene eroded, without objects that vanish or have a transparent material.
 Model eroded(const Model& model, const ObjectDistance& by);
 
 }  // namespace graycube

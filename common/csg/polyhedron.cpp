@@ -40,7 +40,7 @@ constexpr double kReach = 1e4;
 /// Faces beyond this many make clipping every face by every other too slow; bounds stay infinite.
 constexpr std::size_t kMaxClippedFaces = 4096;
 
-/// What the faces across the world axes alone imply; infinite elsewhere.
+/// The bounds that the faces across the world axes alone imply; infinite elsewhere.
 Aabb bounds_of_axis_faces(std::span<const Plane> faces) {
   Aabb bounds;
   for (const Plane& f : faces) {
@@ -77,7 +77,7 @@ Aabb polyhedron_bounds(std::span<const Plane> faces) {
   for (std::size_t i = 0; i < faces.size(); ++i) {
     Polygon polygon = square_in(faces[i], reach);
     for (std::size_t j = 0; j < faces.size() && !polygon.empty(); ++j) {
-      // Of coincident faces each clips the others to nothing or to all; all is wanted.
+      // Coincident faces would clip one another to nothing or to all; all is wanted.
       if (j != i && !(faces[j] == faces[i])) {
         Plane loose = faces[j];
         loose.offset += margin;

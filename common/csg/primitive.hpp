@@ -16,8 +16,8 @@
 
 namespace graycube {
 
-/// What differs between them is listed in csg/kinds.hpp. What the slots of `Primitive::v` hold is
-/// said in each kind's own file, which alone reads them by their places.
+/// The kinds; csg/kinds.hpp lists their differences. The meaning of the slots of `Primitive::v` is
+/// given in each kind's own file, which alone reads them by their indices.
 enum class PrimitiveKind : std::uint8_t {
   kSphere,
   kEllipsoid,
@@ -53,7 +53,7 @@ struct Primitive {
   friend bool operator==(const Primitive&, const Primitive&) = default;
 };
 
-/// What primitives keep elsewhere.
+/// The planes and meshes of a model, to which its primitives refer.
 struct PrimitiveData {
   PrimitiveData(std::span<const Plane> all_planes, std::span<const Mesh> all_meshes)
       : planes(all_planes), meshes(all_meshes) {}
@@ -75,8 +75,8 @@ bool contains(const Primitive& primitive, const PrimitiveData& data, const Vec3&
 Vec3 outward_normal(const Primitive& primitive, const PrimitiveData& data, const Ray& ray,
                     double t);
 
-/// Where a cell lies: wholly outside the primitive, wholly inside, or perhaps crossed by its
-/// surface. Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ
+/// Tells whether a cell lies wholly outside the primitive, wholly inside, or is perhaps crossed by
+/// its surface. Conservative: only kCrosses may be wrong. The cell must be grown by the scene's δ
 /// already; touching counts as crossing. Cells may be unbounded.
 CellSide classify(const Primitive& primitive, const PrimitiveData& data, const Aabb& cell);
 

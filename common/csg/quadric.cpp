@@ -5,7 +5,7 @@
 namespace graycube::csg {
 namespace {
 
-/// a s² + 2 b s + c ≤ 0: between its roots, or outside of them.
+/// The solution of a s² + 2 b s + c ≤ 0: the stretch between two roots, or all but that.
 struct Roots {
   double lower = 0, upper = 0;
   enum class Where : std::uint8_t { kNowhere, kEverywhere, kBetween, kOutside, kBelow, kAbove };

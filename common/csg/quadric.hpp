@@ -11,7 +11,7 @@ inline Slots quadric_slots(const std::array<double, 4>& q) {
   return {q[0], q[1], q[2], q[3], 0, 0};
 }
 
-/// Of y², z², z and 1.
+/// The coefficients of y², z², z and 1.
 inline std::array<double, 4> quadric_coefficients(const Primitive& p) {
   return {p.v[0], p.v[1], p.v[2], p.v[3]};
 }

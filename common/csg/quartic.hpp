@@ -1,4 +1,4 @@
-// Where a quartic is negative on a piece of a line. It is never expanded: sums of products of
+// Finds where a quartic is negative on a piece of a line. It is never expanded: sums of products of
 // quadratics keep their digits. Extremes lie between the zeros of the second derivative, roots
 // between extremes, and membership is evaluated, never counted.
 #pragma once
@@ -35,14 +35,14 @@ double bracketed_root(F&& f, Derivative&& derivative, double lo, double hi, doub
   return s;
 }
 
-/// A root near which `f` changes its sign in [lo, hi], the same to the bit whatever the interval: f
-/// is evaluated on a fixed grid around the root, and the search begins anew in the step of the grid
-/// where its sign changes. What tells an interval from another is not more than which roots it
-/// holds.
+/// A root near which `f` changes its sign in [lo, hi], the same to the bit for every
+/// interval: f is evaluated on a fixed grid around the root, and the search begins anew in
+/// the step of the grid in which the sign changes. Intervals matter only by the roots that
+/// they hold.
 template <typename F, typename Derivative>
 double settled_root(F&& f, Derivative&& derivative, double lo, double hi) {
   constexpr double kStep = 0x1p-36;
-  // Beyond it a step has too few doubles.
+  // Beyond this a step of the grid holds too few doubles.
   constexpr double kFarthest = 0x1p+12;
   const double s = bracketed_root(f, derivative, lo, hi, kStep / 8);
   if (!(std::fabs(s) < kFarthest)) return bracketed_root(f, derivative, lo, hi);
@@ -52,7 +52,7 @@ double settled_root(F&& f, Derivative&& derivative, double lo, double hi) {
     return bracketed_root(f, derivative, below, below + kStep);
   if ((f(below - kStep) < 0) != is_negative)
     return bracketed_root(f, derivative, below - kStep, below);
-  // It touches more than it cuts.
+  // No sign changes in the grid's steps nearby: f rather touches zero than crosses it.
   return bracketed_root(f, derivative, lo, hi);
 }
 
@@ -108,7 +108,7 @@ struct ProductQuartic {
     }
     return sum;
   }
-  /// The zeros of f″ in [lo, hi], in order.
+  /// Adds the zeros of f″ in [lo, hi], in order.
   void add_inflections(double lo, double hi, Knots<4>& knots) const {
     double c4 = 0, c3 = 0, c2 = 0;
     for (const Term& t : terms) {
@@ -197,7 +197,7 @@ struct FindRoot {
                           a, b);
   }
 };
-/// The same to the bit whichever piece of the line is searched.
+/// Finds the same root, to the bit, whichever piece of the line is searched.
 struct FindSettledRoot {
   template <typename Line>
   double operator()(const Line& line, double a, double b) const {
@@ -206,8 +206,8 @@ struct FindSettledRoot {
   }
 };
 
-/// Where the quartic is negative between enter and leave; spans that reach an end have exactly its
-/// parameter.
+/// The spans in which the quartic is negative between enter and leave; those that reach an end have
+/// exactly its parameter.
 template <typename Line, typename Find = FindRoot>
 Spans quartic_spans(const Line& line, const QuarticRange& range, const Find& find = {}) {
   const Knots<5> knots = quartic_extremes(line, range.s_enter, range.s_leave);

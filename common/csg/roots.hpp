@@ -1,4 +1,4 @@
-// What the single kinds share: boxes seen in a primitive's own frame, and frames that grow.
+// Functions that several kinds share: boxes seen in a primitive's own frame, and frames that grow.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ bool all_corners(const Aabb& box, Predicate&& is_inside) {
   return true;
 }
 
-/// Where a cell lies relative to a bounded primitive whose own frame gives `misses(local bounds of
-/// the part of the cell near the primitive)` and, for a convex primitive, `holds(world point)`.
+/// Classifies a cell against a bounded primitive, by misses(local bounds of the part of the cell
+/// near the primitive) and, for a convex primitive, holds(world point).
 template <typename Misses, typename Holds>
 CellSide classify_bounded(const Primitive& p, const Aabb& cell, Misses&& misses, Holds&& holds) {
   const Aabb near = intersection_of(cell, p.bounds);
@@ -36,8 +36,8 @@ CellSide classify_bounded(const Primitive& p, const Aabb& cell, Misses&& misses,
   return CellSide::kCrosses;
 }
 
-/// How far a local point can move along each of the first `rows` local axes together when the
-/// world's moves by 1: at least the norm of these rows of the map (by Gershgorin's circles).
+/// The most by which a local point can move in the space of the first `rows` local axes when the
+/// world point moves by 1: no less than the norm of these rows (by Gershgorin's circles).
 inline double stretch(const Affine& to_local, int rows) {
   double most = 0;
   for (int i = 0; i < rows; ++i) {
@@ -66,7 +66,7 @@ inline Aabb grown_bounds(const Primitive& p, const Vec3& local) {
   }
   return {p.bounds.lo - by, p.bounds.hi + by};
 }
-/// The same for one that grows alike in all directions.
+/// Bounds of a solid that grows by `by` (scene units) in all directions.
 inline Aabb bounds_grown_around(const Primitive& p, double by) {
   const double all = by * stretch(p.to_local, 3);
   return grown_bounds(p, {all, all, all});

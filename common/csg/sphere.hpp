@@ -52,8 +52,8 @@ inline CellSide classify_sphere(const Primitive& p, const Aabb& cell) {
   return farthest2 < r2 ? CellSide::kInside : CellSide::kCrosses;
 }
 
-/// The move_… of each kind: moves the surface outwards by `by`, inwards where it is negative;
-/// bounds stay. False where nothing is left.
+/// Like the move_… of every kind: moves the surface outwards by `by` (inwards if negative); leaves
+/// the bounds alone. False when nothing is left.
 inline bool move_sphere(Primitive& p, double by) {
   p.v[3] += by;
   return sphere_radius(p.v) > 0;

@@ -36,8 +36,8 @@ struct TorusLine {
 };
 
 /// The part of the line q + s u that is in the bounding sphere and between the planes that the
-/// torus touches; nothing where it passes outside or through the hole. Everything is a little
-/// larger than the torus, so that both ends lie outside of it.
+/// torus touches; nothing when it passes outside or through the hole. All of these are taken a
+/// little larger than the torus, so that both ends of the part lie outside of it.
 std::optional<Interval> part_near_torus(const Vec3& q, const Vec3& u, double minor, double reach) {
   constexpr double kMargin = 1e-6;
   Interval part;

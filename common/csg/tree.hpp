@@ -9,7 +9,7 @@
 
 namespace graycube {
 
-/// What a tree became in a cell: a constant, or still something with a surface.
+/// What is left of a tree in a cell: a constant, or a tree that has a surface there.
 enum class Pruned : std::uint8_t { kNothing, kEverything, kVaries };
 
 /// Appends to `out` the tree restricted to a cell: `side_of(primitive)` gives each leaf's CellSide,

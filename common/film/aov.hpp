@@ -1,5 +1,5 @@
-// Arbitrary output variables: what a picture may say of each pixel beside its light. They are
-// values of the first hit of one primary ray, never sums, and travel and rest as bit patterns.
+// Arbitrary output variables: values that a picture may hold for each pixel beside its light. They
+// are those of the first hit of one primary ray, never sums, and are sent and kept as bit patterns.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ enum class Aov : std::uint8_t {
   kObject,  ///< 1 + the object's index in the file; 0 where nothing is hit
 };
 
-/// Names as on the command line and on the wire, by Aov.
+/// Names on the command line and on the wire, indexed by Aov.
 inline constexpr std::array<std::string_view, 4> kAovNames{"depth", "normal", "albedo", "object"};
 
 class AovSet {
@@ -43,14 +43,14 @@ class AovSet {
   std::uint8_t bits_ = 0;
 };
 
-/// "depth,normal": names in any order, each at most once; the empty text is the empty set. Nothing
-/// for anything else.
+/// Parses a list such as "depth,normal": names in any order, each at most once; the empty text is
+/// the empty set. Nothing for any other text.
 std::optional<AovSet> parse_aovs(std::string_view text);
-/// What parse_aovs reads.
+/// The text from which parse_aovs() makes the set.
 std::string to_string(AovSet aovs);
 
 /// AOVs are kept in planes of three 32-bit words a pixel: normal X, Y, Z; albedo R, G, B; depth,
-/// object and an unused one. A plane exists where one of its AOVs is asked for.
+/// object and an unused one. A plane exists if one of its AOVs is asked for.
 inline constexpr std::size_t kAovPlanes = 3;
 using AovWords = std::array<std::uint32_t, 3>;
 inline constexpr std::size_t kNormalPlane = 0, kAlbedoPlane = 1, kDepthPlane = 2;
@@ -61,11 +61,11 @@ constexpr bool has_plane(AovSet aovs, std::size_t plane) {
   return plane == kDepthPlane && (aovs.has(Aov::kDepth) || aovs.has(Aov::kObject));
 }
 
-/// What a plane holds where nothing is hit.
+/// The words that a plane holds for a pixel whose ray hits nothing.
 AovWords aov_background(std::size_t plane);
 
-/// Where light and AOVs are addressed alike: slot plane number · pixels + pixel, light first, then
-/// the kAovPlanes planes.
+/// The number under which a pixel's AOVs are addressed like light: slots 0 … pixels − 1 are the
+/// light, then those of the kAovPlanes planes follow.
 constexpr std::uint32_t aov_slot(std::size_t plane, std::uint64_t pixels, std::uint32_t pixel) {
   return static_cast<std::uint32_t>((plane + 1) * pixels + pixel);
 }

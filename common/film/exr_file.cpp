@@ -74,7 +74,7 @@ Imf::FrameBuffer frame_of(Picture& picture, const Imath::Box2i& window) {
   return frame;
 }
 
-/// Words that no channel of the file fills stay those of the background.
+/// A plane of background words: those that no channel of the file fills keep them.
 std::vector<std::uint32_t> blank_plane(std::size_t plane, std::uint64_t pixels) {
   const AovWords words = aov_background(plane);
   std::vector<std::uint32_t> blank;
@@ -109,8 +109,8 @@ AovSet aovs_among(const Imf::ChannelList& channels) {
 }
 
 /// Shading is noise to a compressor: ZIP takes 200 to 300 ms for a megapixel of it, a good part of
-/// what tracing takes, to halve the file. Where three quarters repeat the pixel before, as on a
-/// plain background, it is fast and shrinks the file to a fraction
+/// the time for tracing, to halve the file. If three quarters of the pixels repeat the one before,
+/// as on a plain background, it is fast and shrinks the file to a fraction
 /// (docs/lab/2026-11-22-files.md).
 Imf::Compression compression_for(const Picture& picture) {
   constexpr std::size_t kStep = 3;

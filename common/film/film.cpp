@@ -20,9 +20,9 @@ int bit_width(Magnitude v) {
                    : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(v)));
 }
 
-/// sum · 2^-32 / rays, rounded to nearest even once. The quotient is taken to about 40 bits; what
-/// lies below them is folded into the last one, so that the conversion to 24 bits rounds as the
-/// exact value would.
+/// sum · 2^-32 / rays, rounded to nearest even once. The quotient is taken to about 40 bits; a
+/// remainder sets the last of them, so that the conversion to 24 bits rounds as the exact value
+/// would.
 float mean(Magnitude sum, std::uint32_t rays) {
   if (sum == 0) return 0;
   const int shift = 40 + static_cast<int>(std::bit_width(rays)) - bit_width(sum);
@@ -38,7 +38,7 @@ float mean(Magnitude sum, std::uint32_t rays) {
   return static_cast<float>(std::ldexp(static_cast<double>(quotient), -32 - shift));
 }
 
-/// The same for sums of 64 bits, which nearly all are: no 128-bit division, no library call. All
+/// Like mean(), for sums of 64 bits, as nearly all are: no 128-bit division, no library call. All
 /// means are normal floats, so scaling by a power of two is exact.
 class ShortMean {
  public:
@@ -73,7 +73,7 @@ class ShortMean {
   float scale_;
 };
 
-/// Adds to a sum's lower half; what that changes in the upper half is −1, 0 or 1.
+/// Adds to a sum's lower half; returns the change of the upper half: −1, 0 or 1.
 std::int64_t add_low(std::uint64_t& low, std::int64_t light) {
   const auto added = static_cast<std::uint64_t>(light);
   low += added;

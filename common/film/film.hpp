@@ -11,7 +11,7 @@
 
 namespace graycube {
 
-/// Larger pictures are neither made nor read.
+/// The largest side and number of pixels of a picture that is made or read.
 inline constexpr std::uint32_t kMaxPictureSide = 1u << 16;
 inline constexpr std::uint64_t kMaxPicturePixels = 1ull << 26;
 
@@ -20,7 +20,7 @@ struct Picture {
   std::uint32_t width = 0, height = 0;
   std::vector<float> rgb;
   AovSet aovs{};
-  /// Three words a pixel, laid out as rgb; empty for planes that aovs doesn't need.
+  /// Three words a pixel, laid out like rgb; empty for planes that `aovs` doesn't need.
   std::array<std::vector<std::uint32_t>, kAovPlanes> aov_planes{};
 
   friend bool operator==(const Picture&, const Picture&) = default;

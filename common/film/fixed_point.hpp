@@ -24,13 +24,13 @@ struct FixedRgb {
 inline constexpr double kFixedOne = 4294967296.0;  // 2^32
 /// A contribution's largest component; brighter ones are clamped and counted.
 inline constexpr double kMaxContribution = 1048576.0;  // 2^20
-/// So many clamped contributions can't overflow 64 bits: 2^10 · 2^52 < 2^63.
+/// This many clamped contributions can't overflow 64 bits: 2^10 · 2^52 < 2^63.
 inline constexpr std::uint32_t kMaxMergedContributions = 1024;
-/// A merged contribution's largest component: that of so many of the largest, 2^62.
+/// A merged contribution's largest component: the sum of the most and largest contributions, 2^62.
 inline constexpr std::int64_t kMaxMergedLight =
     std::int64_t{kMaxMergedContributions} * static_cast<std::int64_t>(kMaxContribution * kFixedOne);
 
-/// How many components had to be mended while rounding.
+/// The numbers of components that were not finite, or were clamped, when they were rounded.
 struct RoundingCounts {
   std::uint64_t non_finite = 0;
   std::uint64_t clamped = 0;

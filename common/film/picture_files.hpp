@@ -15,8 +15,8 @@ struct PictureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What an EXR's header says of the picture beside its size. No time, host or user: equal pictures
-/// are equal files.
+/// The attributes that an EXR's header gives beside the picture's size. No time, host or user:
+/// equal pictures make equal files.
 struct PictureOrigin {
   std::string scene;    // attribute "scene": the scene file's name without folders
   std::string version;  // attribute "graycube"
@@ -30,8 +30,8 @@ void write_exr(const std::filesystem::path& path, const Picture& picture,
                const PictureOrigin& origin);
 Picture read_exr(const std::filesystem::path& path);
 
-/// 16-bit linear RGB, floor(65535 · clamp(v, 0, 1) + 0.5), when the name ends in ".linear.png";
-/// else 8-bit sRGB. Whole or not at all, as above.
+/// Writes 16-bit linear RGB, floor(65535 · clamp(v, 0, 1) + 0.5), if the name ends in
+/// ".linear.png"; else 8-bit sRGB. The file appears whole or not at all, like that of write_exr().
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 /// A PNG's samples as stored: 8 or 16 bits, RGB (grey is widened, alpha dropped).

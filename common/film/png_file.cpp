@@ -21,7 +21,7 @@
 namespace graycube {
 namespace {
 
-/// What one of libpng's errors leaves behind.
+/// The text of a libpng error.
 struct Complaint {
   std::array<char, 160> text{};
 };
@@ -90,7 +90,7 @@ bool encode(Writer& writer, WholeFile& file, const Layout& layout, const float* 
   } else {
     png_set_gAMA(png, writer.info, 1.0);
   }
-  // Of all rows the differences, compressed fast: a third of the time of libpng's defaults, which
+  // All rows as differences, compressed fast, take a third of the time of libpng's defaults, which
   // try every filter, for files a sixth larger at most (docs/lab/2026-11-22-files.md).
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_compression_level(png, 1);

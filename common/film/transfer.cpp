@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// Written so that NaN falls to 0.
+/// The value clamped to [0, 1]; written so that NaN becomes 0.
 double clamped(float v) { return v > 0 ? std::min(static_cast<double>(v), 1.0) : 0.0; }
 
 int srgb_code(double v) {
@@ -21,8 +21,8 @@ int srgb_code(double v) {
 /// Entry k is the least float whose code is k + 1; the last one is beyond all.
 using Thresholds = std::array<float, 256>;
 
-/// A power per sample would cost more than all else in writing a PNG. Non-negative floats are
-/// ordered as their bits are, so each threshold is found by halving the range of bits.
+/// Thresholds are used since a power for each sample would cost more than all else in writing a
+/// PNG. Non-negative floats are ordered like their bits, so each is found by bisecting the bits.
 Thresholds find_thresholds() {
   Thresholds thresholds{};
   std::uint32_t below = 0;  // its code is at most k

@@ -1,4 +1,4 @@
-// From linear light to the whole numbers of a PNG. Every machine gives the same numbers.
+// Turns linear light into the whole numbers of a PNG. Every machine gives the same numbers.
 #pragma once
 
 #include <cstdint>

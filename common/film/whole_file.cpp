@@ -24,7 +24,7 @@ constexpr int kMaxAttempts = 1000;
   fail(path, std::generic_category().message(error));
 }
 
-/// The file that `path` leads to, when it exists.
+/// The file to which `path` leads, through symbolic links, if it exists; else `path`.
 std::filesystem::path resolved(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

@@ -8,9 +8,9 @@
 
 namespace graycube {
 
-/// Written beside its target under a temporary name and renamed by `commit`; removed when destroyed
-/// before that. A target that is a symbolic link keeps being one; a target that exists but is no
-/// regular file (a folder, a device) is refused.
+/// A file written beside its target under a temporary name and renamed by `commit`; removed when
+/// destroyed before that. A target that is a symbolic link stays one; a target that exists but is
+/// no regular file (a folder, a device) is refused.
 class WholeFile {
  public:
   /// Throws PictureError when the file can't be created.

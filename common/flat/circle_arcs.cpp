@@ -21,7 +21,7 @@ void CircleArcs::keep(double a, double b, double c, double tolerance, std::size_
     arcs_.clear();
     return;
   }
-  // The two points on the line, either side of the direction in which the half-plane ends.
+  // The two points of the circle on the half-plane's line, to the left and right of its normal.
   const FlatPoint out{a / slope, b / slope};
   const double cosine = c / slope, sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
   const FlatPoint left{cosine * out.x - sine * out.y, cosine * out.y + sine * out.x};

@@ -8,22 +8,22 @@
 
 namespace graycube {
 
-/// Closed arcs, none shorter than kLeastArc. Positions on the circle are measured without
-/// trigonometry, whose last bits differ between machines: 0 to 4 once around, |x| + |y| being 1.
+/// Closed arcs, none shorter than kLeastArc. Positions on the circle go from 0 to 4 once around,
+/// along the square |x| + |y| = 1: trigonometry's last bits differ between machines.
 class CircleArcs {
  public:
-  /// Shorter arcs are points by rounding. (Leaving one out moves the surface of a unit circle by
-  /// 1e-15.)
+  /// Shorter arcs are single points but for rounding. (Leaving one out moves the surface of a unit
+  /// circle by 1e-15.)
   static constexpr double kLeastArc = 1e-7;
   static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
   struct End {
     double position = 0;
     FlatPoint direction;
-    /// Whose half-plane ends the arc here.
+    /// The number, given to keep(), of the half-plane that ends the arc here.
     std::size_t cutter = kNobody;
   };
-  /// From `from` counter-clockwise to `to`, up to once around.
+  /// The arc from `from` counter-clockwise to `to`, at most once around.
   struct Arc {
     End from, to;
     bool is_whole() const { return from.cutter == kNobody; }

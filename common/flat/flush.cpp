@@ -12,9 +12,9 @@
 namespace graycube {
 namespace {
 
-/// Of the largest coordinate's power of two: four steps of Clipper's grid.
+/// The binary exponent, relative to the largest coordinate's, of four steps of Clipper's grid.
 constexpr int kGridSteps = -38;
-/// Details keep their corners.
+/// The tolerance is at most this share of the shortest side, so that details keep their corners.
 constexpr double kShareOfSide = 0.25;
 
 bool is_before(const FlatPoint& a, const FlatPoint& b) {
@@ -24,8 +24,8 @@ double squared_distance(const FlatPoint& a, const FlatPoint& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// Where p is along the side from a to b, 0 to 1, if it is within the tolerance of it and not at
-/// its ends; else −1.
+/// The place of p along the side from a to b, between 0 and 1, if it is within the tolerance of the
+/// side and not at its ends; else −1.
 double place_on_side(const FlatPoint& a, const FlatPoint& b, const FlatPoint& p, double tolerance) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double along = ((p.x - a.x) * dx + (p.y - a.y) * dy) / square;
@@ -34,7 +34,7 @@ double place_on_side(const FlatPoint& a, const FlatPoint& b, const FlatPoint& p,
   return is_near ? along : -1;
 }
 
-/// The corners that stay, each found by what lies near it.
+/// The corners that stay, with a search for the one that is near a point.
 class Corners {
  public:
   Corners(std::span<const FlatLoops> operands, double tolerance) : tolerance_(tolerance) {
@@ -49,9 +49,9 @@ class Corners {
       by_x_.push_back(p);
     }
   }
-  /// That of one of the operands' corners.
+  /// The corner that stays in place of one of the operands' corners.
   const FlatPoint& of(const FlatPoint& p) const { return *near(p); }
-  /// Appends those on the side from a to b, ends apart, in order.
+  /// Appends the corners on the side from a to b, without its ends, in order.
   void on_side(const FlatPoint& a, const FlatPoint& b, FlatLoop& out) const {
     const double lo_x = std::min(a.x, b.x) - tolerance_, hi_x = std::max(a.x, b.x) + tolerance_;
     const double lo_y = std::min(a.y, b.y) - tolerance_, hi_y = std::max(a.y, b.y) + tolerance_;
@@ -73,7 +73,7 @@ class Corners {
   Cell cell_of(const FlatPoint& p) const {
     return {std::floor(p.x / tolerance_), std::floor(p.y / tolerance_)};
   }
-  /// The first within the tolerance.
+  /// The first corner within the tolerance of p; null if there is none.
   const FlatPoint* near(const FlatPoint& p) const {
     const Cell cell = cell_of(p);
     const FlatPoint* first = nullptr;
@@ -95,9 +95,9 @@ class Corners {
 
 /// Corners of an operation's figures, in order.
 struct Met {
-  /// Of two loops, or of one and on a side of another: where a side may go on straight.
+  /// Corners of two loops, or of one and on a side of another: sides may go on straight there.
   std::vector<FlatPoint> shared;
-  /// Of all loops.
+  /// Corners of all loops.
   std::vector<FlatPoint> own;
 
   void finish() {
@@ -112,7 +112,7 @@ struct Met {
   }
 };
 
-/// The loop through the corners that stay.
+/// The loop led through the corners that stay; notes in `met` where it met others.
 FlatLoop through_corners(const FlatLoop& loop, const Corners& corners, Met& met) {
   FlatLoop own, out;
   for (const FlatPoint& p : loop) {
@@ -145,8 +145,8 @@ std::vector<FlatLoops> through_corners(std::span<const FlatLoops> operands, doub
   return result;
 }
 
-/// How far to the right the way from a over b turns to c from going back: more than 0, at most 4,
-/// growing with the angle.
+/// How far clockwise from a the point c lies, seen from b: above 0, at most 4, growing with the
+/// angle. The least of several is the sharpest turn to the left on the way from a over b.
 double turn_from_back(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
   const double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
   const double left = ux * vy - uy * vx, ahead = ux * vx + uy * vy;
@@ -154,15 +154,15 @@ double turn_from_back(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c
   return left < 0 ? 1 - share : 3 + share;
 }
 
-/// Outlines by their sides. Sides that go both ways bound nothing, and cancel each other: Clipper
-/// leaves walls of no thickness, and slivers of two sides are others.
+/// Outlines as sets of sides. Sides that go both ways bound nothing and cancel each other: such are
+/// the walls of no thickness that Clipper leaves, and slivers of two sides.
 class Sides {
  public:
   void add(const FlatLoop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()]);
   }
-  /// The loops that the sides make, each turning as far to the right as it can, so that none
-  /// crosses itself.
+  /// The loops that the sides make, each turning as far to the left as it can, so that none crosses
+  /// itself.
   FlatLoops loops() {
     FlatLoops result;
     for (auto& [corner, ends] : from_) {
@@ -210,7 +210,7 @@ class Sides {
   std::map<FlatPoint, std::vector<FlatPoint>, Before> from_;
 };
 
-/// Takes shared corners away where the side goes on straight.
+/// Removes shared corners at which the side goes on straight.
 void straighten(FlatLoop& loop, const Met& met, double tolerance) {
   FlatLoop out, skipped;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -247,7 +247,7 @@ double flush_tolerance(std::span<const FlatLoops> operands, std::uint32_t digits
   }
   int exponent = 0;
   std::frexp(largest, &exponent);
-  // Neighbours in the last digit are apart.
+  // Less than a unit, so that coordinates that differ by one in the last digit stay apart.
   const double unit = 1.98 * half_unit(largest, digits);
   return std::max(std::min(unit, kShareOfSide * std::sqrt(shortest)),
                   std::ldexp(1.0, exponent + kGridSteps));
@@ -256,7 +256,7 @@ double flush_tolerance(std::span<const FlatLoops> operands, std::uint32_t digits
 FlatLoops combined_flush(FlatOperation operation, std::span<const FlatLoops> operands,
                          double tolerance) {
   if (!(tolerance > 0)) return combined(operation, operands);
-  // What the result has of its own is no sign that sides met there.
+  // Corners of the rough result alone (in `again`) are no sign that sides met there.
   Met met, again;
   const FlatLoops rough = combined(operation, through_corners(operands, tolerance, met));
   Sides sides;

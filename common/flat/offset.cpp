@@ -9,8 +9,8 @@
 namespace graycube {
 namespace {
 
-/// A side lies on a line when its ends do, within this share of the largest coordinate: some of
-/// Clipper's steps.
+/// A side lies on a line if its ends do, to within this share of the largest coordinate: some steps
+/// of Clipper's grid.
 constexpr double kOnLine = 0x1p-37;
 /// Lines that cross at less than this sine don't tell a corner's place.
 constexpr double kLeastSine = 1e-3;
@@ -101,7 +101,7 @@ std::optional<RoundOffset> round_offset(const FlatLoops& loops, double distance)
   std::size_t corners = 0;
   for (const FlatLoop& loop : polygon) corners += loop.size();
   if (corners > kMaxRoundCorners) return std::nullopt;
-  // The polygon, then what each side sweeps when it moves.
+  // The operands are the polygon, then the area that each side sweeps when it moves.
   std::vector<FlatLoops> operands{polygon};
   for_each_side(polygon, [&](const FlatPoint& a, const FlatPoint& b) {
     const FlatPoint n = edge_between(a, b).normal;

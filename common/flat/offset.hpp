@@ -1,4 +1,4 @@
-// Polygons grown or shrunk with exact arcs: a polygon, and the disks that round its corners.
+// Grows or shrinks polygons with exact arcs: the result is a polygon and disks at its corners.
 #pragma once
 
 #include <optional>
@@ -8,24 +8,24 @@
 
 namespace graycube {
 
-/// Grown: the polygon and the disks. Shrunk: the polygon less the disks. Their radius is the
-/// distance.
+/// A grown figure is the polygon and disks about the centers; a shrunk one is the polygon less
+/// these disks. Their radius is the |distance|.
 struct RoundOffset {
   FlatLoops polygon;
   FlatLoop centers;
 };
 
-/// Corners of the polygon at most, and so disks: more are no outline with corners but a curve made
-/// of facets.
+/// The most corners of the polygon, and so disks: an outline with more is a curve made of facets
+/// rather than one with corners.
 inline constexpr std::size_t kMaxRoundCorners = 256;
 
-/// Everything within |distance| of the polygon; for a negative one, of what is not the polygon,
-/// taken away from it. Nothing beyond the limit, or where the sides moved by the distance cross too
-/// often.
+/// Everything within `distance` of the polygon; if it is negative, the polygon less everything
+/// within |distance| of its outside. Nothing beyond kMaxRoundCorners, or when the areas swept by
+/// moving sides cross too often.
 std::optional<RoundOffset> round_offset(const FlatLoops& loops, double distance);
 
-/// Corners that Clipper rounded to its grid, moved to where the lines cross that their sides lie
-/// on: those of the polygon, and the same moved outwards by `distance`.
+/// The result with corners that Clipper rounded to its grid moved to the crossing of the lines of
+/// their sides: lines of the polygon's sides, or the same moved outwards by `distance`.
 FlatLoops on_lines(FlatLoops result, const FlatLoops& polygon, double distance);
 
 }  // namespace graycube

@@ -9,9 +9,9 @@
 namespace graycube {
 namespace {
 
-/// Halvings of one part that winds too deep.
+/// The most halvings of a part whose pockets nest too deep.
 constexpr int kMaxCuts = 12;
-/// How far a pocket reaches out of its opening, in its own depths.
+/// How far a pocket reaches out of its opening, as a share of its own depth.
 constexpr double kReachOut = 0.5;
 
 double beyond(const FlatEdge& edge, const FlatPoint& p) {
@@ -66,8 +66,8 @@ FlatLoop clipped(const FlatLoop& corners, const FlatEdge& edge) {
   return kept;
 }
 
-/// The convex part when the side between its last corner and its first is moved outwards by
-/// `distance`: the quadrangle between the old side and the new is cut by the two sides next to it.
+/// The convex part with the side from its last corner to its first moved outwards by `distance`:
+/// the quadrangle between the old side and the new one is cut by the two sides next to it.
 FlatLoop reaching_out(FlatLoop corners, const std::vector<FlatEdge>& edges, double distance) {
   const FlatPoint first = corners.front(), last = corners.back();
   const FlatPoint n = edges.back().normal;
@@ -92,7 +92,7 @@ FlatLoop reaching_out(FlatLoop corners, const std::vector<FlatEdge>& edges, doub
 
 class Cutter {
  public:
-  /// The piece of a simple loop, counter-clockwise; `is_pocket`: its last side is the opening.
+  /// The piece of a simple counter-clockwise loop; if `is_pocket`, its last side is the opening.
   std::optional<FlatPiece> cut(const FlatLoop& loop, const FlatLoops& holes, bool is_pocket,
                                int level) {
     if (level > kMaxPieceLevels) {
@@ -120,7 +120,7 @@ class Cutter {
   bool too_deep() const { return too_deep_; }
 
  private:
-  /// What lies between the hull's side and the outline from one of its ends to the other.
+  /// Adds the pocket between a side of the hull and the outline from one of its ends to the other.
   bool add_pocket(const FlatLoop& loop, std::size_t from, std::size_t to, int level,
                   FlatPiece& piece) {
     const std::size_t count = (to + loop.size() - from) % loop.size();

@@ -25,13 +25,13 @@ struct FlatPiece {
   std::vector<FlatPiece> less;
 };
 
-/// Pieces within pieces.
+/// The most levels of pieces within pieces.
 inline constexpr int kMaxPieceLevels = 64;
 
-/// The polygon as the union of pieces, one for each connected part; parts that wind too deep are
-/// cut in two along a line x = constant. Where a pocket is open its piece reaches out of the hull,
-/// so that both have no edge in common. Nothing when an outline still crosses itself after
-/// Clipper's work.
+/// The polygon as the union of pieces, one for each connected part; parts whose pockets nest too
+/// deep are cut in two along a line x = constant. At its opening a pocket's piece reaches out of
+/// the hull, so that the two have no edge in common. Nothing when an outline still crosses itself
+/// after Clipper has resolved it.
 std::optional<std::vector<FlatPiece>> flat_pieces(const FlatLoops& loops);
 
 /// The edge from a to b of a polygon on its left. Both directions give the same numbers, signs

@@ -10,7 +10,7 @@ namespace {
 
 using ClipperLib::cInt;
 
-/// Bits of the largest coordinate on Clipper's grid. Its slopes are doubles, so far fewer than 53.
+/// Bits of the largest coordinate on Clipper's grid: far fewer than 53, as its slopes are doubles.
 constexpr int kGridBits = 40;
 constexpr double kMiterLimit = 1e6;
 
@@ -58,7 +58,7 @@ int exact_orientation(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c
   return sum.sign();
 }
 
-/// Where each integer came from, so that corners get their own coordinates back.
+/// The coordinate from which each integer was rounded, so that corners get their own values back.
 class Axis {
  public:
   void note(cInt place, double value) { known_.emplace_back(place, value); }
@@ -76,7 +76,7 @@ class Axis {
 
 class Grid {
  public:
-  /// `reach`: how far results may lie beyond the operands.
+  /// `reach` is how far results may lie beyond the operands.
   explicit Grid(std::span<const FlatLoops> operands, double reach = 0) {
     double largest = 0;
     for (const FlatLoops& loops : operands) {

@@ -1,5 +1,5 @@
-// Polygons of the plane, with holes: Boolean operations and offsets (by Clipper, whose only home is
-// polygon.cpp), and what is in them.
+// Polygons of the plane, with holes: Boolean operations and offsets (by Clipper, which only
+// polygon.cpp knows), and tests of what is in them.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct FlatPoint {
 };
 /// A closed cycle of corners; the last is joined to the first.
 using FlatLoop = std::vector<FlatPoint>;
-/// The points that an odd number of loops goes round.
+/// A figure: the points that an odd number of its loops goes round.
 using FlatLoops = std::vector<FlatLoop>;
 
 /// One connected part: an outline counter-clockwise, and holes clockwise.
@@ -46,7 +46,7 @@ int orientation(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c);
 /// Whether the point is within the loops, by the even-odd rule.
 bool is_within(std::span<const FlatLoop> loops, const FlatPoint& p);
 
-/// The smallest rectangle that holds all corners; lower corner first. Not for no loops.
+/// The smallest rectangle that holds all corners, lower corner first; there must be a loop.
 std::array<FlatPoint, 2> flat_bounds(std::span<const FlatLoop> loops);
 
 /// The corners of the convex hull, counter-clockwise, none of them on a line between others. Fewer
@@ -63,26 +63,26 @@ inline constexpr std::size_t kMaxFlatOverlaps = std::size_t{1} << 22;
 bool crossings_are_few(std::span<const FlatLoops> operands);
 
 enum class FlatOperation : std::uint8_t { kUnion, kIntersection, kDifference };
-/// The first operand and the others together; operands are even-odd each.
+/// The operation on the first operand and all others together; each operand is even-odd.
 FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands);
-/// As above for one operand: outlines that cross themselves or one another are resolved.
+/// Like combined() for one operand: outlines that cross themselves or one another are resolved.
 FlatLoops resolved(const FlatLoops& loops);
 /// The connected parts.
 std::vector<FlatRegion> regions_of(const FlatLoops& loops);
 
 enum class FlatJoin : std::uint8_t { kRound, kMiter, kSquare };
-/// Grown by `distance` everywhere, shrunk if negative. Round joins have corners at most
-/// `arc_tolerance` > 0 off the arc.
+/// The figure grown by `distance` everywhere, or shrunk if it is negative. The facets of round
+/// joins are at most `arc_tolerance` > 0 off the arc.
 FlatLoops offset(const FlatLoops& loops, double distance, FlatJoin join, double arc_tolerance);
 
-/// For fine outlines, whose touching corners nobody asks for: the above takes quadratic time to
-/// separate these. Loops that don't cross, outlines counter-clockwise and holes clockwise, grown or
-/// shrunk.
+/// Like offset(), for fine outlines: corners of the result may touch, which offset() takes
+/// quadratic time to separate. The given loops must not cross; outlines are counter-clockwise and
+/// holes clockwise.
 FlatLoops offset_simple(const FlatLoops& loops, double distance, FlatJoin join,
                         double arc_tolerance);
-/// Whether the second holds all of the first; both even-odd.
+/// Whether `outer` holds all of `inner`; both are even-odd.
 bool is_covered(const FlatLoops& inner, const FlatLoops& outer);
-/// How many loops are left when crossings are resolved.
+/// The number of loops once crossings are resolved.
 std::size_t resolved_count(const FlatLoops& loops);
 
 }  // namespace graycube

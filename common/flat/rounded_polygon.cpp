@@ -12,12 +12,12 @@ namespace {
 
 /// Sides that turn by a smaller sine have no corner between them.
 constexpr double kLeastTurn = 1e-9;
-/// Arcs may take this more of a side than there is, for rounding: two that make a half circle take
-/// all of it.
+/// Arcs may take a side's whole length and, for rounding, this share more: two arcs that make a
+/// half circle take all of it.
 constexpr double kFits = 1e-9;
 constexpr int kMaxHalvings = 10;
 
-/// A corner between the side that ends and the one that begins in it.
+/// A corner with the sides that end and begin in it.
 struct Corner {
   FlatPoint at;
   FlatEdge before, after;
@@ -30,7 +30,7 @@ struct Corner {
   }
   bool points_outwards() const { return sine() > 0; }
   bool is_straight() const { return cosine() > 0 && std::fabs(sine()) <= kLeastTurn; }
-  /// How much of each side an arc of that radius takes: radius × tan(turn / 2).
+  /// The length that an arc of that radius takes of each side: radius × tan(turn / 2).
   double taken(double radius) const {
     return radius == 0 ? 0 : radius * std::fabs(sine()) / (1 + cosine());
   }
@@ -50,7 +50,7 @@ FlatPoint shifted(const FlatPoint& p, const FlatPoint& n, double distance) {
   return {p.x + distance * n.x, p.y + distance * n.y};
 }
 
-/// Where the sides cross when both have moved.
+/// The point where the sides cross once both have moved outwards by `distance`.
 FlatPoint moved_corner(const Corner& corner, double distance) {
   if (corner.is_straight()) return shifted(corner.at, corner.before.normal, distance);
   const double a = corner.before.offset + distance, b = corner.after.offset + distance,
@@ -87,7 +87,7 @@ bool keeps_directions(const FlatLoop& before, const FlatLoop& after) {
   return true;
 }
 
-/// The arc at a corner: its centre, and where it touches the side before and the side after.
+/// The arc at a corner: its centre, and the points where it touches the sides before and after.
 struct Arc {
   FlatPoint center, first, last;
 };
@@ -98,8 +98,8 @@ Arc arc_at(const Corner& corner, double radius) {
           shifted(center, corner.after.normal, -inwards)};
 }
 
-/// Unit vectors from the centre, halved until the facets between them are fine. An arc is less than
-/// half a circle.
+/// Unit vectors from the centre to an arc's corners, added by halving until its facets are fine
+/// enough. An arc is less than half a circle.
 std::vector<FlatPoint> directions_between(const Arc& arc, double radius, double sagitta) {
   const auto direction = [&](const FlatPoint& p) {
     return FlatPoint{(p.x - arc.center.x) / radius, (p.y - arc.center.y) / radius};
@@ -204,7 +204,7 @@ FlatLoops outline_of(const RoundedPolygon& polygon, double sagitta) {
 bool are_alike(const FlatLoops& a, const FlatLoops& b, double width) {
   for (const auto& [first, second] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
     if (first->empty()) continue;
-    // Outlines that all but coincide would cross all along, which Clipper is slow with.
+    // One outline is shrunk, since Clipper is slow with outlines that cross all along.
     const FlatLoops core[] = {offset_simple(*first, -0.5 * width, FlatJoin::kMiter, width),
                               *second};
     if (core[0].empty()) continue;

@@ -1,5 +1,5 @@
-// Polygons with rounded corners: offset one after another, their sides move and the corners' radii
-// add up, as long as no side vanishes and none meets another.
+// Polygons with rounded corners: in offsets one after another their sides move and the corners'
+// radii add up, as long as no side vanishes or meets another.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 namespace graycube {
 
 struct RoundedLoop {
-  /// Where the sides would meet; the inside is on the left.
+  /// The points where the sides would meet without rounding; the inside is on the left.
   FlatLoop corners;
-  /// Of the arc that touches both sides at each corner; 0 for a sharp one.
+  /// The radius of the arc that touches both sides at each corner; 0 for a sharp corner.
   std::vector<double> radii;
 };
 using RoundedPolygon = std::vector<RoundedLoop>;
 
-/// Outlines counter-clockwise and holes clockwise, as Clipper leaves them; empty beyond
-/// kMaxRoundedCorners.
+/// The polygon without rounding. Outlines must be counter-clockwise and holes clockwise, as Clipper
+/// leaves them; empty beyond kMaxRoundedCorners.
 RoundedPolygon sharp_polygon(const FlatLoops& loops);
 
-/// Moved outwards by the distance, inwards where it is negative. Sharp corners become round where
-/// the distance leaves a gap, if `rounds_corners`, and stay sharp else. Nothing where a side
-/// vanishes or an arc doesn't fit.
+/// The polygon with sides moved outwards by the distance, inwards if it is negative. Sharp corners
+/// become round where the sides part, if `rounds_corners`, else they stay sharp. Nothing when a
+/// side vanishes or an arc doesn't fit.
 std::optional<RoundedPolygon> moved(const RoundedPolygon& polygon, double distance,
                                     bool rounds_corners);
 
@@ -33,14 +33,14 @@ struct RoundedParts {
   FlatLoops polygon;
   std::vector<FlatDisk> added, removed;
 };
-/// Corners that point outwards are cut off and given a disk; the others are filled, and a disk
-/// taken off.
+/// Cuts rounded corners that point outwards off and adds a disk there; fills the others, and
+/// removes a disk there.
 RoundedParts parts_of(const RoundedPolygon& polygon, int sides);
 
 /// The outline with facets no more than `sagitta` off the arcs.
 FlatLoops outline_of(const RoundedPolygon& polygon, double sagitta);
 
-/// Whether both are the same but for slivers narrower than `width`.
+/// Whether both figures are the same except for slivers narrower than `width`.
 bool are_alike(const FlatLoops& a, const FlatLoops& b, double width);
 
 }  // namespace graycube

@@ -9,7 +9,7 @@
 namespace graycube {
 namespace {
 
-/// Rounding, relative to the extent of all.
+/// The tolerance for rounding, as a share of the extent of all disks.
 constexpr double kRounding = 1e-13;
 
 double extent_of(std::span<const FlatDisk> disks) {
@@ -22,8 +22,8 @@ double extent_of(std::span<const FlatDisk> disks) {
   return extent;
 }
 
-/// The unit normals of the two tangents that have both disks on one side: first that with `b` on
-/// its left seen from `a`.
+/// The unit normals of the two outer tangents, which have both disks on one side: first that of the
+/// tangent on the left, seen from `a` towards `b`.
 std::pair<FlatPoint, FlatPoint> tangent_normals(const FlatDisk& a, const FlatDisk& b) {
   const double dx = b.center.x - a.center.x, dy = b.center.y - a.center.y,
                narrowing = a.radius - b.radius;
@@ -37,7 +37,7 @@ std::pair<FlatPoint, FlatPoint> tangent_normals(const FlatDisk& a, const FlatDis
           {(narrowing * dx + across * dy) / l2, (narrowing * dy - across * dx) / l2}};
 }
 
-/// Where the tangent next to `direction` touches both.
+/// The points where the outer tangent with the normal nearest to `direction` touches both disks.
 std::array<FlatPoint, 2> touching_points(const FlatDisk& a, const FlatDisk& b,
                                          const FlatPoint& direction) {
   const auto [left, right] = tangent_normals(a, b);
@@ -64,7 +64,7 @@ CircleArcs foremost_directions(std::span<const FlatDisk> disks, std::size_t whic
   return arcs;
 }
 
-/// Leaves out corners that are one with the corner before by rounding.
+/// Drops corners that are the same as the corner before but for rounding.
 void join_close(FlatLoop& loop, double tolerance) {
   FlatLoop kept;
   const auto is_close = [&](const FlatPoint& p, const FlatPoint& q) {
@@ -94,7 +94,7 @@ FlatRoundHull flat_round_hull(std::span<const FlatDisk> disks) {
     for (const CircleArcs::Arc& arc : arcs.arcs()) {
       if (arc.is_whole()) continue;
       for (const CircleArcs::End* end : {&arc.from, &arc.to}) {
-        // Both disks find the tangent: from the same expressions, so that it is one.
+        // Both disks find this tangent; ordered, so that they compute it by the same expressions.
         const auto [first, second] = std::minmax(i, end->cutter);
         const auto touching = touching_points(disks[first], disks[second], end->direction);
         points.insert(points.end(), touching.begin(), touching.end());

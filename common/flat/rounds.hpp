@@ -1,5 +1,5 @@
-// Convex hulls of disks and points of the plane, exactly: disks, and the polygon of the points
-// where tangents touch.
+// Exact convex hulls of disks and points of the plane: disks, and the polygon of the points at
+// which tangents touch them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace graycube {
 struct FlatDisk {
   FlatPoint center;
   double radius = 0;
-  /// What OpenSCAD makes of it; 0 for a point.
+  /// The number of sides that OpenSCAD would give the disk; 0 for a point.
   int sides = 0;
   friend bool operator==(const FlatDisk&, const FlatDisk&) = default;
 };
@@ -23,14 +23,14 @@ struct FlatDisk {
 struct FlatRoundHull {
   /// Counter-clockwise and convex; fewer than three corners for a single disk.
   FlatLoop polygon;
-  /// Which of the disks show, ascending.
+  /// The indices of the disks that are part of the hull's outline, ascending.
   std::vector<std::size_t> disks;
 };
 
-/// Pairs of disks that are compared at most; time is a few nanoseconds each.
+/// The most pairs that are compared; each takes a few nanoseconds.
 inline constexpr std::size_t kMaxFlatDiskPairs = std::size_t{1} << 24;
 
-/// Needs at most kMaxFlatDiskPairs products of disks with a radius and all points.
+/// The number of disks with a radius times that of all disks must be at most kMaxFlatDiskPairs.
 FlatRoundHull flat_round_hull(std::span<const FlatDisk> disks);
 
 }  // namespace graycube

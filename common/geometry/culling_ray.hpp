@@ -11,10 +11,10 @@
 
 namespace graycube {
 
-/// Relative error of a float plane parameter: the direction, its reciprocal and the slack itself, a
-/// difference and a product, each rounded once, with room to spare.
+/// A bound, with room to spare, of a float plane parameter's relative error: the direction, its
+/// reciprocal and the slack itself, a difference and a product are each rounded once.
 inline constexpr float kSlack = 1e-6f;
-/// Directions flatter than this count as this: such a ray doesn't move sideways within any scene.
+/// Smaller direction components are taken as this: such a ray doesn't move sideways in any scene.
 inline constexpr float kFlattest = 1e-30f;
 
 /// The nearest float not above (not below) a double.
@@ -27,8 +27,8 @@ inline float float_above(double v) {
   return static_cast<double>(f) < v ? std::nextafterf(f, kFloatInf) : f;
 }
 
-/// One coordinate of a ray: distances are taken from a little before the origin to the near planes,
-/// from a little behind it to the far ones, and the reciprocals carry the slack.
+/// One coordinate of a ray: distances to near planes are taken from a little ahead of the origin,
+/// those to far planes from a little behind it, and the reciprocals carry the slack.
 struct CullingAxis {
   CullingAxis(double origin, double direction) {
     const auto f = static_cast<float>(origin);

@@ -1,4 +1,4 @@
-// Boxes in floats, which hierarchies of boxes are made of.
+// Boxes in floats, of which hierarchies of boxes are made.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace graycube {
 
-/// Has no values until it is given some: there may be many of which few are used.
+/// A box that isn't initialized: there may be many of which few are used.
 struct FloatBox {
   std::array<float, 3> lo, hi;
 
@@ -29,7 +29,7 @@ struct FloatBox {
     const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
     return x * y + y * z + z * x;
   }
-  /// Each half is taken for itself, so that the sum of large coordinates stays finite.
+  /// Halves are added, so that the sum of large coordinates stays finite.
   float center(std::size_t a) const { return 0.5f * lo[a] + 0.5f * hi[a]; }
 };
 

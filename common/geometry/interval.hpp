@@ -1,4 +1,4 @@
-// Where a line is between planes.
+// Intervals of a line, and clipping them by planes.
 #pragma once
 
 #include <cmath>
@@ -31,9 +31,9 @@ inline Spans spans_of(const Interval& i) {
   return s;
 }
 
-/// Where the line o + t d crosses the plane at distance `offset` along the normal, given n·o and
-/// 1/(n·d). Every plane of every kind of primitive and of the subdivision uses this one expression,
-/// so that coincident faces have bitwise equal parameters.
+/// The parameter at which the line o + t d crosses the plane n·p = offset, given n·o and 1/(n·d).
+/// Every plane of every kind of primitive and of the subdivision uses this one expression, so that
+/// coincident faces have bitwise equal parameters.
 inline double plane_parameter(double offset, double origin, double inverse) {
   return (offset - origin) * inverse;
 }
@@ -69,7 +69,7 @@ inline void clip_to_half_space(Interval& i, double hi, double o, double d) {
   }
 }
 
-/// Does a slab face have exactly this parameter? Used to find the face that a root came from.
+/// Whether a slab's face has exactly this parameter. Used to find the face that a root came from.
 inline bool is_on_plane(double offset, double o, double d, double t) {
   const double inverse = 1.0 / d;
   return std::isfinite(inverse) && plane_parameter(offset, o, inverse) == t;

@@ -59,7 +59,7 @@ struct SineCosine {
   double sine = 0, cosine = 0;
 };
 
-/// For |degrees| ≤ 45, by Taylor series; the first term left out is below 1e-19.
+/// Sine and cosine for |degrees| ≤ 45, by Taylor series; the first term left out is below 1e-19.
 SineCosine of_small_angle(double degrees) {
   if (std::fabs(degrees) == 45) {
     // One value for both, so that the tangent of 45° is exactly 1.
@@ -112,8 +112,8 @@ SineCosine sine_cosine(double degrees) {
 
 // ---- Powers
 
-/// Up to here repeated squaring is both quicker and precise: its relative error is at most n ·
-/// 2^-53, 3e-14 at 256.
+/// Up to this exponent repeated squaring is quicker and precise enough: its relative error is at
+/// most n · 2^-53, 3e-14 at 256.
 constexpr double kLargestSquaredExponent = 256;
 
 double power_by_squaring(double base, std::uint32_t exponent) {

@@ -26,7 +26,7 @@ constexpr std::array<Named, 6> kNamed{{{"scalar", HWY_EMU128},
                                        {"avx512", HWY_AVX3}}};
 
 #if HWY_ARCH_X86
-// clang 14's __builtin_cpu_supports knows neither of these.
+// clang 14's __builtin_cpu_supports knows neither F16C nor LZCNT.
 bool has_f16c() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
@@ -37,7 +37,7 @@ bool has_lzcnt() {
 }
 #endif
 
-/// What the processor and its operating system have, of what is compiled.
+/// The compiled targets, as Highway's bits, that the processor and its operating system support.
 std::int64_t available() {
   std::int64_t found = HWY_EMU128 | HWY_SCALAR;
 #if HWY_ARCH_X86
@@ -59,7 +59,7 @@ std::int64_t available() {
   return found & HWY_TARGETS;
 }
 
-/// Place in a table of functions by target; the best's, before anything else is chosen.
+/// The index, in a table of functions, of the best of some targets.
 std::size_t index_of(std::int64_t targets) {
   hwy::ChosenTarget target;
   target.Update(targets);

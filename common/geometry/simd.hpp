@@ -1,5 +1,5 @@
-// Which of the processor's vector instructions the walk uses. It can't show in a result; choosing
-// fewer is for tests, for comparisons, and for doubting a machine.
+// Chooses which of the processor's vector instructions the walk uses. That can't show in a result;
+// choosing fewer is for tests, for comparisons, and for doubts about a machine.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ std::vector<std::string> simd_names();
 /// Not to be called while rays are traced.
 bool choose_simd(std::string_view name);
 
-/// Where tables made by GRAYCUBE_SIMD_TABLE hold the function to call.
+/// The index of the function to call in tables made by GRAYCUBE_SIMD_TABLE.
 std::size_t simd_index();
 
-/// Obeys the environment variable GRAYCUBE_SIMD. Returns what is wrong with it, if anything is.
+/// Obeys the environment variable GRAYCUBE_SIMD. Returns an error message if its value is wrong.
 std::optional<std::string> choose_simd_from_environment();
 
 }  // namespace graycube
 
-/// The versions of a function that Highway compiled, and a call of the one chosen. As HWY_EXPORT
+/// The versions of a function that Highway compiled, and a call of the one chosen. Like HWY_EXPORT
 /// and HWY_DYNAMIC_DISPATCH, but without libhwy, which measures a timer for 4 ms whenever a process
 /// starts.
 #define GRAYCUBE_SIMD_TABLE(function)                                            \

@@ -1,4 +1,4 @@
-// What solving and classifying a primitive gives.
+// The results of solving and of classifying a primitive.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace graycube {
 
-/// Where a line is inside a primitive: disjoint intervals [enter, leave] in order, ends included,
-/// ±infinity where the primitive is unbounded. Tangency gives an interval of length zero or none.
+/// The parts of a line inside a primitive: disjoint closed intervals [enter, leave], in order;
+/// ±infinity if the primitive is unbounded. Tangency gives an interval of length zero or none.
 class Spans {
  public:
-  /// Kinds other than meshes have at most so many; more take memory.
+  /// The most intervals of kinds other than meshes; more than these take memory.
   static constexpr int kMax = 2;
   struct Interval {
     double enter, leave;

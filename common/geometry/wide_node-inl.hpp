@@ -1,4 +1,4 @@
-// How a ray meets the boxes of a node. Included once for each instruction set, in the way of
+// Tests a ray against the boxes of a node. Included once for each instruction set, in the way of
 // Highway's own headers; which one runs can't show in a result, since boxes only cull.
 #if defined(GRAYCUBE_GEOMETRY_WIDE_NODE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_GEOMETRY_WIDE_NODE_INL
@@ -18,8 +18,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Tests the eight boxes of a node against [t0, t1]; bit i of the result: child i may be met, from
-/// near[i] on.
+/// Tests the eight boxes of a node against [t0, t1]; bit i of the result tells whether the ray may
+/// meet child i, from near[i] on.
 HWY_INLINE std::uint32_t meet(const WideNode& node, const CullingRay& ray, float t0, float t1,
                               float* HWY_RESTRICT near) {
   const hn::CappedTag<float, WideNode::kWidth> d;

@@ -14,9 +14,9 @@ struct alignas(64) WideNode {
   static constexpr std::size_t kWidth = 8;
   static constexpr std::uint32_t kItemFlag = 0x80000000u;
 
-  /// [0]: lower, [1]: upper sides, by axis.
+  /// The boxes' lower sides [0] and upper sides [1], indexed by axis and place.
   std::array<std::array<std::array<float, kWidth>, 3>, 2> planes{};
-  /// Inner: index of a node; with kItemFlag: of an item.
+  /// The index of each place's node, or, with kItemFlag, of its item.
   std::array<std::uint32_t, kWidth> child{};
 
   void set_box(std::size_t place, const FloatBox& box) {
@@ -35,7 +35,7 @@ struct alignas(64) WideNode {
   }
   bool is_used(std::size_t place) const { return !(planes[0][0][place] > planes[1][0][place]); }
   bool is_item(std::size_t place) const { return (child[place] & kItemFlag) != 0; }
-  /// Only where there is an item.
+  /// The index of the item in a place; there must be one.
   std::uint32_t item(std::size_t place) const { return child[place] & ~kItemFlag; }
 };
 

@@ -1,5 +1,5 @@
-// Building hierarchies of WideNodes from the top, by the surface-area heuristic. What hierarchies
-// differ in is passed in: whose boxes they are, how a group is split and what becomes an item.
+// Builds hierarchies of WideNodes from the top, by the surface-area heuristic. `Parts` passes in
+// what differs between hierarchies: their boxes, how a group is split and what becomes an item.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace graycube {
 
-/// A slice of a group: the bounds of those whose centres are in it, and their number.
+/// A slice of a group: the bounds of the things whose centres are in it, and their number.
 template <typename Box>
 struct Bin {
   Box box = Box::nothing();
@@ -26,8 +26,8 @@ struct Bin {
   }
 };
 
-/// Where a row of bins is best cut in two, and what that costs: the sum of the parts' half areas,
-/// each times the number in it.
+/// The best place to cut a row of bins in two, and its cost: the sum of both parts' half areas,
+/// each times the number of things in the part.
 template <typename Box>
 struct Cut {
   using Cost = decltype(Box::nothing().half_area());
@@ -38,8 +38,8 @@ struct Cut {
 
 inline constexpr std::size_t kMaxBins = 16;
 
-/// The cheapest cut of up to kMaxBins bins, of several equal ones the first; both parts have
-/// something in them. `all`: the number in all bins.
+/// The cheapest cut of up to kMaxBins bins, the first of equal ones; both parts have something in
+/// them. `all` is the number of things in all bins.
 template <typename Box>
 Cut<Box> cheapest_cut(std::span<const Bin<Box>> bins, std::size_t all) {
   using Cost = typename Cut<Box>::Cost;
@@ -70,8 +70,8 @@ template <typename Parts>
 class WideTreeBuilder {
  public:
   using Run = std::span<std::uint32_t>;
-  /// From this depth on groups are simply halved, so that no heap of boxes, however skewed, makes
-  /// the hierarchy much deeper. Each further level halves the largest group at least.
+  /// From this depth on groups are simply halved, so that no set of boxes, however skewed, makes
+  /// the hierarchy much deeper. Each further level at least halves the largest group.
   static constexpr std::size_t kMaxChosenDepth = 40;
 
   WideTreeBuilder(Parts& parts, std::vector<WideNode>& nodes) : parts_(parts), nodes_(nodes) {}

@@ -14,9 +14,9 @@ namespace {
 #ifdef __GLIBC__
 constexpr int kMapped = 32 << 20, kKept = 256 << 20, kAtOnce = 1 << 20;
 
-/// The heap grows once by all that lies in large pages. They begin behind what malloc has written
-/// to by then, the end of the block that made it grow: a large page in which one of 4 KiB is in use
-/// is none any more. What lies before them is left out.
+/// Grows the heap once by all that is to lie in large pages. These begin beyond the end of the
+/// block that made it grow, behind all that malloc has written to: a range in which a page of 4 KiB
+/// is in use can't become a large page. The memory before them is left out.
 void set_large_pages_aside(std::size_t bytes) {
   mallopt(M_TOP_PAD, static_cast<int>(bytes + 2 * kLargePage));
   void* const block = std::malloc(kAtOnce);
@@ -26,8 +26,8 @@ void set_large_pages_aside(std::size_t bytes) {
   const std::uintptr_t begin = ((place + kAtOnce) / kLargePage + 1) * kLargePage;
   const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
   if (begin >= end || end - place > bytes + 4 * kLargePage) return;
-  // Never given back, and of it only the sizes before and behind are ever touched. Volatile, lest
-  // it be found unused.
+  // This block is never given back, and only its sizes, before and behind it, are ever touched.
+  // Volatile, so that the compiler doesn't drop it as unused.
   [[maybe_unused]] static void* volatile left_out = nullptr;
   left_out = std::malloc(begin - place - 2 * sizeof(std::size_t));
   ask_for_large_pages(reinterpret_cast<void*>(begin), end - begin);

@@ -1,4 +1,4 @@
-// How a process of the farm keeps memory.
+// Makes a process of the farm keep the memory that it has freed.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ inline constexpr bool kIsOurHeap = false;
 inline constexpr bool kIsOurHeap = true;
 #endif
 
-/// Freed memory is kept for what comes next, batches above all, instead of being given back to the
-/// system and touched anew. At most `arenas` heaps; the first of them, which `large` bytes of
-/// address space are set aside for, lies in large pages (large_pages.hpp): they are taken as they
-/// are needed. To be called before there are threads; does nothing where the C library isn't glibc.
+/// Freed memory is kept for later use, for batches above all, instead of being given back to the
+/// system and touched anew. There are at most `arenas` heaps; `large` bytes of address space are
+/// set aside for the first, in large pages (large_pages.hpp) that are taken as they are needed. To
+/// be called before there are threads; does nothing if the C library isn't glibc.
 void keep_freed_memory(unsigned arenas, std::size_t large);
 
-/// Has the system provide now the large page that the next `bytes` of the calling thread's heap end
-/// in, if it doesn't yet: it may take as long as a tile.
+/// Makes the system provide the large page in which the next `bytes` of the calling thread's heap
+/// end now, if it hasn't yet: that may take as long as a tile.
 void touch_heap_ahead(std::size_t bytes);
 
 }  // namespace graycube

@@ -14,7 +14,7 @@ void ask_for_large_pages(void* begin, std::size_t bytes) {
   const std::uintptr_t first = (place + page - 1) / page * page,
                        end = (place + bytes) / page * page;
 #ifdef MADV_HUGEPAGE
-  // Only advice: whatever it answers, the memory is there.
+  // This is only advice: whatever the answer, the memory is there.
   if (first < end) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 #endif
 }

@@ -1,5 +1,5 @@
-// Large pages of memory. A page of 4 KiB costs 0.5 to 10 µs when it is first touched, by machine:
-// often more than what is then done with it. One of 2 MiB costs about 100 µs.
+// Large pages of memory. The first touch of a page of 4 KiB costs 0.5 to 10 µs, depending on the
+// machine: often more than the work then done in it. That of a page of 2 MiB costs about 100 µs.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,17 @@
 
 namespace graycube {
 
-/// Where the system has larger ones, they are multiples of this.
+/// The size of a large page in bytes; a system with larger ones has multiples of this.
 inline constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// Asks the system for large pages under `bytes` of memory that nobody has touched yet. It gives
-/// them to whole ones only, and none where it has none ready; then everything is as ever.
+/// Asks the system to put `bytes` of memory that nobody has touched yet into large pages. It does
+/// so only for whole large pages, and only if it has some ready; else nothing changes.
 void ask_for_large_pages(void* begin, std::size_t bytes);
 
 /// Zeros straight from the system, which provides them page by page as they are first touched.
 class ZeroPages {
  public:
-  /// Those to be written all over lie in large pages. Throws std::bad_alloc.
+  /// Memory that will be written all over lies in large pages. Throws std::bad_alloc.
   enum class Use : std::uint8_t { kAllOver, kHereAndThere };
   ZeroPages(std::size_t bytes, Use use);
   ~ZeroPages();

@@ -1,5 +1,5 @@
-// From the polygons of a file to a closed mesh: points welded, faces cut into triangles,
-// orientation made outward.
+// Makes a closed mesh from the polygons of a file: points are welded, faces cut into triangles, and
+// the orientation made outward.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace graycube {
 /// Faces are cycles of indices into the points.
 struct PolygonMesh {
   std::vector<Vec3> points;
-  /// All faces' corners, one face behind the other, and where each face's end.
+  /// The corners of all faces, one face after the other, and the index at which each face's end.
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> face_ends;
   /// Significant decimal digits that the points were written with; 0: all that a double has.
@@ -32,17 +32,17 @@ struct MeshFault {
   std::string why;
 };
 
-/// The closed mesh: points with bitwise equal coordinates are one (−0 is 0), those that no face
+/// The closed mesh: points with bitwise equal coordinates become one (−0 is 0), points that no face
 /// uses and triangles with two equal corners are dropped. Every edge must be used by as many faces
-/// one way as the other. Where that fails but every edge has two faces, faces are turned to agree
-/// with their neighbours'. A mesh whose volume is negative is turned inside out as a whole. What
-/// this gives, it gives back unchanged.
+/// one way as the other. If that fails but every edge has two faces, faces are turned to agree with
+/// their neighbours. A mesh whose volume is negative is turned inside out as a whole. A result
+/// given to this function again comes back unchanged.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
 /// contradicting edges.
 std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons);
-/// As above, for triangles.
+/// Like closed_mesh() above, for triangles.
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);
 
 /// Turns all triangles over.

@@ -35,7 +35,7 @@ std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::u
   return flat;
 }
 
-/// Every corner turns left, and all together once around.
+/// Whether every corner turns left, and all together go around once.
 bool is_convex(std::span<const Flat> flat) {
   const std::size_t n = flat.size();
   std::size_t reversals = 0;
@@ -69,7 +69,7 @@ class EarCutter {
       const std::size_t ear = (at + tried) % n;
       emit(corner(ear, n - 1), corner(ear, 0), corner(ear, 1));
       ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      // Past the neighbour, so that no fan of slivers grows about one corner.
+      // Goes on past the neighbour, so that no fan of slivers grows about one corner.
       at = (ear + 1) % ring_.size();
     }
     emit(ring_[0], ring_[1], ring_[2]);

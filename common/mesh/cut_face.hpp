@@ -10,9 +10,9 @@
 namespace graycube {
 
 /// Appends the face's triangles, two fewer than its corners, turned as the face is. Concave faces
-/// are cut by ears, in the plane of the two axes along which the face's area is largest; whatever
-/// the face looks like, bent or crossing itself, the triangles' edges but the face's own cancel.
-/// `face`: 3 or more indices into `points`.
+/// are cut by ears, in the plane of the two axes along which the face's area is largest. Even for a
+/// face that is bent or crosses itself, all edges of the triangles cancel but those of the face.
+/// `face` holds 3 or more indices into `points`.
 void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
               std::vector<Triangle>& triangles);
 

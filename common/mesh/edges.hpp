@@ -1,4 +1,4 @@
-// The edges of a triangle mesh: who uses them, and which way.
+// The edges of a triangle mesh: which triangles use them, and in which direction.
 #pragma once
 
 #include <cstddef>
@@ -28,24 +28,24 @@ class MeshEdges {
   std::size_t count() const { return count_; }
   /// Edges that are not used as often one way as the other.
   std::size_t unbalanced_count() const { return unbalanced_count_; }
-  /// Seen from the edge's own direction.
+  /// The uses of an edge, `forward` meaning from e.from to e.to.
   Uses uses(const MeshEdge& e) const;
-  /// The first unbalanced one in the order of the triangles.
+  /// The first unbalanced edge in the order of the triangles.
   std::optional<MeshEdge> first_unbalanced(std::span<const Triangle> triangles) const;
 
  private:
-  /// Sorted: lower point, higher point, and 1 when the triangle goes from the higher to the lower.
+  /// A word for each use, sorted: lower point, higher point, and 1 if it goes down.
   std::vector<std::uint64_t> records_;
   std::size_t count_ = 0, unbalanced_count_ = 0;
 };
 
-/// What lies across each side: of side 3 · triangle + i, which goes from corner i to the next, the
-/// side of the other triangle; `none` at edges that aren't of exactly two triangles.
+/// For each side 3 · triangle + i, which goes from corner i to the next, the number of the other
+/// triangle's side at the same edge; `none` at edges that don't belong to exactly two triangles.
 std::vector<std::uint32_t> sides_across(std::span<const Triangle> triangles, std::uint32_t none);
 
-/// Turns triangles over so that neighbours at edges of exactly two triangles agree, starting from
-/// what the majority of each connected part says. The edge at which that can't be done (a one-sided
-/// surface), if there is one.
+/// Turns triangles over so that neighbours at edges of exactly two triangles agree, keeping the
+/// majority of each connected part as it is. Returns an edge at which that can't be done (on a
+/// one-sided surface), if there is one.
 std::optional<MeshEdge> agree_on_orientation(std::span<Triangle> triangles);
 
 }  // namespace graycube

@@ -15,7 +15,7 @@
 
 namespace graycube::csg {
 
-/// A point as the line sees it, across the line.
+/// The coordinates of a point across the line, in the sheared space.
 struct LinePoint {
   double x, y;
 };
@@ -46,8 +46,8 @@ class MeshLine {
   const Vec3& origin() const { return origin_; }
   const Vec3& x_axis() const { return x_; }
   const Vec3& y_axis() const { return y_; }
-  /// What turns a triangle's winding in the plane into what the line adds on its way: −1 when it
-  /// looks along the plane's normal.
+  /// The factor from a triangle's winding in the plane to the count of the line's cut: −1 if the
+  /// line's direction is along the plane's normal.
   int turn() const { return turn_; }
   /// The parameter at which the line passes the point.
   double parameter(const Vec3& p) const { return dot(t_, p - origin_); }
@@ -87,14 +87,14 @@ inline int triangle_count(const MeshLine& line, const Vec3& p, const Vec3& q, co
   return line.turn() * winding_of(line.see(p), line.see(q), line.see(r));
 }
 
-/// Where the line meets the triangle's plane, kept between the corners' parameters. The expression
-/// is that of all planes (geometry/interval.hpp), so that faces along the axes tie with boxes'. A
-/// triangle seen edge on, or without an area, has no plane worth the name: then it is the corners'
-/// parameters weighted by where the line passes.
+/// The parameter at which the line meets the triangle's plane, kept between those of the corners.
+/// The expression is that of all planes (geometry/interval.hpp), so that faces along the axes tie
+/// with boxes'. A triangle seen edge on, or without an area, has no reliable plane: then the
+/// corners' parameters are weighted by where the line passes.
 double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b,
                           const Vec3& c);
 
-/// Planes met at less than this sine count as seen edge on.
+/// A plane that the line meets at less than this sine counts as seen edge on.
 inline constexpr double kLeastSine = 1e-6;
 
 }  // namespace graycube::csg

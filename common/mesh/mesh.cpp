@@ -28,7 +28,7 @@ struct Mesh::Data {
 
 namespace {
 
-/// Of sorted cuts, before which the winding number is as given.
+/// The spans inside the surface, from sorted cuts and the winding number before the first of them.
 Spans spans_of(const std::vector<MeshCut>& cuts, std::int32_t winding) {
   Spans spans;
   double entered = -kInf;
@@ -76,7 +76,7 @@ void Mesh::sort_by_parameter(std::vector<MeshCut>& cuts) {
 }
 
 bool Mesh::is_before_bounds(const Ray& ray, double t) const {
-  // Far more than rounding, of the bounds and of the parameters of what lies in them.
+  // Far larger than the rounding errors of the bounds and of the parameters of cuts in them.
   constexpr double kShare = 1e-6;
   const Aabb& box = data_->bounds;
   double enter = -kInf;
@@ -116,7 +116,7 @@ Spans Mesh::spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const {
 }
 
 bool Mesh::contains(const Vec3& point) const {
-  // Along no plane that a model is likely to have.
+  // The direction is along no plane that a model is likely to have.
   const Ray ray{point, {0.36154797, 0.48223431, 0.79794753}};
   std::vector<MeshCut> cuts;
   add_cuts(data_->tree, csg::MeshLine(ray), ray, 0, kInf, cuts);
@@ -130,8 +130,8 @@ Vec3 Mesh::outward_normal(const Ray& ray, double t) const {
   add_cuts(data_->tree, csg::MeshLine(ray), ray, t, std::nextafter(t, kInf), cuts);
   std::int32_t sum = 0;
   for (const MeshCut& c : cuts) sum += c.count;
-  // Of several triangles one that is crossed as the surface is; which one may not depend on their
-  // order.
+  // If several triangles are cut, takes one that is crossed the same way as the surface is; the
+  // choice must not depend on their order.
   Vec3 best;
   bool found = false;
   for (const MeshCut& c : cuts) {

@@ -16,10 +16,10 @@
 
 namespace graycube {
 
-/// A value; copies share what never changes.
+/// A mesh as a value; copies share its data, which never change.
 class Mesh {
  public:
-  /// Nothing.
+  /// The empty mesh.
   Mesh();
   /// The triangles must be closed (mesh/close_mesh.hpp) and their indices in range. An open mesh
   /// gives nonsense, but never more than that.
@@ -30,28 +30,28 @@ class Mesh {
   const MeshTree& tree() const;
   std::size_t memory_bytes() const;
 
-  /// As spans_along of csg/primitive.hpp, and so on.
+  /// These do for a mesh what the functions of csg/primitive.hpp do for any primitive.
   Spans spans(const Ray& ray) const;
   bool contains(const Vec3& point) const;
   Vec3 outward_normal(const Ray& ray, double t) const;
   CellSide classify(const Aabb& cell) const;
 
-  /// Replaces `cuts` by those at t ≥ from ≥ 0, in order of t. Since all counts of a line add up to
-  /// zero, the winding number at `from` is what they lack.
+  /// Replaces `cuts` by the line's cuts at t ≥ from ≥ 0, in order of t. Since all counts of a line
+  /// add up to zero, the winding number at `from` is minus their sum.
   void cuts_ahead(const Ray& ray, double from, std::vector<MeshCut>& cuts) const;
-  /// The same for from ≤ t < below.
+  /// Replaces `cuts` by the line's cuts at from ≤ t < below, in order of t.
   void cuts_between(const Ray& ray, double from, double below, std::vector<MeshCut>& cuts) const;
 
-  /// As spans, but from t = 0 on: a span that the ray starts in enters at −infinity. `cuts` is
-  /// scratch space.
+  /// Like spans(), but from t = 0 on: a span that the ray starts in is given the enter −infinity.
+  /// `cuts` is scratch space.
   Spans spans_ahead(const Ray& ray, std::vector<MeshCut>& cuts) const;
 
-  /// Whether the line reaches the mesh's bounds after t only, surely: then all its cuts are ahead
-  /// of t, and their sum, the winding number there, is 0.
+  /// Whether the line surely reaches the mesh's bounds only after t: then all its cuts are ahead of
+  /// t, and the winding number at t, like their sum, is 0.
   bool is_before_bounds(const Ray& ray, double t) const;
 
-  /// Calls visit(t, entering) where cuts given in order cross the surface before t1, until it
-  /// returns false; false then. `winding`: the number before the first cut.
+  /// Calls visit(t, entering) where the cuts, given in order, cross the surface before t1, until
+  /// visit returns false; then returns false. `winding` is the winding number before the first cut.
   template <typename Visit>
   static bool visit_crossings(const std::vector<MeshCut>& cuts, std::int32_t winding, double t1,
                               Visit&& visit) {
@@ -64,7 +64,7 @@ class Mesh {
     }
     return true;
   }
-  /// What the winding number is before cuts of which those behind have the opposite sum.
+  /// The winding number before `cuts`, if they are all cuts of the line from there on.
   static std::int32_t winding_before(const std::vector<MeshCut>& cuts) {
     std::int32_t winding = 0;
     for (const MeshCut& c : cuts) winding -= c.count;
@@ -73,7 +73,7 @@ class Mesh {
   static void sort_by_parameter(std::vector<MeshCut>& cuts);
 
   /// Calls visit(t, entering) where the line crosses the surface in [t0, t1), 0 ≤ t0, in order,
-  /// until it returns false; false then. `cuts` is scratch space.
+  /// until visit returns false; then returns false. `cuts` is scratch space.
   template <typename Visit>
   bool crossings(const Ray& ray, double t0, double t1, std::vector<MeshCut>& cuts,
                  Visit&& visit) const {
@@ -85,7 +85,7 @@ class Mesh {
     return visit_crossings(cuts, winding_before(cuts), t1, visit);
   }
 
-  /// Whether the two are copies of one.
+  /// Whether the two meshes are copies of one.
   bool is_same_as(const Mesh& other) const { return data_ == other.data_; }
   friend bool operator==(const Mesh& a, const Mesh& b) {
     return a.data_ == b.data_ || a.surface() == b.surface();

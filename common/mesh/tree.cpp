@@ -32,7 +32,7 @@ FloatBox box_of(const TriangleMesh& mesh, std::size_t triangle, double grow) {
   for (const std::uint32_t i : mesh.triangles[triangle]) {
     include(mesh.points[i]);
     if (has_own_plane(mesh, triangle)) continue;
-    // Lines meet it in the plane.
+    // Lines meet the triangle in that plane.
     include(nearest_on(mesh.planes[mesh.plane_of[triangle]], mesh.points[i]));
   }
   return box;
@@ -48,7 +48,7 @@ bool touches(const WideNode& node, std::size_t child, const Aabb& box) {
   return meets;
 }
 
-/// By the boxes, and by the triangle's plane.
+/// Whether a triangle may touch the cell, judged by its box and by its plane.
 bool may_touch(const Vec3& a, const Vec3& b, const Vec3& c, const Aabb& cell) {
   Aabb box{a, a};
   box.include(b);
@@ -80,7 +80,7 @@ bool may_touch_any(const MeshTree& tree, std::uint32_t index, const Aabb& cell) 
 
 }  // namespace
 
-/// What a mesh's tree is made of: triangles, in blocks.
+/// The `Parts` of a mesh's WideTreeBuilder: triangles, of which blocks become items.
 class MeshTreeBuilder {
  public:
   using Box = FloatBox;
@@ -100,7 +100,7 @@ class MeshTreeBuilder {
 
   void run() {
     using Builder = WideTreeBuilder<MeshTreeBuilder>;
-    // 24 levels of halves end 2²³ triangles, and all fit the stack.
+    // 24 levels of halving come to the end of 2²³ triangles, and all levels fit the stack.
     static_assert((Builder::kMaxChosenDepth + 24) * (WideNode::kWidth - 1) + WideNode::kWidth <=
                   MeshTree::kMaxStack);
     if (!order_.empty()) Builder(*this, tree_.nodes_).run(order_);

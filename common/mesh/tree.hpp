@@ -12,8 +12,8 @@
 
 namespace graycube {
 
-/// The corners of up to four triangles, side by side by corner and axis. Unused places have three
-/// equal corners.
+/// The corners of up to four triangles, as arrays indexed by corner, axis and place. Unused places
+/// have three equal corners.
 struct alignas(32) TriangleBlock {
   static constexpr std::size_t kWidth = 4;
   std::array<std::array<std::array<double, kWidth>, 3>, 3> corners;
@@ -24,7 +24,7 @@ struct alignas(32) TriangleBlock {
   }
 };
 
-/// Leaves are blocks: kItemFlag and the block's index. Immutable once built.
+/// A hierarchy whose items are blocks, by their index. Immutable once built.
 class MeshTree {
  public:
   MeshTree() = default;
@@ -47,7 +47,7 @@ class MeshTree {
            planes_.size() * sizeof(Plane) + plane_of_.size() * sizeof(std::uint32_t);
   }
 
-  /// Conservative: may any triangle touch the box?
+  /// Whether any triangle may touch the box; conservative.
   bool may_touch(const Aabb& box) const;
 
  private:
@@ -55,7 +55,7 @@ class MeshTree {
   std::vector<WideNode> nodes_;
   std::vector<TriangleBlock> blocks_;
   std::vector<Plane> planes_;
-  /// By place in the blocks; empty when all triangles have their own.
+  /// Index in planes_ of the plane of each place in the blocks; empty if all are triangles' own.
   std::vector<std::uint32_t> plane_of_;
 };
 

@@ -1,6 +1,6 @@
 // Triangle meshes as values: closed surfaces whose triangles turn counterclockwise seen from
-// outside. What makes one from the polygons of a file is mesh/close_mesh.hpp, what intersects it
-// mesh/mesh.hpp.
+// outside. mesh/close_mesh.hpp makes one from the polygons of a file, mesh/mesh.hpp intersects
+// it.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  /// Planes of other solids in which triangles lie (coincidence/coincidence.hpp), and each
-  /// triangle's, or kOwnPlane; none when no triangle has one.
+  /// Planes of other solids in which triangles lie (coincidence/coincidence.hpp), and the index of
+  /// each triangle's plane, or kOwnPlane; both empty if no triangle has one.
   static constexpr std::uint32_t kOwnPlane = 0xFFFFFFFFu;
   std::vector<Plane> planes{};
   std::vector<std::uint32_t> plane_of{};
@@ -27,10 +27,10 @@ struct TriangleMesh {
   friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };
 
-/// Triangles, and points, of all meshes of a scene together.
+/// The most triangles, and points, of all meshes of a scene together.
 inline constexpr std::uint32_t kMaxMeshTriangles = 1u << 23;
 inline constexpr std::uint32_t kMaxMeshPoints = 1u << 23;
-/// Corners of a face; faces of more would take too long to cut.
+/// The most corners of a face; larger faces would take too long to cut.
 inline constexpr std::uint32_t kMaxFaceCorners = 1u << 12;
 
 }  // namespace graycube

@@ -1,5 +1,5 @@
-// A line's cuts with the triangles of one block. Included once for each instruction set, in the way
-// of Highway's own headers; which one runs can't show in a result.
+// Finds a line's cuts with the triangles of a block. Included once for each instruction set, in the
+// way of Highway's own headers; which one runs can't show in a result.
 #if defined(GRAYCUBE_CSG_MESH_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAYCUBE_CSG_MESH_WALK_INL
 #undef GRAYCUBE_CSG_MESH_WALK_INL
@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Doubles4 = hn::CappedTag<double, TriangleBlock::kWidth>;
 
-/// A block's corners as the line sees them.
+/// The coordinates of a block's corners across the line.
 struct SeenBlock {
   HWY_ALIGN double x[3][TriangleBlock::kWidth];
   HWY_ALIGN double y[3][TriangleBlock::kWidth];
@@ -34,9 +34,9 @@ struct SeenBlock {
   }
 };
 
-/// Sees the block's corners, by the expressions of MeshLine::see. Bit i of the result: triangle i
-/// is neither above nor below nor to the left of the line, and so might count; the others' counts
-/// are 0.
+/// Computes the corners' coordinates by the expressions of MeshLine::see. Bit i of the result tells
+/// that triangle i is neither above nor below nor to the left of the line, and so may be cut; the
+/// counts of all others are 0.
 HWY_INLINE std::uint32_t see(const TriangleBlock& block, const csg::MeshLine& line,
                              SeenBlock& seen) {
   const Doubles4 d;
@@ -93,7 +93,7 @@ HWY_INLINE void add_block_cuts(const MeshTree& tree, std::uint32_t index, const 
   }
 }
 
-/// The same for all blocks below a node that the line may meet in [from, to].
+/// Like add_block_cuts(), for all blocks below a node that the line may meet in [from, to].
 HWY_INLINE void add_cuts_below(const MeshTree& tree, std::uint32_t root, const CullingRay& culling,
                                float from, float to, const csg::MeshLine& line, const Ray& ray,
                                double least, double below, std::vector<MeshCut>& cuts) {

@@ -45,7 +45,7 @@ namespace csg {
 
 double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, const Vec3& b,
                           const Vec3& c) {
-  // Rounding may exceed the corners' parameters by so much.
+  // The most, as a share, by which rounding may exceed the corners' parameters.
   constexpr double kSlackOfParameter = 1e-12;
   const double ta = line.parameter(a), tb = line.parameter(b), tc = line.parameter(c);
   const double least = std::min(ta, std::min(tb, tc)), most = std::max(ta, std::max(tb, tc));
@@ -61,7 +61,7 @@ double triangle_parameter(const MeshLine& line, const Ray& ray, const Vec3& a, c
     const double u = q.x * r.y - q.y * r.x, v = r.x * p.y - r.y * p.x, w = p.x * q.y - p.y * q.x;
     t = (u * ta + v * tb + w * tc) / (u + v + w);
   }
-  // NaN, of triangles without an area, becomes the first corner reached.
+  // NaN, which triangles without an area give, becomes the first corner reached.
   return (t >= least ? (t <= most ? t : most) : least) + 0.0;
 }
 

@@ -1,4 +1,4 @@
-// A line's way through the triangles of a mesh.
+// Finds the triangles of a mesh that a line passes through.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace graycube {
 
-/// Where a line passes through a triangle: `count` is what it adds to the winding number, +1 on the
-/// way in.
+/// A point at which a line passes through a triangle; `count` is added to the winding number there:
+/// +1 on the way in, −1 on the way out.
 struct MeshCut {
   double t;
   std::int32_t count;
-  /// The block, times its width, and the place in it.
+  /// The index of the block times TriangleBlock::kWidth, plus the place in the block.
   std::uint32_t triangle;
 };
 

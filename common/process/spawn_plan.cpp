@@ -9,7 +9,7 @@ namespace {
 
 constexpr mode_t kOwnFile = 0600;
 
-/// The texts as what exec takes; they must outlive it.
+/// Pointers to the texts, as exec takes them; the texts must outlive these.
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(text.data());

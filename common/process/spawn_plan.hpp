@@ -1,4 +1,4 @@
-// How a program is started as a child of this process.
+// Starts a program as a child of this process.
 #pragma once
 
 #include <spawn.h>
@@ -10,8 +10,8 @@
 
 namespace graycube {
 
-/// posix_spawn's two sets of instructions. A child has what its parent has, but for what is said
-/// here.
+/// posix_spawn's two sets of instructions. A child inherits everything from its parent, except for
+/// what is set here.
 class SpawnPlan {
  public:
   SpawnPlan();
@@ -19,20 +19,20 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  /// The child's descriptor is a file, opened with these flags (open(2)); the path must outlive the
-  /// plan.
+  /// Makes a descriptor of the child a file, opened with these flags (open(2)); the path must
+  /// outlive the plan.
   void open_as(int descriptor, const char* path, int flags);
-  /// The child's descriptor is one of this process.
+  /// Makes a descriptor of the child a copy of `own`, one of this process.
   void pass_as(int descriptor, int own);
-  /// Signals that the child handles as is usual, whatever this process does with them.
+  /// Gives these signals their default actions in the child, whatever this process does with them.
   void handle_as_usual(std::initializer_list<int> signals);
   void handle_all_as_usual();
   void block_no_signals();
-  /// The child leads a process group of its own.
+  /// Makes the child the leader of its own process group.
   void lead_group();
 
-  /// Starts a program, `command.front()` by its path, with further variables, "NAME=VALUE", before
-  /// this process's own. 0 and its id in `pid`, or the error (errno's number).
+  /// Starts the program whose path is `command.front()`, with `variables`, "NAME=VALUE", before
+  /// this process's own. Returns 0 and sets `pid`, or returns the error (errno's number).
   [[nodiscard]] int spawn(pid_t& pid, std::vector<std::string> command,
                           std::vector<std::string> variables = {});
 

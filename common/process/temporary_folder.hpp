@@ -9,11 +9,11 @@
 
 namespace graycube {
 
-/// A folder of one's own among the temporary files, for sockets and the like; goes with all that is
-/// in it when this does. Throws std::system_error when it can't be made.
+/// A folder of one's own among the temporary files, for sockets and the like; it is removed, with
+/// all its contents, by the destructor. Throws std::system_error when it can't be made.
 class TemporaryFolder {
  public:
-  /// The path of a socket is short: so should `prefix` be.
+  /// `prefix` should be short, since the path of a socket must be.
   explicit TemporaryFolder(const std::string& prefix = "graycube-") {
     std::string pattern = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
     if (::mkdtemp(pattern.data()) == nullptr) {

@@ -17,7 +17,7 @@ namespace graycube {
 struct BoundaryPlane {
   Vec3 normal;
   double offset = 0;
-  /// Rays whose |normal · direction| is not above it count as parallel to the plane.
+  /// Rays whose |normal · direction| is not above this count as parallel to the plane.
   double flat = 0;
 
   double at(const Vec3& q) const { return dot(normal, q) - offset; }
@@ -27,25 +27,25 @@ struct BoundaryPlane {
 struct RegionSide {
   BoundaryPlane plane;
   bool far = false;  // the half-space is f ≥ 0, else f < 0
-  /// Three columns only: from column 0 the root leads to column 1 in front of the eye and to column
-  /// 2 behind it; which, boundary 2 tells.
+  /// Only with three columns: from column 0 the root leads to column 1 in front of the eye and to
+  /// column 2 behind it; boundary 2 tells which.
   bool forks = false;
   std::uint16_t next = 0;
 };
 
-/// Sides of a column and of a row.
+/// The most sides that a region has: those of its column and of its row.
 inline constexpr std::size_t kMostSides = 4;
 
-/// Where rays pass the first of the sides.
+/// For each ray of a packet, the first side of its region that it passes.
 struct FirstPassages {
-  /// The parameter; infinite when never.
+  /// The parameter at which the ray passes it; infinite if it never does.
   alignas(64) std::array<double, RayPacket::kSize> t;
-  /// The number of the side among those given.
+  /// The side's index among those given to find_first_passages().
   alignas(64) std::array<double, RayPacket::kSize> side;
 };
 
-/// Of rays that have reached t0: as MacroGrid::exit, bit for bit, for each ray of the packet. At
-/// most kMostSides; at equal t the first of them.
+/// Like MacroGrid::exit(), bit for bit, for each ray of the packet, all of which have reached their
+/// t0. There are at most kMostSides sides; at equal t the first of them is taken.
 void find_first_passages(std::span<const RegionSide* const> sides, const Vec3& eye,
                          const RayPacket& packet, FirstPassages& first);
 

@@ -8,7 +8,7 @@
 
 namespace graycube {
 
-/// right points to larger x in the picture, down to larger y, forward along the view.
+/// `right` points to larger x in the picture, `down` to larger y, `forward` along the view.
 struct CameraFrame {
   ImageSize image;
   Projection projection = Projection::kPerspective;
@@ -16,7 +16,7 @@ struct CameraFrame {
   /// Width of one (square) pixel: at distance 1 along `forward` in perspective, in scene units
   /// otherwise.
   double pixel_size = 0;
-  /// Where in its subcell a ray goes: share of the width from the left, of the height from the top.
+  /// A ray's point in its subcell: share of the width from the left, of the height from the top.
   double sample_x = 0.5, sample_y = 0.5;
 
   /// The camera must be valid (read_scene checks): eye ≠ look_at, up not along the view, fov in

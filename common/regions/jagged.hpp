@@ -1,5 +1,5 @@
 // Jagged partition: a picture is cut into rows, and each row into columns of its own, so that all
-// parts are about as heavy.
+// parts are about equally heavy.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace graycube {
 
-/// Cuts lie at multiples of so many pixels, that packets of primary rays are full.
+/// Cuts lie at multiples of this many pixels, so that packets of primary rays are full.
 inline constexpr std::int64_t kCutStep = 4;
 
 /// Pixel edges between parts, each strictly increasing and inside the picture.
 struct JaggedCuts {
   std::vector<std::int64_t> rows;
-  /// Of the first row of parts, then of the second, and so on: one fewer than columns each.
+  /// Edges of the first row of parts, then of the second and so on: one fewer than columns a row.
   std::vector<std::int64_t> columns;
 };
 
@@ -26,7 +26,7 @@ JaggedCuts jagged_cuts(const LoadMap& map, std::span<const std::int64_t> x,
                        std::span<const std::int64_t> y, std::uint32_t column_parts,
                        std::uint32_t row_parts);
 
-/// By column: the edge that is the mean of all rows' edges.
+/// For each column but the last, the mean over all rows of the edge where it ends.
 std::vector<std::int64_t> mean_columns(const JaggedCuts& cuts, std::uint32_t column_parts);
 
 }  // namespace graycube

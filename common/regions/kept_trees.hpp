@@ -1,4 +1,4 @@
-// What of a model is held, object by object.
+// Visits the parts of a model that are held, object by object.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace graycube {
 
-/// Calls f(object, tree) for each object of the whole model of which something is held, in their
-/// order; the tree is all of the object's or the part that is held.
+/// Calls f(object, tree) for each object of the whole model of which something is held, in order;
+/// the tree is the object's whole tree or the part of it that is held.
 template <typename F>
 void for_each_kept(const Model& model, const ModelContents& contents, F&& f) {
   auto part = contents.parts.begin();

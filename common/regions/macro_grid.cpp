@@ -11,11 +11,11 @@ namespace graycube {
 
 namespace {
 
-/// Parallel planes: the camera's axes are orthogonal to within rounding only, and a primary ray
-/// must not drift through a boundary. Over a scene of size s the ray strays by 1e-14 s, far inside
-/// the growth of 1e-9 s that regions are given.
+/// BoundaryPlane::flat of parallel planes: the camera's axes are orthogonal only to within
+/// rounding, and a primary ray must not drift through a boundary. Over a scene of size s the ray
+/// strays by 1e-14 s, far less than the 1e-9 s by which regions are grown.
 constexpr double kFlatOrthographic = 1e-14;
-/// Relative rounding error of f, generously.
+/// A generous bound of the relative rounding error of f (BoundaryPlane::at).
 constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 
 std::vector<std::int64_t> even_edges(std::uint32_t cells, std::uint32_t pixels) {
@@ -23,7 +23,7 @@ std::vector<std::int64_t> even_edges(std::uint32_t cells, std::uint32_t pixels) 
   std::vector<std::int64_t> edges;
   edges.reserve(cells - 1);
   for (std::int64_t i = 1; i < cells; ++i) {
-    // With fewer pixels than cells each cell is one pixel wide and the picture lies in the middle.
+    // If cells outnumber pixels, each is one pixel wide, and the picture lies in the middle.
     edges.push_back(cells <= pixels ? i * pixels / cells : i - (std::int64_t{cells} - pixels) / 2);
   }
   return edges;
@@ -115,9 +115,9 @@ std::uint16_t MacroGrid::Fan::cell_of_edge_position(std::uint32_t pixel) const {
 }
 
 std::uint16_t MacroGrid::Fan::cell_of_point(const Vec3& relative) const {
-  // Within either half of the root the other boundaries are nested, behind the eye too, so halving
-  // works.
-  // Boundaries up to number `low` are passed, those above `high` are not.
+  // Within either half of the root the other boundaries are nested, also behind the eye, so
+  // bisection works. The point is beyond boundaries up to number `low`, and before those above
+  // `high`.
   std::size_t low = 0, high = planes.size();
   for (std::size_t middle = cells.size() / 2; low < high; middle = (low + high + 1) / 2) {
     if (planes[middle - 1].at(relative) >= 0) {

@@ -43,7 +43,7 @@ struct RegionShare {
   friend bool operator==(const RegionShare&, const RegionShare&) = default;
 };
 
-/// Where a ray leaves a macro-region.
+/// The parameter at which a ray leaves a macro-region, and the region that it enters.
 struct RegionExit {
   double t;
   RegionIndex next;
@@ -80,12 +80,12 @@ class MacroGrid {
   /// Whether a point satisfies each of the region's half-spaces; true of region_of_point(p) only,
   /// but for points within rounding of several planes at once.
   bool contains(RegionIndex region, const Vec3& p) const;
-  /// Where a ray that has reached `t` in `region` leaves it, at max(t, plane), and for which
-  /// region; nothing when it stays for good. One plane at a time, columns before rows at equal
-  /// parameters; visits of length zero are normal; each plane is passed at most once.
+  /// The exit of a ray that has reached `t` in `region`, at the larger of t and its plane's
+  /// parameter; nothing when it stays for good. Rays pass one plane at a time, columns before rows
+  /// at equal parameters; visits of length zero are normal; each plane is passed at most once.
   std::optional<RegionExit> exit(RegionIndex region, const Ray& ray, double t) const;
-  /// The same for rays in one region that have reached t0: bit i of the result tells that ray i
-  /// leaves it before t1[i], which is shortened to where, and exits[i] is set.
+  /// Like exit(), for rays in one region that have reached their t0: bit i of the result tells that
+  /// ray i leaves it before t1[i]; then t1[i] is shortened to the exit, and exits[i] is set.
   RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const;
   /// The regions other than `region` itself that a ray may enter next, each once.
@@ -98,7 +98,7 @@ class MacroGrid {
   bool row_may_touch(std::uint32_t row, const Aabb& box, double grow) const {
     return cell_may_touch(rows_.cells[row], box, grow);
   }
-  /// As above for a sphere.
+  /// Like column_may_touch() above, for a sphere instead of a box.
   bool column_may_touch(std::uint32_t column, const Vec3& center, double radius,
                         double grow) const {
     return cell_may_touch(columns_.cells[column], center, radius, grow);

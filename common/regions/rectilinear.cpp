@@ -8,12 +8,12 @@
 namespace graycube {
 namespace {
 
-/// Improvements stop long before; each round is a few thousand additions.
+/// More rounds than improvements ever take; each is a few thousand additions.
 constexpr int kRounds = 12;
 constexpr int kBisections = 40;
 
 using Cuts = std::vector<std::uint32_t>;
-/// Loads of one line of cells (a column, or a row) by part of the other way.
+/// Loads of one line of cells (a column or row), one for each part in the direction along it.
 using Line = std::vector<double>;
 
 std::vector<Line> lines_of(const LoadMap& map, bool by_column, const Cuts& other) {
@@ -30,8 +30,8 @@ std::vector<Line> lines_of(const LoadMap& map, bool by_column, const Cuts& other
   return lines;
 }
 
-/// Cuts into at most so many parts none of which is heavier than `limit` anywhere; nothing when
-/// that can't be. Each part but the last is as long as it may be, and leaves a line for each part
+/// Cuts lines into `parts` parts of which none is heavier than `limit` anywhere; nothing if there
+/// is no such cut. Each part but the last is as long as it may be, and leaves a line for each part
 /// to come.
 std::optional<Cuts> cuts_within(const std::vector<Line>& lines, std::size_t parts, double limit) {
   Cuts cuts;
@@ -61,7 +61,7 @@ Cuts best_cuts(const std::vector<Line>& lines, std::size_t parts) {
   for (const Line& line : lines) {
     for (const double load : line) total += load;
   }
-  // A little more, since sums in another order round otherwise.
+  // Made a little larger, since a sum in another order may round differently.
   double low = 0, high = total * (1 + 1e-9) + 1e-300;
   Cuts best = cuts_within(lines, parts, high).value();
   for (int i = 0; i < kBisections; ++i) {

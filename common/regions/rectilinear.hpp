@@ -8,7 +8,7 @@
 
 namespace graycube {
 
-/// Loads by cell, row by row; none negative.
+/// The load of each cell of a grid, row by row; none is negative.
 struct LoadMap {
   std::uint32_t columns = 1, rows = 1;
   std::vector<double> load;
@@ -22,16 +22,16 @@ struct LoadMap {
   }
 };
 
-/// Where parts begin, but for the first: strictly increasing, one fewer than parts.
+/// The cells at which all parts but the first begin, strictly increasing: one fewer than parts.
 struct RectilinearCuts {
   std::vector<std::uint32_t> columns, rows;
   friend bool operator==(const RectilinearCuts&, const RectilinearCuts&) = default;
 };
 
-/// As even as can be, by counting cells.
+/// Cuts into parts of numbers of cells that are as equal as can be.
 RectilinearCuts even_cuts(const LoadMap& map, std::uint32_t column_parts, std::uint32_t row_parts);
-/// Cuts by columns with the rows' cuts fixed, and the other way round, in turn (each best for
-/// itself). Never heavier than even_cuts. 1 ≤ parts ≤ cells, each way.
+/// Cuts columns with the rows' cuts fixed, then rows with the columns' cuts fixed, in turn (each in
+/// the best way). Never heavier than even_cuts(). 1 ≤ parts ≤ cells, each way.
 RectilinearCuts balanced_cuts(const LoadMap& map, std::uint32_t column_parts,
                               std::uint32_t row_parts);
 /// The load of the heaviest part.

@@ -30,7 +30,7 @@ class ModelExtract {
         {object.id, first, static_cast<std::uint32_t>(tree.size()), object.bounds});
   }
 
-  /// For so many objects, with so many nodes in all.
+  /// Takes memory for that many objects and, in all, that many nodes.
   void reserve(std::size_t objects, std::size_t nodes) {
     to_.objects.reserve(objects);
     to_.nodes.reserve(nodes);
@@ -119,7 +119,7 @@ ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const
     if (!may_touch(object.bounds)) continue;
     kept.clear();
     if (prune(model.tree(object), side, kept) != Pruned::kVaries) continue;
-    // Nothing is folded unless a leaf goes.
+    // Pruning folds nothing unless a leaf goes, so an equal number of nodes means the whole tree.
     if (kept.size() == object.node_count) {
       contents.is_whole[i] = true;
     } else {

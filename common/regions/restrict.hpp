@@ -9,36 +9,36 @@
 
 namespace graycube {
 
-/// What a node holds of a model, by object: all of it, a part of its tree, or nothing.
+/// The part of a model that a node holds: of each object all, a part of its tree, or nothing.
 struct ModelContents {
   std::vector<bool> is_whole;
   struct Part {
     std::uint32_t object;
     std::vector<TreeNode> tree;
   };
-  /// By object, increasing; none of them is whole.
+  /// Objects held in part, in increasing order; none of them is also whole.
   std::vector<Part> parts;
 
-  /// A part gives way to the whole.
+  /// Holds the given objects whole, instead of their parts.
   void hold_whole(const std::vector<bool>& objects);
 };
 
-/// What the primary rays of a part of the picture need: a macro-region of a grid of its own.
+/// A part of the picture, as a macro-region of a grid made for it: its primary rays stay in that.
 struct PicturePart {
   MacroGrid grid;
   RegionIndex region;
 };
 
-/// What the macro-regions of a share need, and a part of the picture beside them: primitives that
-/// certainly miss all of that, grown by the model's delta, become empty space, and the trees are
-/// simplified.
+/// The part of a model that a share's macro-regions, and the picture part `beside` if given, need:
+/// primitives that certainly miss all these, grown by the model's delta, become empty space, and
+/// the trees are simplified.
 ModelContents contents_of_share(const Model& model, const MacroGrid& grid, const RegionShare& share,
                                 const PicturePart* beside = nullptr);
 
-/// Only that is kept, renumbered; objects keep their order and id. Settings and materials stay.
+/// The model with only `contents`, renumbered; objects keep order and id; settings, materials stay.
 Model extract(const Model& model, const ModelContents& contents);
 
-/// Inside each region of the share the result looks like the whole.
+/// The model that looks like the whole one inside each region of the share.
 inline Model restrict_to_share(const Model& model, const MacroGrid& grid,
                                const RegionShare& share) {
   return extract(model, contents_of_share(model, grid, share));

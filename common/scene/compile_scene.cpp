@@ -16,7 +16,7 @@
 namespace graycube {
 namespace {
 
-/// Counts the leaves of all objects, refs expanded; a prism as one, whatever it becomes.
+/// Counts the leaves of all objects, references expanded; a prism is one, whatever it becomes.
 class LeafCounter {
  public:
   explicit LeafCounter(const Scene& scene) : scene_(scene), shapes_(scene.shapes.size()) {}
@@ -65,7 +65,7 @@ class Compiler {
   }
 
  private:
-  /// What a node inherits from those above it.
+  /// The properties that a node inherits from those above it.
   struct Context {
     MeasuredMap to_world;
     MaterialIndex material = kInheritMaterial;
@@ -144,7 +144,7 @@ class Compiler {
     return mesh == nullptr ? share_ : std::max(share_, share_of_digits(mesh->digits));
   }
 
-  /// After bounds of primitives have changed.
+  /// Computes bounds again after those of primitives have changed.
   void measure_again() {
     for (Object& object : model_.objects)
       object.bounds = bounds_of(model_.tree(object), model_.primitives);

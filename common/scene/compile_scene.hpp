@@ -1,4 +1,4 @@
-// From the scene as written to the model as rendered: references expanded, transforms applied,
+// Turns the scene as written into the model as rendered: references expanded, transforms applied,
 // trees in negation normal form, everything in world coordinates.
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace graycube {
 
 /// The scene must have passed read_scene's checks (no cycles, every leaf has a material, all maps
-/// invertible). Objects whose tree is empty space or everything for good are kept: they have no
+/// invertible). Objects whose tree is always empty space or everything are kept: they just have no
 /// surface.
 Model compile_scene(const Scene& scene);
 

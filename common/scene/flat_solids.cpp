@@ -10,7 +10,8 @@
 namespace graycube {
 namespace {
 
-/// What a subtracted piece reaches beyond that from which it is subtracted, in heights.
+/// How far a subtracted piece reaches beyond its own corners, as a share of its
+/// height.
 constexpr double kReachBeyond = 0.25;
 
 /// Sides that are all but level make cones no wider than this.
@@ -25,8 +26,8 @@ CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   return leaf(OperationNode{kind, std::move(children)});
 }
 
-/// A piece less its pieces. `solid_of(piece, level)` gives the convex part, nothing where it is
-/// empty.
+/// The solid of a piece less those of its `less` pieces. `solid_of(piece, level)` gives the solid
+/// of the convex part, or nothing if that is empty.
 template <typename SolidOf>
 std::optional<CsgNode> solid_of_piece(const FlatPiece& piece, int level, const SolidOf& solid_of) {
   std::optional<CsgNode> whole = solid_of(piece, level);
@@ -80,8 +81,7 @@ class TurnedPiece {
     }
     margin_ = kReachBeyond * (high_ - low_);
     if (level > 0) {
-      // Pieces that are subtracted may end anywhere beyond their corners, but where a side is
-      // level.
+      // Subtracted pieces may end anywhere beyond their corners, except at a side that is level.
       low_ -= margin_;
       high_ += margin_;
     }
@@ -111,8 +111,8 @@ class TurnedPiece {
   }
 
  private:
-  /// The points between two heights that are nearer to the axis than the side's line; nothing where
-  /// none is.
+  /// The points between two heights that are nearer to the axis than the side's line; nothing if
+  /// there are none.
   static std::optional<CsgNode> cone_of(const FlatEdge& e, double low, double high) {
     if (!(low < high)) return std::nullopt;
     if (e.normal.y == 0) {

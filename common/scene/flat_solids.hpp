@@ -18,8 +18,8 @@ FlatLoops loops_of(const PrismShape& shape);
 /// A prism of these loops.
 PrismShape prism_shape(const FlatLoops& loops, double low, double high);
 
-/// The part x ≥ 0 of the polygon, x being the distance from the z axis and y the height: cones and
-/// cylinders, united and subtracted. Nothing as above.
+/// The part x ≥ 0 of the polygon turned about the z axis, x being the distance from it and y the
+/// height: cones and cylinders, united and subtracted. Nothing when prism_of() gives nothing.
 std::optional<CsgNode> turned(const FlatLoops& loops);
 
 }  // namespace graycube

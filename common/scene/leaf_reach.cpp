@@ -51,8 +51,8 @@ LeafReach reach(const MeshShape& s) {
   return {most, 1};
 }
 
-/// By its bounds in the world, taken back; unbounded ones by where their planes come nearest the
-/// origin.
+/// A polyhedron's reach is that of its bounds in the world, mapped back; that of an unbounded one
+/// is that of the points of its planes nearest to the origin.
 LeafReach reach(const PolyhedronShape& s, const Primitive& built, const Affine& to_world) {
   Vec3 most;
   const auto inverse = built.bounds.is_finite() ? to_world.inverse() : std::nullopt;

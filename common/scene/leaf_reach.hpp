@@ -1,4 +1,4 @@
-// How far the numbers of a leaf reach, which is what their rounding errors are measured by.
+// How large the numbers of a leaf are, by which their rounding errors are measured.
 #pragma once
 
 #include "csg/primitive.hpp"
@@ -10,13 +10,13 @@ struct LeafReach {
   /// The largest absolute coordinates of the shape's points along each of its own axes; a little
   /// more is fine.
   Vec3 most;
-  /// How many times worse its directions are known than its numbers, at least 1: an axis between
-  /// two points far away is known as badly as they are by the distance between them.
+  /// The factor, at least 1, by which its directions are known worse than its numbers: an axis
+  /// between two points far away is as uncertain as their error over their distance.
   double turn = 1;
 };
 
-/// Of every kind of leaf but prisms, which become others. `built` is the leaf's primitive under
-/// `to_world`; of polyhedra its bounds tell how far they reach.
+/// The reach of any kind of leaf but prisms, which become other kinds. `built` is the leaf's
+/// primitive under `to_world`, whose bounds give the reach of a polyhedron.
 LeafReach reach_of(const CsgNode& leaf, const Primitive& built, const Affine& to_world);
 
 }  // namespace graycube

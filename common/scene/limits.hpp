@@ -1,20 +1,20 @@
-// What a scene may hold, whatever file it comes from.
+// The limits of a scene, whatever file it comes from.
 #pragma once
 
 #include <cstdint>
 
 namespace graycube {
 
-/// Levels of a CSG tree, refs expanded.
+/// The most levels of a CSG tree, with references expanded.
 inline constexpr std::uint32_t kMaxTreeDepth = 256;
-/// Leaves of all objects, and nodes of any kind, refs expanded.
+/// The most leaves of all objects, and nodes of any kind, with references expanded.
 inline constexpr std::uint64_t kMaxLeaves = 1ull << 24;
 inline constexpr std::uint64_t kMaxExpandedNodes = 1ull << 25;
 inline constexpr std::uint32_t kMaxMaterials = 1u << 20;
 inline constexpr std::uint32_t kMaxShapes = 1u << 24;
 inline constexpr std::uint32_t kMaxObjects = 1u << 24;
 inline constexpr std::uint32_t kMaxPlanes = 1u << 16;
-/// Points of a prism, and corners of its paths.
+/// The most points of a prism, and corners of its paths.
 inline constexpr std::uint32_t kMaxPrismPoints = 4096;
 
 }  // namespace graycube

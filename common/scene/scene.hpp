@@ -39,7 +39,7 @@ struct CylinderShape {
   double radius = 0;
   friend bool operator==(const CylinderShape&, const CylinderShape&) = default;
 };
-/// Capped; one of the radii may be zero.
+/// A capped cone; one of the radii may be zero.
 struct ConeShape {
   Vec3 base;
   double base_radius = 0;
@@ -47,7 +47,7 @@ struct ConeShape {
   double top_radius = 0;
   friend bool operator==(const ConeShape&, const ConeShape&) = default;
 };
-/// 0 < minor < major.
+/// A torus with 0 < minor < major.
 struct TorusShape {
   Vec3 center, axis;
   double major = 0, minor = 0;
@@ -71,7 +71,7 @@ struct PolyhedronShape {
   friend bool operator==(const PolyhedronShape&, const PolyhedronShape&) = default;
 };
 
-/// Between two ellipses: semi-axes a, b about `base`, and top_a · a, top_b · b about `top`.
+/// A solid between ellipses: semi-axes a, b about `base`, and top_a · a, top_b · b about `top`.
 struct EllipticConeShape {
   Vec3 base, top, a, b;
   double top_a = 0, top_b = 0;
@@ -128,7 +128,7 @@ struct CsgNode {
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;
-  /// The nearest one up the tree wins.
+  /// The material of all leaves below, unless a node nearer to a leaf has one.
   MaterialIndex material = kInheritMaterial;
 
   friend bool operator==(const CsgNode&, const CsgNode&) = default;
@@ -160,8 +160,8 @@ struct Scene {
   std::vector<NamedMaterial> materials;
   std::vector<NamedShape> shapes;
   std::vector<SceneObject> objects;
-  /// Significant decimal digits of the numbers that the scene was made from; 0: all that a double
-  /// has. What coincides within them coincides (docs/design/coincidence.md).
+  /// Significant decimal digits of the numbers that the scene was made from; 0 means all that a
+  /// double has. Surfaces that coincide within them become one (docs/design/coincidence.md).
   std::uint32_t digits = 0;
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -1,4 +1,4 @@
-// An optional value that most owners lack: absent, it takes a pointer's room.
+// An optional value that most owners lack: if absent, it takes the room of a pointer.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace graycube {
 
-/// As std::optional, copied and compared by value; the value itself is allocated.
+/// Like std::optional, copied and compared by value; but the value is allocated.
 template <typename T>
 class SparseOptional {
  public:

@@ -1,4 +1,4 @@
-// What only `serial` renders. Who submits a scene to a farm asks, and the frontal again.
+// Settings that only `serial` accepts: both a farm's client and its frontal ask for these.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace graycube {
 struct ExceededLimit {
   /// A JSON pointer into the scene.
   std::string_view where;
-  /// What is counted; empty for a plain number.
+  /// The name of the things counted; empty for a plain number.
   std::string_view unit;
   std::uint64_t most = 0, found = 0;
 };
 
-/// A tile's sum of credit is exact up to a photometric tree and a number of lights.
+/// The settings beyond what a tile's sum of credit can hold exactly (see kMaxCreditDepth).
 inline std::vector<ExceededLimit> exceeded_credit_limits(const RenderSettings& settings) {
   std::vector<ExceededLimit> exceeded;
   if (settings.max_depth > kMaxCreditDepth) {

@@ -22,8 +22,8 @@ inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& n, double eta) {
   return normalized(eta * d + (eta * cosine - std::sqrt(k)) * n);
 }
 
-/// Light reflected towards the viewer of unit light from unit direction l, where n·l > 0: Phong
-/// (1975), with d the unit direction of the viewing ray and r its mirror direction.
+/// The share of light from unit direction l that is reflected towards the viewer, where n·l > 0:
+/// Phong (1975); r is the mirror direction of the viewing ray.
 Rgb phong(const Material& m, double n_dot_l, const Vec3& r, const Vec3& l);
 
 }  // namespace graycube

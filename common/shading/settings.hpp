@@ -13,7 +13,7 @@ namespace graycube {
 
 struct ImageSize {
   std::uint32_t width = 0, height = 0;
-  /// S: every pixel takes S × S primary rays.
+  /// S, the side of a pixel's grid of samples: every pixel takes S × S primary rays.
   std::uint32_t samples = 1;
 
   std::uint64_t primary_rays() const { return std::uint64_t{width} * height * samples * samples; }
@@ -26,8 +26,8 @@ inline constexpr std::uint64_t kMaxPixels = 1ull << 26;
 inline constexpr std::uint32_t kMaxSamples = 64;
 
 enum class Projection : std::uint8_t { kPerspective, kOrthographic };
-/// What a ray shows that starts within a solid: where it leaves it, or where it would have entered
-/// it, behind its start. The latter is rt's way; orthographic cameras only.
+/// The point that a ray shows if it starts within a solid: where it leaves the solid, or where it
+/// would have entered it, behind its start. The latter is rt's way; orthographic cameras only.
 enum class InsideView : std::uint8_t { kExit, kEntry };
 enum class Handedness : std::uint8_t { kRight, kLeft };
 
@@ -39,8 +39,8 @@ struct Camera {
   /// Orthographic: the picture's width in scene units.
   double width = 0;
   Handedness handedness = Handedness::kRight;
-  /// Where in its pixel (with samples: subcell) a ray goes, from the lower-left corner, in pixels;
-  /// 0 … 1.
+  /// The point of its pixel (or, with samples, subcell) that a ray goes through, from the
+  /// lower-left corner as shares of the sides: 0 … 1.
   std::array<double, 2> pixel_offset{0.5, 0.5};
   InsideView inside = InsideView::kExit;
 
@@ -60,7 +60,7 @@ struct PointLight {
 inline constexpr std::uint32_t kMaxDepth = 1000;
 inline constexpr std::uint32_t kMaxLights = 4096;
 /// The deepest photometric tree and the most lights whose credit fits the 320 bits of a tile's sum:
-/// what `roth` and `macro` accept.
+/// the limits of `roth` and `macro`.
 inline constexpr std::uint32_t kMaxCreditDepth = 120;
 inline constexpr std::uint32_t kMaxCreditLights = 64;
 
@@ -72,7 +72,7 @@ struct RenderSettings {
   std::uint32_t max_depth = 5;
   double min_weight = 0;
   std::vector<PointLight> lights;
-  /// Of the render, not of the scene: no scene file says so.
+  /// Set for a render, not by the scene: no scene file names AOVs.
   AovSet aovs;
 
   friend bool operator==(const RenderSettings&, const RenderSettings&) = default;

@@ -8,7 +8,7 @@ namespace graycube {
 
 constexpr std::uint32_t gray_code(std::uint32_t position) { return position ^ (position >> 1); }
 
-/// The position whose code it is.
+/// The position that has this code: the inverse of gray_code().
 constexpr std::uint32_t gray_rank(std::uint32_t code) {
   for (int shift = 16; shift > 0; shift /= 2) code ^= code >> shift;
   return code;

@@ -13,8 +13,8 @@ namespace graycube {
 inline constexpr std::uint32_t kMaxDimension = 10;
 inline constexpr std::uint32_t kMaxNodes = 1u << kMaxDimension;
 
-/// Dimension d: a grid of 2^⌈d/2⌉ columns and 2^⌊d/2⌋ rows. Both are numbered by cyclic Gray codes,
-/// so that neighbours on the torus are linked and rays are never routed.
+/// A hypercube of dimension d is a grid of 2^⌈d/2⌉ columns and 2^⌊d/2⌋ rows. Both are numbered by
+/// cyclic Gray codes, so that neighbours on the torus are linked and rays are never routed.
 class Hypercube {
  public:
   /// Nothing unless `nodes` is a power of two, 1 … kMaxNodes.
@@ -30,7 +30,7 @@ class Hypercube {
   Rank rank_at(std::uint32_t column, std::uint32_t row) const;
   std::uint32_t column_of(Rank rank) const;
   std::uint32_t row_of(Rank rank) const;
-  /// gray(row) above gray(column).
+  /// The bits of the row's Gray code, followed by those of the column's as the lower ones.
   GrayLabel label_of(Rank rank) const;
   Rank rank_of(GrayLabel label) const;
 
@@ -39,21 +39,21 @@ class Hypercube {
   /// The bit across which two nodes are linked; nothing when they are not.
   std::optional<std::uint32_t> link_between(Rank a, Rank b) const;
 
-  /// The first bit on the way from one node to another, which is as many links away as their labels
-  /// differ in bits; `but` is taken only when it is the last. They must not be the same node.
+  /// The bit of the first link from one node towards another, which is as many links away as their
+  /// labels differ in bits; `but` is taken only if it is the last. The nodes must differ.
   std::uint32_t first_bit(Rank from, Rank to,
                           std::optional<std::uint32_t> but = std::nullopt) const;
 
-  /// The Gray-code Hamiltonian cycle 0 → … → 0 over links; on one node itself.
+  /// The next node on the Gray-code Hamiltonian cycle 0 → … → 0 over links; itself if alone.
   Rank ring_next(Rank rank) const;
   Rank ring_previous(Rank rank) const;
 
-  /// The binomial spanning tree rooted at rank 0, over links; nothing for the root.
+  /// The parent in the binomial spanning tree over links, rooted at rank 0; nothing for the root.
   std::optional<Rank> tree_parent(Rank rank) const;
   std::vector<Rank> tree_children(Rank rank) const;
 
-  /// The node that a macro-region belongs to; a scattered grid has several times as many columns
-  /// and rows as the hypercube's, and neighbours on it are linked or the same node.
+  /// The node that owns a macro-region; a scattered grid has several times as many columns and rows
+  /// as the hypercube, and nodes of neighbouring regions are linked or the same.
   Rank owner_of(std::uint32_t region_column, std::uint32_t region_row) const;
 
  private:

@@ -14,20 +14,20 @@
 namespace graycube {
 namespace {
 
-/// Rays wait until there are so many: they are traced by the region, and few at a time cost more.
-/// What descends from a pixel comes on top.
+/// Rays wait until there are this many: they are traced region by region, and few at a time cost
+/// more. The rays that descend from the last pixel may exceed this number.
 constexpr std::size_t kManyRays = 32768;
-/// Once so many pixels have shown that all take only this part of what they may, the rest is traced
-/// in one go.
+/// Once this many pixels have shown that all of them will make less than this share of the
+/// crossings allowed, the rest is traced in one go.
 constexpr std::uint32_t kTellingPixels = 128;
 constexpr double kSmallPart = 0.25;
-/// Where all rays stay, so many cells along each side are traced together, or more where there
-/// would be too many regions: the more, the fuller are packets.
+/// When all rays stay, this many cells along each side are traced together (more when there would
+/// be too many regions): larger regions fill packets better.
 constexpr std::uint32_t kCellsTogether = 2;
 constexpr std::uint32_t kMostRegions = 32;
 
-/// What is traced together: cells, or where all rays stay, some of them, since pixels tell what
-/// work is whose.
+/// The grid whose regions are traced one at a time: that of the cells, or, when all rays stay, a
+/// coarser one, since each pixel then tells which cell its work belongs to.
 MacroGrid regions_of(const CameraFrame& frame, const MacroGrid& cells, Staying staying) {
   if (!staying.all()) return cells;
   const auto together = [](std::uint32_t side) {
@@ -36,7 +36,7 @@ MacroGrid regions_of(const CameraFrame& frame, const MacroGrid& cells, Staying s
   return MacroGrid::regular(frame, together(cells.columns()), together(cells.rows()));
 }
 
-/// All regions of a grid, seen one at a time: what leaves one goes on in the next.
+/// Traces all regions of a grid, one at a time: a ray that leaves one waits for its next region.
 class CoarseTrace {
  public:
   CoarseTrace(const Domain& whole, const MacroGrid& cells,
@@ -56,7 +56,7 @@ class CoarseTrace {
     open_domain_.set_horizons(std::move(horizons));
   }
 
-  /// Primary rays wait as all others do: those of a region are traced together.
+  /// Adds a pixel's primary rays to those that wait: the rays of a region are traced together.
   void add_pixel(std::uint32_t x, std::uint32_t y) {
     const CameraFrame& frame = domain_.frame();
     const std::uint32_t samples = frame.image.samples, rays = samples * samples;
@@ -73,8 +73,8 @@ class CoarseTrace {
     created_[static_cast<std::size_t>(RayKind::kPrimary)] += rays;
   }
 
-  /// Traces what has left its region, region by region to and fro, until nothing is left: what goes
-  /// the same way gathers on it.
+  /// Traces waiting rays region by region, to and fro over the grid, until none is left: rays that
+  /// go the same way gather in each region on it.
   void finish() {
     const std::size_t last = waiting_.size() - 1;
     for (bool forth = true; waiting_count_ > 0; forth = !forth) {
@@ -87,7 +87,7 @@ class CoarseTrace {
   }
   bool has_many_waiting() const { return waiting_count_ >= kManyRays; }
 
-  /// So far, of the rays that do not wait.
+  /// Crossings from region to region made so far by rays that no longer wait.
   std::uint64_t crossings() const { return crossings_; }
   const LoadMap& map() const { return map_; }
   std::vector<LeavingLight> take_left_by_light() { return std::move(left_by_light_); }
@@ -115,8 +115,8 @@ class CoarseTrace {
     trace(at, evaluator_, beside, [&] { evaluator_.trace_rays(taken_, step_); });
     taken_.clear();
   }
-  /// Rays that are traced where they left, on their further way. What descends from them counts as
-  /// what crosses: so much work has an end.
+  /// Traces the rest of the way of rays that left a region but count as its work. The rays that
+  /// they create count as crossings, so that the limit on crossings ends this work, too.
   void trace_staying(std::vector<RayTask>& rays) {
     if (rays.empty()) return;
     crossings_ += rays.size();
@@ -134,7 +134,7 @@ class CoarseTrace {
     return std::size_t{r.row} * grid_.columns() + r.column;
   }
 
-  /// `beside`: what it costs beside what is counted.
+  /// `beside` is the cost that the created rays and walk counts of the step don't include.
   template <typename Trace>
   void trace(RegionIndex at, const Evaluator& evaluator, double beside, Trace&& work) {
     domain_.confine_to({grid_.columns(), grid_.rows(), at.column, at.row});
@@ -154,7 +154,7 @@ class CoarseTrace {
     return cells_.region_of_pixel(pixel % width, pixel / width);
   }
 
-  /// Of a step: to the cells of its pixels, by the light that came of each, or to the region's own.
+  /// Spreads a step's cost over its pixels' cells by contributions, or gives it to its region.
   void add_cost(RegionIndex at, double cost) {
     if (!stays_.all()) {
       map_.at(at.column, at.row) += cost;
@@ -173,7 +173,7 @@ class CoarseTrace {
     }
   }
 
-  /// Hops tell shadow rays that have left their first region from those that have not.
+  /// Queues a ray that left region `from`. Shadow rays in their first region have made no hops.
   void take_leaving(RayTask& ray, RegionIndex from) {
     const bool is_shadow = ray.kind == RayKind::kShadow;
     if (is_shadow && ray.hops == 0) {
@@ -188,18 +188,18 @@ class CoarseTrace {
   }
 
   const MacroGrid& cells_;
-  /// What is traced together.
+  /// The grid of the regions that are traced one at a time.
   MacroGrid grid_;
   Staying stays_;
   double crossing_cost_;
   LoadMap map_;
-  /// The whole scene, seen as the region under way.
+  /// The whole scene, confined to the region that is being traced.
   Domain domain_;
   Evaluator evaluator_;
-  /// The same without boundaries.
+  /// The whole scene without boundaries, for rays that stay.
   Domain open_domain_;
   Evaluator open_evaluator_;
-  /// By region.
+  /// Rays to be traced, indexed by region of `grid_`, row by row.
   std::vector<std::vector<RayTask>> waiting_, staying_;
   std::size_t waiting_count_ = 0;
   std::vector<LeavingLight> left_by_light_;
@@ -209,8 +209,8 @@ class CoarseTrace {
   Step step_;
 };
 
-/// A step that visits each of `count` places once, those visited so far spread over all at any
-/// time: near the golden section of the count, without a divisor in common.
+/// A stride (modulo `count`) that visits each of `count` places once, with those visited so far
+/// always spread evenly: near the golden section of the count, and coprime with it.
 std::uint32_t spreading_step(std::uint32_t count) {
   auto step = static_cast<std::uint32_t>(0.618034 * count) + 1;
   while (std::gcd(step, count) != 1) ++step;
@@ -229,7 +229,7 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells,
       kCoarseShare * pixels, static_cast<double>(kLeastCoarsePixels),
       static_cast<double>(std::clamp(most_pixels, kLeastCoarsePixels, kMostCoarsePixels)));
   const double step = std::sqrt(pixels / wanted);
-  // As many in each cell as in any other.
+  // Each cell gets as many pixels as any other.
   const auto of_side = [step](std::uint32_t side, std::uint32_t parts) {
     const auto each = static_cast<std::uint32_t>(std::lround(side / (parts * step)));
     return std::min(parts * std::max(1u, each), side);
@@ -246,7 +246,7 @@ CoarseLoad coarse_load(const Domain& whole, const MacroGrid& cells,
   for (std::uint32_t i = 0, at = 0; i < count && trace.crossings() <= most_crossings; ++i) {
     trace.add_pixel(middle(at % across, across, image.width),
                     middle(at / across, count / across, image.height));
-    // Also when they have doubled: what they take to the end is known before it is too much.
+    // Also finished when the pixels have doubled, so that their work is known in good time.
     const std::uint32_t done = i + 1;
     if (trace.has_many_waiting() || (std::has_single_bit(done) && !is_cheap)) {
       trace.finish();

@@ -1,4 +1,4 @@
-// Light on its way to the picture, and the credit that comes back with it.
+// The light that is sent to the picture, and the credit that comes back with it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,6 @@ struct Contribution {
   friend bool operator==(const Contribution&, const Contribution&) = default;
 };
 
-/// Credit of one tile.
 struct TileCredit {
   std::uint32_t tile = 0;
   Credit credit;

@@ -22,7 +22,7 @@
 
 namespace graycube {
 
-/// How a process finds crossings. Both give the same, bit for bit.
+/// How a process finds crossings. Both ways find the same crossings, bit for bit.
 enum class Subdivision : std::uint8_t {
   kSurfaceTree,  ///< a bounding volume hierarchy over the surfaces: the fast one
   kLinkedCells,  ///< the report's: a BSP whose leaf regions are linked to their neighbours
@@ -45,11 +45,11 @@ struct Territory {
   std::size_t memory_bytes() const;
 };
 
-/// What one evaluator needs to look for crossings.
+/// The scratch memory with which one evaluator looks for crossings.
 struct CrossingScratch {
   TreeScratch tree;
   Mailbox mailbox;
-  /// For borrowed territories: what a scratch remembers belongs to one tree.
+  /// One for each place of Domain::borrowed_: what a scratch remembers belongs to one tree.
   std::vector<TreeScratch> borrowed;
   TreeScratch foreign;
 
@@ -80,21 +80,21 @@ class Domain {
   const RenderSettings& settings() const { return territory_->model->settings; }
   const CameraFrame& frame() const { return frame_; }
   const Model& model() const { return *territory_->model; }
-  /// Leaf regions, or cells of objects.
+  /// The number of leaf regions (linked cells), or of items (surface tree).
   std::size_t cell_count() const;
   /// Bytes of models and subdivisions, borrowed ones included.
   std::size_t memory_bytes() const;
 
-  /// Shadow rays end at a light's horizon.
+  /// Sets the lights' horizons, at which shadow rays end.
   void set_horizons(std::shared_ptr<const LightHorizons> horizons) {
     horizons_ = std::move(horizons);
   }
-  /// Of what this domain does not hold; shadow rays need not leave it where nothing of that can
-  /// stand in their way.
+  /// Sets the horizons of the objects that this domain does not hold; shadow rays need not leave it
+  /// when none of these objects can stand in their way.
   void set_foreign_horizons(std::shared_ptr<const LightHorizons> horizons) {
     foreign_horizons_ = std::move(horizons);
   }
-  /// Around what this domain does not hold; rays need not leave it where they meet none of that.
+  /// Sets boxes around what this domain does not hold; rays that meet none of them need not leave.
   void set_foreign_bounds(std::shared_ptr<const ForeignBounds> bounds) {
     foreign_bounds_ = std::move(bounds);
   }
@@ -105,22 +105,22 @@ class Domain {
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
   std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
                                               std::shared_ptr<const Territory> territory) const;
-  /// A neighbour's regions, seen as this domain sees its own; what is foreign to it is to be set.
+  /// A domain like this one of a neighbour's regions, without foreign horizons and bounds as yet.
   std::shared_ptr<Domain> of_neighbour(const RegionShare& share, Model model) const;
-  /// What this domain holds, seen as the regions of a share.
+  /// A domain with the same model, whose regions are those of a share of `grid`.
   Domain restricted_to(const MacroGrid& grid, const RegionShare& share) const {
     Domain domain = *this;
     domain.grid_ = grid;
     domain.share_ = share;
     return domain;
   }
-  /// From here on only those of the grid's regions; not while rays are traced.
+  /// From now on the domain's regions are those of `share`; not to be called while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
-  /// Whether a shadow ray from `origin` is surely nearer to its light than `distance` when `left`
-  /// (both in scene units) of its way is left.
+  /// Whether a shadow ray from `origin` that has `left` of its way to go is surely nearer to its
+  /// light than `distance` (both in scene units).
   static bool is_beyond(const Vec3& origin, double left, double distance) {
-    // Far more than rounding makes of a ray's distance from its light.
+    // Far larger than the rounding error of a ray's distance from its light.
     constexpr double kMargin = 1e-8;
     return left * (1 + kMargin) + kMargin * larger(1.0, max_abs(origin)) < distance;
   }
@@ -158,27 +158,27 @@ class Domain {
     scratch.mailbox.begin_ray();
     return graycube::pass_light(*territory_->bsp, ray, t0, t1, scratch.mailbox, light);
   }
-  /// As pass_light, in a region of this or another node; nothing when it is neither held nor
-  /// borrowed.
+  /// Like pass_light(), for a region of this or another node; nothing when the region is neither
+  /// held nor borrowed.
   std::optional<bool> pass_light_borrowed(RegionIndex region, const Ray& ray, double t0, double t1,
                                           CrossingScratch& scratch, Rgb& light) const;
-  /// As first_crossing for each ray of a packet: bit i of the result tells whether found[i] holds a
-  /// crossing.
+  /// Like first_crossing(), for each ray of a packet: bit i of the result tells whether found[i]
+  /// holds a crossing.
   RayPacket::Mask first_crossings(const RayPacket& packet, CrossingScratch& scratch,
                                   std::span<Crossing, RayPacket::kSize> found) const;
-  /// As pass_light for each ray of a packet: bit i of the result tells whether light[i] arrives.
+  /// Like pass_light(), for each ray of a packet: bit i of the result tells if light[i] arrives.
   RayPacket::Mask pass_lights(const RayPacket& packet, CrossingScratch& scratch,
                               std::span<Rgb, RayPacket::kSize> light) const;
   /// The grid of macro-regions; null when space has no boundaries.
   const MacroGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   bool holds(RegionIndex region) const { return !grid_ || share_.owns(region); }
-  /// Where a ray leaves the region that it is in; nothing when no boundary stops it.
+  /// The point where a ray leaves its region; nothing when no boundary stops it.
   std::optional<RegionExit> exit(const RayTask& task) const {
     if (!grid_ || is_replica_) return std::nullopt;
     return grid_->exit(task.region, task.ray, task.t);
   }
-  /// The same for rays in one region: bit i of the result tells that ray i leaves it before t1[i],
-  /// which is shortened to where, and exits[i] is set.
+  /// Like exit(), for rays in one region: bit i of the result tells that ray i leaves it before
+  /// t1[i]; then t1[i] is shortened to the exit, and exits[i] is set.
   RayPacket::Mask shorten_to_exits(RegionIndex region, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const {
     if (!grid_ || is_replica_) return 0;
@@ -201,7 +201,7 @@ class Domain {
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
   bool is_replica_ = false;
-  /// By the owner's row · share_.columns + column; empty when nothing is borrowed.
+  /// Indexed by the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_, foreign_horizons_;
   std::shared_ptr<const ForeignBounds> foreign_bounds_;

@@ -10,12 +10,12 @@
 namespace graycube {
 namespace {
 
-/// Objects that may lie behind the eye, one behind the other, before an object around it is given
-/// up on.
+/// The most objects behind the eye, one behind the other, that are looked at before the search for
+/// an object around the eye is given up.
 constexpr std::size_t kMostBehind = 256;
 
-/// The parameter at which the primitive itself is crossed nearest to t: what found t was the ray
-/// turned round, whose roots may differ in the last bit.
+/// The parameter at which `ray` crosses the primitive nearest to t. t was found with the reversed
+/// ray, whose roots may differ in the last bit.
 double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, double t) {
   const Spans spans = spans_along(model.primitives[primitive], model.data(), ray);
   double best = t, least = kInf;
@@ -30,8 +30,8 @@ double own_root(const Model& model, std::uint32_t primitive, const Ray& ray, dou
   return best;
 }
 
-/// Where the ray entered the object that it starts in; `first` is what it meets first when turned
-/// round.
+/// The crossing at which the ray entered the object that it starts in. `back` is the reversed ray,
+/// and `first` the first crossing of `back`.
 std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const Ray& back,
                                      const Crossing& first, CrossingScratch& scratch) {
   std::array<std::uint32_t, kMostBehind> seen;
@@ -39,7 +39,7 @@ std::optional<Crossing> entry_behind(const Domain& domain, const Ray& ray, const
   for (std::optional<Crossing> hit = first; hit && count < kMostBehind;) {
     const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
     if (std::find(seen.begin(), end, hit->object) == end) {
-      // Backwards out of an object that was never entered: the start lies in it.
+      // The reversed ray leaves an object that it never entered: the start lies in it.
       if (!hit->entering) {
         return Crossing{own_root(domain.model(), hit->primitive, ray, -hit->t), hit->primitive,
                         hit->object, true};

@@ -19,7 +19,7 @@ bool is_pixels_own_ray(const Domain& domain, const RayTask& task) {
                                                 middle, middle);
 }
 
-/// Out of the object: against a ray that enters it, along one that leaves it.
+/// The normal out of the object: against a ray that enters it, along a ray that leaves it.
 Vec3 object_normal(const Domain& domain, const RayTask& task, const Crossing& hit) {
   const Model& model = domain.model();
   const Vec3 n = outward_normal(model.primitives[hit.primitive], model.data(), task.ray, hit.t);

@@ -1,4 +1,4 @@
-// The AOVs of a picture: what the first hit of a pixel's ray says beside light.
+// The AOVs of a picture: what the first hit of a pixel's ray tells apart from its light.
 #pragma once
 
 #include "trace/step.hpp"

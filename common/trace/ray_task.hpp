@@ -18,11 +18,11 @@ enum class RayKind : std::uint8_t { kPrimary, kShadow, kReflection, kRefraction 
 inline constexpr int kRayKinds = 4;
 
 struct RayTask {
-  /// As created; never restarted at a boundary, so that every node computes the same t.
+  /// The ray as created; never restarted at a boundary, so that every node computes the same t.
   Ray ray;
   /// The parameter reached so far: crossings before it are behind the ray.
   double t = 0;
-  /// Shadow rays: there are no crossings at or beyond it, or they don't count. Infinity otherwise.
+  /// For shadow rays, the end: crossings at or beyond it don't exist or don't count. Else infinity.
   double t_max = 0;
   /// The product of Kr and Kt from the root of the photometric tree; for a shadow ray the light
   /// that arrives if nothing opaque stands in the way.
@@ -34,8 +34,8 @@ struct RayTask {
   std::uint8_t credit_exponent = 0;
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
-  /// Shadow rays: the light that they go to, as numbered in the settings, and whether t_max is
-  /// where they reach its horizon.
+  /// For shadow rays, the index of their light in the settings, and whether t_max is where they
+  /// reach that light's horizon.
   std::uint16_t light : 15 = 0;
   bool ends_at_horizon : 1 = false;
   /// The macro-region that the ray is in at t.
@@ -47,7 +47,7 @@ struct RayTask {
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
 
-/// What RayTask::light holds.
+/// The largest number that RayTask::light can hold.
 inline constexpr std::uint32_t kLightMask = (1u << 15) - 1;
 static_assert(kMaxLights <= kLightMask + 1);
 

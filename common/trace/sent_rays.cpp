@@ -1,5 +1,5 @@
-// What the surfaces that a wave meets send out: their own light, secondary rays, shadow rays, and
-// the credit of each.
+// The part of Evaluator that treats the surfaces that a wave meets: their own light, the secondary
+// and shadow rays that they send out, and the credit of each.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,8 +47,8 @@ class CreditSplit {
   std::size_t shadow_rays_, secondary_rays_;
 };
 
-/// A ray from `origin` that inherits pixel and generation.
-/// Written in place, number by number: a copy made on the way would wait for its parts to reach the
+/// Makes `r` a ray from `origin` that inherits its parent's pixel and generation. Written
+/// in place, number by number: a temporary copy would wait for its parts to reach the
 /// cache.
 void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const Vec3& origin,
            const Vec3& direction, const Rgb& weight, RayTask& r) {
@@ -66,7 +66,7 @@ void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const
 
 }  // namespace
 
-/// `is_beyond`: the ray had left its macro-region.
+/// `is_beyond` tells that the ray had left its macro-region before the hit.
 void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step) {
   const RayTask& task = ray.task;
   const Model& model = domain_.model();
@@ -91,7 +91,7 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
   contribute(ray, task.weight * ambient, step);
 }
 
-/// Where the surface is: its ray need not have been traced through the regions between.
+/// The region of the surface: its ray need not have been traced through the regions between.
 RegionIndex Evaluator::region_of(const SurfacePoint& at) const {
   return at.is_beyond ? domain_.region_at(at.ray->task, at.t) : at.ray->task.region;
 }
@@ -119,8 +119,8 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
   if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
 }
 
-/// From all surfaces of the wave that face it. The first loop is written to be vectorized: it does
-/// what length, a scaled vector and dot do.
+/// Sends a shadow ray to a light from every surface of the wave that faces it. The first loop is
+/// written to be vectorized: its expressions are those of length(), scaling and dot().
 void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   const Vec3 at = domain_.settings().lights[light].position;
   const std::size_t count = surfaces_.size();
@@ -139,15 +139,15 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   }
   look_up_horizons(light);
   for (std::size_t i = 0; i < count; ++i) {
-    // A light in the surface's plane, but for rounding, lights nothing: highlights would come and
-    // go at random.
+    // A light that lies in the surface's plane to within rounding lights nothing: else highlights
+    // would come and go at random.
     const double above = cosine_[i] * distance_[i];
     if (above > 0 && above > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]}))
       send_light_ray(light, i, step);
   }
 }
 
-/// For all surfaces at once: most of what it takes is waiting for memory.
+/// Looks up all surfaces at once, since most of the time goes into waiting for memory.
 void Evaluator::look_up_horizons(std::uint32_t light) {
   const bool has_foreign = domain_.has_foreign_horizons();
   if (!domain_.has_horizons() && !has_foreign) return;
@@ -196,10 +196,10 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   ++at.lights;
 }
 
-/// Shortens a shadow ray's way to where it reaches its light's horizon, unless it begins beyond
-/// that, where nothing can stand in its way, or where no light comes.
+/// Shortens a shadow ray's way to the point where it reaches its light's horizon. A ray that begins
+/// past that point arrives, and one that begins where no light comes ends in shadow.
 Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, ShadowWay& way) {
-  // Crossings that count end a little before the light: the ray is between these distances from it.
+  // Crossings count up to a little before the light; its distance is no more than `farthest`.
   const double epsilon = way.t;
   const double farthest = way.t_max + 4 * epsilon;
   if (way.t_max - 2 * epsilon > reach.dark && 2 * epsilon < reach.clearance)
@@ -211,7 +211,7 @@ Evaluator::Horizon Evaluator::meet_horizon(const LightHorizons::Reach& reach, Sh
   return end > way.t ? Horizon::kGoesOn : Horizon::kArrives;
 }
 
-/// Among what each surface sends out and its own contribution.
+/// Splits each ray's credit among the rays that its surface sends out and the surface itself.
 void Evaluator::share_credit() {
   const auto split = [](const SurfacePoint& at) {
     return CreditSplit(at.ray->task.credit_exponent, at.lights, at.secondary_rays);

@@ -11,7 +11,7 @@
 namespace graycube {
 namespace {
 
-/// Pixels whose primary rays make a packet.
+/// Side of the square of pixels whose primary rays make a packet.
 constexpr std::uint32_t kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == RayPacket::kSize);
 
@@ -50,7 +50,7 @@ void Evaluator::finish_pixels(Step& step) {
   close_pixels(step);
 }
 
-/// What the primary rays of a block send out is left on the stack.
+/// Traces a block's primary rays. The rays that they send out may be left on the stacks.
 void Evaluator::trace_block(const PixelRect& block, Step& step) {
   const ImageSize& image = domain_.settings().image;
   const auto first_slot = static_cast<std::uint32_t>(open_.size());
@@ -63,8 +63,8 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
             slot, step);
       }
     }
-    // Where rays leave for other nodes, too few stay of a block's to fill packets: those of several
-    // blocks gather.
+    // When rays leave for other nodes, too few of a block's rays stay to fill packets: rays of
+    // several blocks are gathered.
     if (domain_.grid() != nullptr && s == 0) {
       take_wave(viewing_);
       trace_wave(step);
@@ -74,8 +74,8 @@ void Evaluator::trace_block(const PixelRect& block, Step& step) {
   }
 }
 
-/// Sample number s of each pixel. The pixels of a block are opened by the first, in the order of
-/// all others.
+/// Starts the ray of sample number s of each pixel. Sample 0 opens the pixels; all samples visit
+/// them in the same order.
 void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std::uint32_t& slot,
                                    Step& step) {
   const ImageSize& image = domain_.settings().image;
@@ -85,7 +85,7 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std
   for (std::uint32_t y = pixels.y0; y < pixels.y1; ++y) {
     for (std::uint32_t x = pixels.x0; x < pixels.x1; ++x) {
       OpenRay& ray = viewing_.emplace_back();
-      // In place: see spawn.
+      // Written in place, for the reason given at spawn().
       new (&ray.task.ray) Ray(domain_.frame().primary_ray(x, y, sx, sy));
       ray.task.pixel = y * image.width + x;
       ray.task.t_max = kInf;
@@ -126,7 +126,7 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   }
 }
 
-/// Shadow rays first, then the youngest: the stacks stay short.
+/// Traces shadow rays first, then the youngest rays: so the stacks stay short.
 void Evaluator::trace_all(Step& step) {
   while (!lights_.empty() || !viewing_.empty()) {
     if (has_enough(step)) return set_all_aside(step);
@@ -139,8 +139,8 @@ bool Evaluator::has_enough(const Step& step) const {
   return step.leaving.size() + step.lacking.size() >= most_leaving_;
 }
 
-/// Viewing rays first, then shadow rays, each in the order of their stack: whoever takes the last
-/// first goes on where this ended.
+/// Sets viewing rays aside first, then shadow rays, each in the order of their stack: whoever takes
+/// the last ones first goes on where this evaluator stopped.
 void Evaluator::set_all_aside(Step& step) {
   for (std::vector<OpenRay>* stack : {&viewing_, &lights_}) {
     for (const OpenRay& ray : *stack) step.set_aside.push_back(ray.task);
@@ -178,8 +178,8 @@ void Evaluator::take_wave(std::vector<OpenRay>& stack) {
   stack.resize(first);
 }
 
-/// What the surfaces of a wave send out: shadow rays are traced at once, light by light; secondary
-/// rays go on the stack.
+/// Sends out the rays of a wave's surfaces: shadow rays are traced at once, light by light;
+/// secondary rays go on the stack.
 void Evaluator::trace_sent_rays(Step& step) {
   for (std::uint32_t light = 0; light < shadow_.size(); ++light) send_light_rays(light, step);
   share_credit();
@@ -193,7 +193,7 @@ void Evaluator::trace_sent_rays(Step& step) {
   }
 }
 
-/// A ray that reached its region's boundary.
+/// Passes a ray that has reached its region's boundary on to the next region.
 void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
   const bool stays = domain_.holds(exit.next);
   RayTask& next = stays ? viewing_.emplace_back(ray).task : step.leaving.emplace_back(ray.task);
@@ -201,7 +201,7 @@ void Evaluator::go_on(const OpenRay& ray, const RegionExit& exit, Step& step) {
   next.region = exit.next;
 }
 
-/// A shadow ray that reached its region's boundary, with the light that is left of it.
+/// Passes a shadow ray that has reached its region's boundary on, with the `light` left of it.
 void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit,
                                Step& step) {
   const auto move_on = [&](RayTask& task) {
@@ -220,8 +220,8 @@ void Evaluator::go_on_to_light(const OpenRay& ray, const Rgb& light, const Regio
   }
 }
 
-/// Goes on through borrowed regions; where one is lacking, the whole way from the domain's own
-/// regions waits.
+/// Traces a shadow ray on through borrowed regions. If one of these is lacking, the ray waits for
+/// it as it left the domain's own regions.
 void Evaluator::finish_light_ray(const OpenRay& at_border, Step& step) {
   OpenRay ray = at_border;
   RayTask& task = ray.task;
@@ -247,8 +247,8 @@ void Evaluator::light_arrives(const OpenRay& ray, const Rgb& light, Step& step) 
   open_[ray.slot].credit.add_power(ray.task.credit_exponent);
 }
 
-/// As Domain::shorten_to_exits, also for rays in several regions, and in those of others, which
-/// they leave where they are.
+/// Like Domain::shorten_to_exits(), but rays may be in several regions. A ray in a region that the
+/// domain does not hold leaves it where the ray is.
 RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
                                             std::span<RegionExit, RayPacket::kSize> exits) const {
   if (domain_.grid() == nullptr || domain_.is_replica()) return 0;
@@ -270,7 +270,7 @@ RayPacket::Mask Evaluator::shorten_to_exits(std::span<const OpenRay> rays, RayPa
   return leaving;
 }
 
-/// As shorten_to_exits, but for those rays that can be finished here: they go on to their light.
+/// Like shorten_to_exits(), but rays that can be finished here keep their whole way to the light.
 RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, RayPacket& packet,
                                               std::span<RegionExit, RayPacket::kSize> exits) {
   if (std::all_of(rays.begin(), rays.end(), [](const OpenRay& ray) { return ray.stays; })) return 0;
@@ -297,9 +297,9 @@ RayPacket::Mask Evaluator::shorten_light_rays(std::span<const OpenRay> rays, Ray
   return leaving & ~finished;
 }
 
-/// Of the rays that leave, those that can't be finished here: what they meet of what the domain
-/// holds (`hits`, `found`, wherever it is) is beyond where they leave, and something foreign may be
-/// before it.
+/// The rays, among those that are `leaving`, that can't be finished here: a ray's first crossing
+/// with the domain's own model (`hits`, `found`; in any region), if there is one, is beyond its
+/// exit, and something foreign may come before that crossing.
 RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& packet,
                                       std::span<const RegionExit, RayPacket::kSize> exits,
                                       RayPacket::Mask hits,
@@ -313,7 +313,7 @@ RayPacket::Mask Evaluator::must_leave(RayPacket::Mask leaving, const RayPacket& 
   return beyond.among_all(domain_.may_meet_foreign(beyond.packet, scratch_));
 }
 
-/// A packet at most.
+/// Traces shadow rays: one packet at most.
 void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
@@ -337,7 +337,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
   }
 }
 
-/// A packet at most.
+/// Traces primary, reflected or refracted rays: one packet at most.
 void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;

@@ -15,10 +15,10 @@
 
 namespace graycube {
 
-/// Light for one pixel, and the credit that comes back with it; or a pixel's AOVs (aov_slot).
+/// Light for one pixel, and the credit that comes back with it; or AOVs of a pixel (aov_slot).
 struct PixelReturn {
   std::uint32_t pixel = 0;
-  /// So many contributions were merged here; at most kMaxMergedContributions.
+  /// The number of contributions merged here; at most kMaxMergedContributions.
   std::uint32_t merged = 0;
   FixedRgb light;
   Credit credit;
@@ -39,16 +39,16 @@ struct RayCounts {
 struct Step {
   /// Rays that left the domain, each with the region it goes on in and the t reached.
   std::vector<RayTask> leaving;
-  /// Shadow rays that wait for another node's model, each as it left the domain's own regions.
+  /// A shadow ray, as it left the domain's own regions, that waits for the model of `region`.
   struct Lacking {
     RayTask task;
     RegionIndex region;
   };
   std::vector<Lacking> lacking;
-  /// What was left when enough had left: rays in the domain, still to be traced.
+  /// Rays in the domain that are still to be traced (see Evaluator::stop_after).
   std::vector<RayTask> set_aside;
-  /// What came back for each ray that went in, or pixel of a rectangle: mostly one, more where it
-  /// would hold too many contributions.
+  /// What came back for each ray that went in, or for each pixel of a rectangle: mostly one entry,
+  /// more when one entry would hold too many contributions.
   std::vector<PixelReturn> returns;
   RayCounts rays;
   RoundingCounts rounding;
@@ -56,20 +56,20 @@ struct Step {
   void clear();
 };
 
-/// Evaluates rays until nothing of them is left in the domain: packet by packet of rays of one kind
-/// and generation, the youngest first, so that what is under way stays little. One evaluator a
-/// thread.
+/// Evaluates rays until none of them, nor of their descendants, is left in the domain. It takes
+/// packets of rays of one kind and generation, the youngest first, so that few rays are pending at
+/// a time. Each thread has its own evaluator.
 class Evaluator {
  public:
-  /// So many rays are under way together: an 8 × 8 block of pixels, and what descends from it.
+  /// Rays are traced in waves of at most this many: those of an 8 × 8 block of pixels.
   static constexpr std::uint32_t kBlockSide = 8;
   static constexpr std::size_t kWaveRays = kBlockSide * kBlockSide;
 
   explicit Evaluator(const Domain& domain);
 
-  /// Once so many rays of a step have left, or wait for a model, what else is under way is set
-  /// aside. That is looked at between packets of at most kWaveRays rays, each of which may send out
-  /// a ray to each light and two others.
+  /// Once this many rays of a step have left the domain or wait for a model, all other pending rays
+  /// are set aside. This is checked between waves of at most kWaveRays rays, each of which may send
+  /// out one ray to each light and two others.
   void stop_after(std::size_t most_leaving) { most_leaving_ = most_leaving; }
 
   /// Traces the primary rays of a rectangle of pixels; appends to `step`.
@@ -80,17 +80,17 @@ class Evaluator {
   WalkCounts walk_counts() const { return scratch_.counts(); }
 
  private:
-  /// A ray, and which of the open pixels it belongs to.
+  /// A pending ray, and the index in open_ of the pixel that it belongs to.
   struct OpenRay {
     RayTask task;
     std::uint32_t slot = 0;
-    /// The surface that sent it, until its credit is known.
+    /// Index in surfaces_ of the surface that sent it; used until its credit is known.
     std::uint32_t surface = 0;
-    /// A shadow ray: the domain holds all that may stand in its way, whatever regions that is in.
+    /// For a shadow ray: the domain holds all objects that may stand in its way, in any region.
     bool stays = false;
   };
 
-  /// Where a ray of the wave meets a surface.
+  /// The point where a ray of the wave meets a surface.
   struct SurfacePoint {
     const OpenRay* ray;
     const Material* material;
@@ -101,7 +101,7 @@ class Evaluator {
     bool is_beyond;
     std::uint32_t lights = 0, secondary_rays = 0;
   };
-  /// A coordinate of every surface of a wave.
+  /// One number for each surface of a wave.
   using Coordinates = std::array<double, kWaveRays>;
 
   void trace_block(const PixelRect& block, Step& step);
@@ -136,10 +136,10 @@ class Evaluator {
                            Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
-  /// What becomes of a new shadow ray.
+  /// The fate of a new shadow ray at its light's horizon.
   enum class Horizon : std::uint8_t { kGoesOn, kArrives, kEndsInShadow };
   void look_up_horizons(std::uint32_t light);
-  /// Where a shadow ray's crossings count: t ≤ their parameter < t_max.
+  /// The stretch in which a shadow ray's crossings count: t ≤ their parameter < t_max.
   struct ShadowWay {
     double t, t_max;
     bool ends_at_horizon = false;
@@ -156,18 +156,18 @@ class Evaluator {
   /// Rays of one kind, generation and region, under way together.
   std::vector<OpenRay> wave_;
   std::vector<OpenRay> viewing_, lights_;
-  /// The surfaces of the wave; their points and normals side by side, and of the light under way
-  /// the unit direction, the distance and the cosine.
+  /// The surfaces of the wave, with their points and normals as arrays of coordinates, and for the
+  /// current light their unit direction to it, distance from it and cosine to the normal.
   std::vector<SurfacePoint> surfaces_;
   alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
   alignas(64) Coordinates distance_, cosine_;
-  /// Of the light's horizons, where the domain has them: what is surely nearer to the light than
-  /// any surface, and than any that is foreign.
+  /// Distances from the current light (if the domain has horizons), for each surface of the wave:
+  /// nearer to the light there is surely no surface at all, and no foreign surface.
   std::array<float, kWaveRays> lit_, all_held_;
-  /// What they send out: refracted and reflected rays, and the shadow rays of each light.
+  /// Rays that the wave's surfaces send out: [0] refracted, [1] reflected; shadow rays by light.
   std::array<std::vector<OpenRay>, 2> secondary_;
   std::vector<std::vector<OpenRay>> shadow_;
-  /// By slot.
+  /// The pixels whose sums are open, indexed by OpenRay::slot.
   std::vector<PixelReturn> open_;
 };
 

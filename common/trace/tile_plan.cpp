@@ -40,7 +40,7 @@ TilePlan::TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& gri
   }
 }
 
-/// Areas end where the macro-region changes or the owner does.
+/// Adds the areas of one row: an area ends where its macro-region or its owner changes.
 void TilePlan::add_jagged_row(const MacroGrid& grid, std::uint16_t row,
                               std::span<const std::int64_t> own_edges) {
   std::vector<std::uint32_t> ends{image_.width};

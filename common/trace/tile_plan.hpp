@@ -1,5 +1,5 @@
-// Tiles: the rectangles of pixels that are handed out, accounted for and finished as one. The plan
-// numbers them the same way in the frontal and in every node.
+// Tiles are the rectangles of pixels that are handed out, accounted for and finished as one. The
+// plan numbers them the same way in the frontal and in every node.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace graycube {
 
-/// Side of a tile in pixels, where nothing else is asked for.
+/// Default side of a tile in pixels.
 inline constexpr std::uint32_t kTileSide = 16;
 
 struct TileShape {
@@ -22,8 +22,8 @@ class TilePlan {
   /// The whole picture as one area, cut row by row.
   TilePlan(const ImageSize& image, TileShape shape);
   /// One area per macro-region, row by row; each area is cut by itself, so that a tile's primary
-  /// rays all belong to one region. Where own pixels are others than the regions' (own_pixels.hpp),
-  /// areas end with them, too.
+  /// rays all belong to one region. If nodes have own pixels (own_pixels.hpp), areas also end where
+  /// these end.
   TilePlan(const ImageSize& image, TileShape shape, const MacroGrid& grid,
            std::span<const std::int64_t> own_edges = {});
 
@@ -31,15 +31,15 @@ class TilePlan {
   std::uint64_t pixel_count() const { return std::uint64_t{image_.width} * image_.height; }
   PixelRect rect(std::uint32_t tile) const;
   std::uint32_t tile_of_pixel(std::uint32_t pixel) const;
-  /// S × S primary rays a pixel.
+  /// The number of a tile's primary rays: samples × samples for each pixel.
   std::uint64_t primary_rays(std::uint32_t tile) const;
 
-  /// Areas are numbered row · columns + column, where each is a macro-region's.
+  /// Areas are numbered row · columns + column if each is a macro-region's (no own edges).
   std::uint32_t area_of_tile(std::uint32_t tile) const;
-  /// The macro-region that all of a tile's primary rays belong to; {0, 0} where the picture is one
-  /// area.
+  /// The macro-region that all of a tile's primary rays belong to; {0, 0} if the picture is a
+  /// single area.
   RegionIndex region_of_tile(std::uint32_t tile) const { return areas_[area_of_tile(tile)].region; }
-  /// The macro-region whose node traces them.
+  /// The macro-region whose node traces the tile's primary rays.
   RegionIndex owner_of_tile(std::uint32_t tile) const { return areas_[area_of_tile(tile)].owner; }
   std::uint32_t first_tile(std::uint32_t area) const { return areas_[area].first_tile; }
   std::uint32_t tile_count_of(std::uint32_t area) const;
@@ -61,10 +61,10 @@ class TilePlan {
   ImageSize image_;
   TileShape shape_;
   std::vector<Area> areas_;
-  /// By row of areas: its first.
+  /// The number of the first area of each row of areas.
   std::vector<std::uint32_t> first_areas_;
-  /// The row of areas that each pixel row belongs to, and the place in it of each pixel column: in
-  /// all rows alike, or row by row.
+  /// The row of areas that each pixel row belongs to; and the place of each pixel column in its row
+  /// of areas: one list for all rows, or, if jagged, one list after the other for each row.
   std::vector<std::uint16_t> row_of_y_, place_of_x_;
   bool is_jagged_ = false;
   std::uint32_t tile_count_ = 0;

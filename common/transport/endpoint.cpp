@@ -20,7 +20,7 @@ bool is_port(std::string_view text) {
   return port > 0 && port < 65536;
 }
 
-/// 127.0.0.0/8, ::1 or localhost.
+/// Whether the host is in 127.0.0.0/8, or is ::1 or localhost.
 bool is_loopback(std::string_view host) {
   if (host == "localhost" || host == "[::1]") return true;
   if (!host.starts_with("127.")) return false;

@@ -1,5 +1,5 @@
-// Where a farm may listen: local sockets and loopback addresses only, as long as links are neither
-// encrypted nor authenticated.
+// Endpoints at which a farm may listen: only local sockets and loopback addresses, as long as links
+// are neither encrypted nor authenticated.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxSocketPath = 107;
 /// "*" picks a free one) may not be used; nothing when it may.
 std::optional<std::string> endpoint_problem(std::string_view endpoint);
 
-/// Where `graycube up` listens and clients connect when nothing else is said: below
+/// The endpoint at which `graycube up` listens and clients connect by default: below
 /// $XDG_RUNTIME_DIR, or in a folder of the user's in /tmp.
 std::string default_endpoint();
 

@@ -1,4 +1,4 @@
-// What travels over a link: one frame, or two where a control message has a binary payload behind
+// Messages sent over a link: one frame, or two if a control message has a binary payload behind
 // it.
 #pragma once
 
@@ -18,8 +18,8 @@ inline std::string_view text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Bytes that nobody changes any more, held together by all who need them: a model that goes to
-/// every node, or what the socket received.
+/// Bytes that nobody changes any more, with shared ownership: a model that goes to every node, or a
+/// frame that the socket received.
 class SharedBytes {
  public:
   SharedBytes() = default;
@@ -28,7 +28,7 @@ class SharedBytes {
     bytes_ = *owned;
     owner_ = std::move(owned);
   }
-  /// `bytes` are there as long as their owner is.
+  /// `bytes` must stay valid as long as their owner lives.
   SharedBytes(std::shared_ptr<const void> owner, std::span<const std::byte> bytes)
       : owner_(std::move(owner)), bytes_(bytes) {}
 

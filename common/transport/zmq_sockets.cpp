@@ -36,15 +36,15 @@ SharedBytes shared(zmq::message_t frame) {
   return {owner, bytes_of(*owner)};
 }
 
-/// Short frames are copied: cheaper than to hand them over.
+/// Shorter frames are copied, which is cheaper than handing them over.
 constexpr std::size_t kShortFrame = 512;
 
-/// A frame that ZeroMQ lets go of once it is sent, from a thread of its own.
+/// A frame whose bytes ZeroMQ releases once it is sent, from a thread of its own.
 zmq::message_t frame_of(SharedBytes shared) {
   const auto bytes = shared.bytes();
   if (bytes.size() < kShortFrame) return {bytes.data(), bytes.size()};
   auto owned = std::make_unique<SharedBytes>(std::move(shared));
-  // What is sent is only read.
+  // ZeroMQ only reads a frame that is sent, so the cast is safe.
   zmq::message_t frame(
       const_cast<std::byte*>(bytes.data()), bytes.size(),
       [](void*, void* hint) { delete static_cast<SharedBytes*>(hint); }, owned.get());
@@ -60,7 +60,7 @@ void send_frames(zmq::socket_t& socket, Message message) {
   if (has_payload) socket.send(frame_of(std::move(message.payload)), zmq::send_flags::none);
 }
 
-/// Whether a message is waiting; nothing when a signal has come instead of an answer.
+/// Whether a message is waiting; nothing when a signal interrupted the question.
 std::optional<bool> has_message(zmq::socket_ref socket) {
   try {
     return (socket.get(zmq::sockopt::events) & ZMQ_POLLIN) != 0;
@@ -126,7 +126,7 @@ void Wakeup::clear() {
 struct Connection::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::dealer) {}
   zmq::socket_t socket;
-  /// What was received last.
+  /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
 };
 
@@ -182,7 +182,7 @@ struct Inbox::Impl {
   explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::router) {}
   zmq::socket_t socket;
   std::string endpoint;
-  /// What was received last.
+  /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
 };
 
@@ -223,9 +223,9 @@ void Inbox::send(const std::string& peer, Message message) {
 const std::string& Inbox::endpoint() const { return impl_->endpoint; }
 void* Inbox::socket() { return impl_->socket.handle(); }
 
-// zmq::poll asks each socket before it waits and after. What this waits for is described under
-// ZMQ_FD: the descriptor tells once that something happened to a socket, and is silent about what
-// came while the socket was used.
+// zmq::poll would ask each socket before and after it waits. This waits for the sockets'
+// descriptors instead (see ZMQ_FD): a descriptor tells once that something happened to its socket,
+// and doesn't tell of messages that came while the socket was used.
 void wait_readable(std::span<Readable* const> sockets, std::span<const int> descriptors,
                    std::chrono::milliseconds timeout) {
   std::vector<pollfd> items;

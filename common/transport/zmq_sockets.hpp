@@ -1,5 +1,5 @@
-// ZeroMQ, and the only place that knows it. High-water marks are 0: flow is controlled by credits
-// of our own (a ROUTER silently drops past its mark).
+// Sockets of ZeroMQ; no other file knows it. High-water marks are 0, that is, none: flow is
+// controlled by credits of our own (a ROUTER silently drops messages past its mark).
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ struct TransportError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Longest message accepted from a peer, both frames together.
+/// The most bytes of a frame that is accepted from a peer.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 31;
 
 /// One per process; sockets must not outlive it.
@@ -37,27 +37,27 @@ class ZmqContext {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A file descriptor that another thread makes readable. Who waits for it calls clear() before
-/// looking at what the others may have left.
+/// A file descriptor that another thread makes readable. The thread that waits for it calls clear()
+/// before it looks at what the others may have left.
 class Wakeup {
  public:
   Wakeup();
   ~Wakeup();
   Wakeup(const Wakeup&) = delete;
   Wakeup& operator=(const Wakeup&) = delete;
-  /// Any thread.
+  /// Makes the descriptor readable; may be called by any thread.
   void signal();
   void clear();
   int descriptor() const { return descriptor_; }
 
  private:
   int descriptor_;
-  /// Signalled, and not cleared since: saves the system call.
+  /// Signalled and not cleared since; then another signal needs no system call.
   std::atomic<bool> is_signalled_{false};
 };
 
-/// A socket that wait_readable can wait for. What ZeroMQ tells of a socket takes system calls to
-/// ask, also that there is nothing; so it is asked only when there may be something.
+/// A socket that wait_readable() can wait for. Asking ZeroMQ about a socket takes system calls,
+/// even if no message is there; so it is asked only when there may be one.
 class Readable {
  public:
   virtual ~Readable() = default;
@@ -73,9 +73,9 @@ class Readable {
                             std::chrono::milliseconds);
   virtual void* socket() = 0;
 
-  /// Becomes readable, and stays so until the socket is used, when something may have come.
+  /// Becomes readable when a message may have come, and stays so until the socket is used.
   int descriptor_ = -1;
-  /// Nothing was there, and the socket hasn't been used since.
+  /// No message was there, and the socket hasn't been used since.
   bool is_drained_ = false;
 };
 
@@ -90,9 +90,9 @@ class Connection : public Readable {
   void send(Message message);
   /// Nothing when no message is waiting.
   std::optional<Message> receive();
-  /// As receive, without a copy: until the next call.
+  /// Like receive(), without a copy: the view is valid until the next call.
   std::optional<MessageView> receive_view();
-  /// As receive, waiting for up to `timeout`.
+  /// Like receive(), but waits for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
 
  private:
@@ -110,11 +110,11 @@ class Inbox : public Readable {
   ~Inbox() override;
   struct Received {
     std::string peer;
-    /// Until the next call.
+    /// Valid until the next call of receive().
     MessageView message;
   };
   std::optional<Received> receive();
-  /// To a peer that has sent something before; dropped when it has gone.
+  /// Sends to a peer that has sent something before; the message is dropped if it has gone.
   void send(const std::string& peer, Message message);
   /// The endpoint bound, with the port that was picked.
   const std::string& endpoint() const;

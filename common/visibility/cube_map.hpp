@@ -1,6 +1,6 @@
-// Directions on the faces of a cube. Face 2 · a is that of directions whose largest component is
-// +axis a, 2 · a + 1 that of −axis a; u goes along axis a + 1 and v along axis a + 2 (mod 3), each
-// from 0 to 1.
+// Directions as places on the faces of a cube. Face 2 · a holds the directions whose largest
+// component is along +axis a, face 2 · a + 1 those along −axis a; u goes along axis a + 1 and v
+// along axis a + 2 (mod 3), each from 0 to 1.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ struct CubePlace {
 
 constexpr std::size_t cube_texels(std::uint32_t side) { return std::size_t{6} * side * side; }
 
-/// The first of the largest components names the face. Written without branches: shadow rays of one
-/// wave go to several faces, and no processor guesses which.
+/// The place of a direction. The first of the largest components decides the face. Written without
+/// branches: shadow rays of one wave go to several faces, which no processor predicts.
 inline CubePlace cube_place(const Vec3& d) {
   const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
   const bool is_x = x >= y && x >= z, is_y = !is_x && y >= z;
@@ -35,7 +35,7 @@ inline CubePlace cube_place(const Vec3& d) {
           select(d.z, d.x, d.y) * scale + 0.5};
 }
 
-/// The direction, not of unit length, of a place.
+/// The direction of a place; not of unit length.
 inline Vec3 cube_direction(const CubePlace& place) {
   const int axis = static_cast<int>(place.face / 2);
   Vec3 d;
@@ -45,13 +45,13 @@ inline Vec3 cube_direction(const CubePlace& place) {
   return d;
 }
 
-/// Which of `count` cells of width 1 a coordinate from 0 to `count` is in. Written so that NaN,
-/// which no unit vector gives, and what rounding takes beyond either end stay within.
+/// The number of the cell, among `count` of width 1, in which a coordinate from 0 to `count` lies.
+/// NaN, which no unit vector gives, and values that rounding took past an end give a valid cell.
 inline std::uint32_t cell_at(double at, std::uint32_t count) {
   return at > 0 ? std::min(static_cast<std::uint32_t>(at), count - 1) : 0;
 }
 
-/// Of faces of side × side texels, one behind the other, row after row.
+/// The number of the texel of a place, on faces of side × side texels: face by face, row by row.
 inline std::size_t cube_texel(const CubePlace& place, std::uint32_t side) {
   return (place.face * side + cell_at(place.v * side, side)) * side + cell_at(place.u * side, side);
 }

@@ -13,7 +13,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As cube_place and cube_texel have it.
+/// Computes cube_texel(cube_place(−direction)) in every lane.
 void OppositeTexels(const double* x, const double* y, const double* z, std::size_t count,
                     std::uint32_t side, std::uint32_t* texels) {
   const hn::CappedTag<double, kTexelLanes> lanes;

@@ -6,7 +6,7 @@
 
 namespace graycube {
 
-/// What find_cube_texels reads and writes in one go: its spans must reach to a multiple of this.
+/// The spans of find_opposite_texels must reach to a multiple of this many elements.
 inline constexpr std::size_t kTexelLanes = 8;
 
 /// cube_texel (cube_map.hpp) of the directions opposite to (x, y, z)[i], on faces of side × side

@@ -10,10 +10,10 @@
 namespace graycube {
 namespace {
 
-/// About so many of a node's branches are items.
+/// The typical number of items among a node's branches.
 constexpr std::size_t kBoxesPerNode = 5;
 
-/// What goes into one place of a node.
+/// A box with its child or item, for one place of a node.
 struct Branch {
   FloatBox box;
   std::uint32_t child;
@@ -22,7 +22,7 @@ struct Branch {
 /// The branches of a node.
 struct Branches {
   std::size_t count = 0;
-  // Left as it is until it is used: there are many.
+  // Not initialized, since there are many.
   std::array<Branch, WideNode::kWidth> list;
 
   void add(const Branch& b) { list[count++] = b; }
@@ -33,10 +33,10 @@ struct Branches {
   }
 };
 
-/// Takes what is held out of a tree, from the leaves up.
+/// Copies a tree without the objects that are held, from the leaves up.
 class Pruning {
  public:
-  /// `items`: by node, those below it. Up to `most_together` share a box.
+  /// `items` holds the number of items below each node. Up to `most_together` share one box.
   Pruning(const SurfaceTree& tree, std::span<const std::uint32_t> items,
           const ModelContents& contents, std::size_t most_together)
       : tree_(tree),
@@ -52,7 +52,7 @@ class Pruning {
       const Branches root = branches_of(tree_.nodes().front());
       if (root.count > 0) add_node(root);
     }
-    // They were made children first.
+    // Children were made first, so the order of all nodes is reversed.
     std::reverse(nodes_.begin(), nodes_.end());
     for (WideNode& node : nodes_) {
       for (std::uint32_t& child : node.child) {
@@ -80,8 +80,8 @@ class Pruning {
       }
       if (b.count > 0) ++count;
     }
-    // What has few branches needs no node of its own, as long as there is room here for it and for
-    // all others.
+    // A child with few branches needs no node of its own, as long as this node has room for its
+    // branches and for all other children.
     Branches all;
     std::size_t others = count;
     for (std::size_t size = 1; size <= WideNode::kWidth; ++size) {
@@ -116,13 +116,13 @@ class Pruning {
     return {node.box(place), WideNode::kItemFlag};
   }
 
-  /// All that is foreign below a node, in one box, which may be larger; nothing where nothing is.
+  /// One box, maybe too large, around all that is foreign below a place; nothing if nothing is.
   std::optional<Branch> all_together(const WideNode& parent, std::size_t place) const {
     Branch all = place_branch(parent, place);
     return add_foreign_below(tree_.nodes()[parent.child[place]], all.box) ? std::optional(all)
                                                                           : std::nullopt;
   }
-  /// Whether there is something; of what is held in part, the box comes to include all.
+  /// Whether something below a node is foreign; `box` grows to enclose all objects held in part.
   bool add_foreign_below(const WideNode& node, FloatBox& box) const {
     bool any = false;
     for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
@@ -133,7 +133,7 @@ class Pruning {
         any = true;
         if (is_part_[object_of(node, i)]) box.include(item_branch(node, i).box);
       }
-      // What is left can't change the box.
+      // The items that are left can't change the box.
       if (any && contents_.parts.empty()) return true;
     }
     return any;

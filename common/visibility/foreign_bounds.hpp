@@ -1,6 +1,6 @@
-// Where what a node does not hold may be: a hierarchy of boxes around all surfaces of the objects
-// that are foreign to it. A ray that meets none of them, on its way from the node's macro-regions
-// to what it meets of what the node holds, is finished there.
+// A hierarchy of boxes around all surfaces of the objects that are foreign to a node: that it does
+// not hold whole. A ray that meets none of the boxes, on its way from the node's macro-regions to
+// its first crossing with what the node holds, is finished there.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class ForeignBounds {
   /// SurfaceTree::kMaxDepth.
   explicit ForeignBounds(std::vector<WideNode> nodes) : nodes_(std::move(nodes)) {}
 
-  /// Bit i: ray i may meet something foreign at t0 ≤ t ≤ t1; 0 ≤ t0.
+  /// Bit i of the result tells whether ray i may meet something foreign at t0 ≤ t ≤ t1; 0 ≤ t0.
   RayPacket::Mask may_meet(const RayPacket& packet, TreeScratch& scratch) const;
 
   const std::vector<WideNode>& nodes() const { return nodes_; }
@@ -37,14 +37,14 @@ class ForeignBoundsMaker {
  public:
   explicit ForeignBoundsMaker(const SurfaceTree& whole);
 
-  /// Around all that `contents` do not hold whole; where they hold a part of an object, around all
-  /// of it, since the part has other surfaces than the whole. Boxes that are near each other become
-  /// one where all take more than `most_bytes`. Nothing where something foreign has no bounds.
+  /// Bounds of all objects that `contents` do not hold whole; if they hold a part of an object,
+  /// bounds of the whole of it, since the part has other surfaces. Boxes near each other are merged
+  /// until all take at most `most_bytes`. Nothing when some foreign object is unbounded.
   std::optional<ForeignBounds> bounds(const ModelContents& contents, std::size_t most_bytes) const;
 
  private:
   const SurfaceTree& tree_;
-  /// By node of the tree: items below it.
+  /// The number of items below each node of the tree.
   std::vector<std::uint32_t> items_;
 };
 

@@ -1,4 +1,4 @@
-// Packets of rays through foreign bounds.
+// Takes packets of rays through foreign bounds.
 #include "geometry/simd.hpp"
 #include "visibility/foreign_bounds.hpp"
 

@@ -14,30 +14,30 @@
 namespace graycube {
 namespace {
 
-/// Pixels that are looked at, along each side of the picture.
+/// Number of pixels that are sampled along each side of the picture.
 constexpr std::uint32_t kSamples = 64;
-/// Blocks are made until so many of the samples that ask for one have it: the last ones would serve
-/// few rays each.
+/// Blocks are made until this share of the samples that ask for a block have theirs: the last ones
+/// would serve few rays each.
 constexpr double kServedShare = 0.8;
-/// Solids are taken this many δ larger or smaller than a texel asks for; and texels relatively
-/// wider.
+/// Solids are grown or shrunk by this many δ more than a texel's half width asks for; texels are
+/// taken to be wider by this factor.
 constexpr double kGrowDeltas = 16;
 constexpr double kWiden = 1 + 1e-5;
 /// Distances are given this much shorter or longer, relatively.
 constexpr double kRelativeError = 1e-9;
-/// Texels along a side of the squares that are looked at together.
+/// Texels along a side of the squares that are traced together, as one packet.
 constexpr std::uint32_t kSquare = 4;
 static_assert(kSquare * kSquare == RayPacket::kSize && kSquare % LightDepths::kGroup == 0);
 
-/// Blocks that surfaces ask for.
+/// The blocks of one light that the picture's surfaces ask for.
 struct Demand {
-  /// By texel of the horizon map: the samples that do.
+  /// The number of samples that ask for each texel of the horizon map.
   std::vector<std::uint32_t> samples = std::vector<std::uint32_t>(LightHorizons::kTexels);
-  /// The farthest of them.
+  /// The distance of the farthest of these samples from the light (scene units).
   double far = 0;
 };
 
-/// By light.
+/// The demand of each light, from samples of the picture.
 std::vector<Demand> demands(const LightHorizons& horizons, const SurfaceTree& whole) {
   const Model& model = whole.model();
   const auto& lights = model.settings.lights;
@@ -73,7 +73,7 @@ std::vector<Demand> demands(const LightHorizons& horizons, const SurfaceTree& wh
   return result;
 }
 
-/// The blocks asked for most, so many that they serve kServedShare of the samples.
+/// Chooses the blocks asked for most, as many as it takes to serve kServedShare of the samples.
 void choose_blocks(const std::vector<Demand>& demand, std::vector<LightDepths>& depths) {
   struct Block {
     std::uint32_t samples, light, texel;
@@ -98,7 +98,7 @@ void choose_blocks(const std::vector<Demand>& demand, std::vector<LightDepths>& 
   for (LightDepths& d : depths) std::sort(d.blocks.begin(), d.blocks.end());
 }
 
-/// How far a direction in a texel may be from the middle one, both of length 1.
+/// The most by which a unit direction in a texel may differ from the texel's middle direction.
 double half_width(std::uint32_t split) {
   return kWiden * std::sqrt(2.0) / (LightHorizons::kSide * split);
 }
@@ -122,9 +122,9 @@ bool split_blocks(const std::vector<Demand>& demand, std::uint64_t most_texels,
   return false;
 }
 
-/// How far directions in a texel may part from its middle one by where they reach an object, or as
-/// far as depths go, for the light for which that is most. `split_of` tells into how many texels a
-/// light's blocks are split along a side.
+/// The most (scene units) by which lines in a texel part from its middle line on their way to the
+/// far side of an object, or to where depths end: the largest over all lights. `split_of` gives the
+/// number of texels along a side of a light's blocks.
 template <typename SplitOf>
 double half_width_at(const Object& object, const Model& model, const std::vector<Demand>& demand,
                      const std::vector<LightDepths>& depths, SplitOf&& split_of) {
@@ -133,19 +133,19 @@ double half_width_at(const Object& object, const Model& model, const std::vector
     if (depths[l].blocks.empty()) continue;
     const Vec3 lo = object.bounds.lo - model.settings.lights[l].position;
     const double reach = length(lo) + length(object.bounds.hi - object.bounds.lo);
-    // Written so that what is unbounded, or no number, counts as far as depths go.
+    // Written so that an infinite reach or NaN counts as the distance to which depths go.
     const double far = reach < demand[l].far ? reach : demand[l].far;
     most = std::max(most, far * half_width(split_of(depths[l])));
   }
   return most + kGrowDeltas * model.delta;
 }
 
-/// The first crossings of a scene by rays from a light.
+/// Finds the first crossings of a scene with rays from a light.
 class View {
  public:
   View(const SurfaceTree& tree, const Vec3& light) : tree_(tree), light_(light) {}
 
-  /// By ray: the parameter where it is; `end` where there is none before.
+  /// The parameter of each ray's first crossing; `end` if there is none before.
   std::span<const double> look(std::span<const Vec3> directions, double end) {
     RayPacket packet;
     for (const Vec3& d : directions) packet.add({light_, d}, 0, end);
@@ -172,7 +172,7 @@ bool is_inside(const Model& model, const Vec3& point) {
   });
 }
 
-/// What a light sees of the dilated and the eroded scene.
+/// Fills a light's depths from what it sees of the dilated and of the eroded scene.
 class DepthMaker {
  public:
   /// `map` is the light's horizon.
@@ -182,7 +182,7 @@ class DepthMaker {
 
   void run() {
     const std::uint32_t split = depths_.split, dark_split = depths_.dark_split();
-    // A little less, so that no distance of so many units lies beyond.
+    // Made a little shorter, so that no distance of up to kNever units lies beyond `far_`.
     depths_.unit = far_ * (1 - kRelativeError) / LightDepths::kNever;
     depths_.lit.resize(depths_.blocks.size() * split * split);
     depths_.dark.assign(depths_.blocks.size() * dark_split * dark_split, LightDepths::kNever);
@@ -201,7 +201,7 @@ class DepthMaker {
     }
   }
 
-  /// A square of texels, of `split` along a side of a block: those from (x0, y0) on.
+  /// Aims at a square of texels, from (x0, y0) on, of a block of `split` × `split` texels.
   void aim(std::size_t block, std::uint32_t split, std::uint32_t x0, std::uint32_t y0) {
     constexpr std::uint32_t kSide = LightHorizons::kSide;
     const std::uint32_t texel = depths_.blocks[block];
@@ -230,7 +230,7 @@ class DepthMaker {
     }
   }
 
-  /// Whether anything begins in the part of the horizon that a square of the darkness lies behind.
+  /// Whether any surface begins in the texels of the horizon that a square of darkness covers.
   bool has_before(std::size_t block, std::uint32_t x0, std::uint32_t y0) const {
     const std::uint32_t split = depths_.split;
     constexpr std::uint32_t kGroup = LightDepths::kGroup, kGroups = kSquare / kGroup;
@@ -257,7 +257,7 @@ class DepthMaker {
   double far_;
   LightDepths& depths_;
   std::vector<Vec3> directions_;
-  /// Of the texels that they go through.
+  /// The places in LightDepths::lit or dark of the texels that directions_ go through.
   std::vector<std::size_t> places_;
 };
 
@@ -272,7 +272,7 @@ LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole,
   std::vector<LightDepths> depths(lights.size());
   choose_blocks(demand, depths);
   if (!split_blocks(demand, std::min(most_texels, kMostDepthTexels), depths)) return horizons;
-  // What is outside of a dilated object is at least so far from the object itself.
+  // A point outside all dilated objects is at least this far from the objects themselves.
   double clearance = kInf;
   const auto larger = dilated(model, [&](const Object& object) {
     const double by =

@@ -1,8 +1,8 @@
-// Depth maps of what a light sees, for the directions in which a picture's surfaces ask for it. The
-// whole scene is dilated and eroded by the half width of a texel (csg/morphology.hpp). Then one ray
-// through a texel's middle speaks for all of its directions: none of them meets anything nearer
-// than the first crossing of the dilated scene, and each is inside a solid where the eroded scene
-// is first entered: beyond, there is no light.
+// Depth maps of the scene seen from a light, for the directions in which the picture's surfaces
+// look for it. The whole scene is dilated and eroded by the half width of a texel
+// (csg/morphology.hpp). Then one ray through a texel's middle speaks for all of its directions:
+// none of them meets anything nearer than the first crossing of the dilated scene, and each is
+// inside a solid where the eroded scene is first entered: no light arrives beyond that.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace graycube {
 
-/// Texels of the darkness about all lights together, at most: what FORMAT.md allows on the wire.
+/// The most texels of darkness for all lights together: the limit of FORMAT.md on the wire.
 inline constexpr std::uint64_t kMostDepthTexels = std::uint64_t{1} << 20;
 
-/// The horizons with depths beside, of at most `most_texels` texels of darkness (and
-/// kMostDepthTexels), where that helps. `whole` is the scene that they are of; its camera says
-/// where its surfaces are seen.
+/// Adds depths to the horizons where they help, with at most `most_texels` texels of darkness (and
+/// at most kMostDepthTexels). `whole` is the scene of the horizons; its camera says which surfaces
+/// are seen.
 LightHorizons with_depths(LightHorizons horizons, const SurfaceTree& whole,
                           std::uint64_t most_texels);
 

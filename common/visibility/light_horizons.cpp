@@ -14,7 +14,7 @@ namespace {
 /// than rounding them to floats (LightHorizons::distances_at) can make of them.
 constexpr double kRelativeError = 1e-6;
 
-/// Where nothing tells how far distances are worth something.
+/// The reach, in units of the nearest distance, when no object is bounded.
 constexpr double kReachOfNearest = 100;
 
 }  // namespace
@@ -45,7 +45,7 @@ HorizonMap HorizonMap::of(std::span<const float> distances, double reach) {
     for (const float d : distances) nearest = d > 0 ? std::min<double>(nearest, d) : nearest;
     reach = kReachOfNearest * nearest;
   }
-  // No product of unit and units is longer than what it is of.
+  // No product of unit and units is longer than the distance that it stands for.
   HorizonMap map{reach / (kNever - 1), {}};
   map.units.resize(distances.size());
   const double units_per_length = (1 - kRelativeError) / map.unit;

@@ -19,44 +19,44 @@
 
 namespace graycube {
 
-/// Finer texels in place of some of a light's horizon map, in blocks.
+/// Finer texels that replace some texels of a light's horizon map: a block for each of these.
 struct LightDepths {
-  /// Texels of the darkness along a side of one of the horizon.
+  /// The number of texels of `dark` along a side of one texel of `lit`.
   static constexpr std::uint32_t kGroup = 2;
   static constexpr std::uint32_t kMostSplit = 32;
-  /// A distance that never comes.
+  /// Stands for an infinite distance.
   static constexpr std::uint16_t kNever = 0xFFFF;
 
-  /// 0 where the light has none; else a block is split × split texels of the horizon, and kGroup
-  /// times as many of the darkness along each side.
+  /// 0 if the light has no depths; else a block has split × split texels of `lit`, and kGroup times
+  /// as many of `dark` along each side.
   std::uint32_t split = 0;
-  /// > 0, in scene units.
+  /// The length of one unit of distances (scene units); > 0.
   double unit = 0;
-  /// No surface is nearer to the light.
+  /// No surface is nearer to the light than this (scene units).
   double clearance = 0;
   /// Texels of the horizon map that have a block, increasing.
   std::vector<std::uint32_t> blocks;
-  /// In units, block after block, row after row: surely nothing is nearer than `lit`, whatever the
-  /// horizon map says of the block, and what is farther than `dark` lies in shadow.
+  /// Distances in units, block by block, row by row: surely no surface is nearer to the light than
+  /// `lit`, whatever the horizon map says of the block; points farther than `dark` are in shadow.
   std::vector<std::uint16_t> lit, dark;
 
   std::uint32_t dark_split() const { return split * kGroup; }
   friend bool operator==(const LightDepths&, const LightDepths&) = default;
 };
 
-/// A light's cube map of distances.
+/// A cube map of distances from a light.
 struct HorizonMap {
-  /// An infinite distance.
+  /// Stands for an infinite distance.
   static constexpr std::uint16_t kNever = 0xFFFF;
 
-  /// > 0, in scene units.
+  /// The length of one unit of distances (scene units); > 0.
   double unit = 1;
-  /// By texel, in units; none where the light has no horizon.
+  /// The distance of each texel, in units; empty if the light has no horizon.
   std::vector<std::uint16_t> units;
 
-  /// Distances ≥ 0 (scene units) by texel, each made shorter by a 65 000th of `reach` at most; what
-  /// is finite and farther than that is cut off there. 0 stands for a hundred times the nearest
-  /// that isn't 0. None where all are 0.
+  /// Stores distances ≥ 0 (scene units), one for each texel; each becomes shorter by at most a 65
+  /// 000th of `reach`. Finite distances beyond `reach` are cut to it. A reach of 0 stands for a
+  /// hundred times the nearest distance above 0. The map is empty if all distances are 0.
   static HorizonMap of(std::span<const float> distances, double reach);
   bool empty() const { return units.empty(); }
   double at(std::size_t texel) const { return units[texel] == kNever ? kInf : units[texel] * unit; }
@@ -65,27 +65,27 @@ struct HorizonMap {
 
 class LightHorizons {
  public:
-  /// Texels along a side of a face.
+  /// Texels along a side of a cube's face.
   static constexpr std::uint32_t kSide = 64;
   static constexpr std::size_t kTexels = cube_texels(kSide);
   /// Lights × objects beyond which looking for horizons costs more than it is likely to save.
   static constexpr std::uint64_t kMaxWork = 2'000'000;
-  /// What is known of a direction from a light, as distances from it (scene units).
+  /// Distances from a light (scene units) that are known for a direction.
   struct Reach {
     /// No surface is nearer.
     double lit = 0;
-    /// What is farther gets no light, if it is no rounding error (`clearance`) from it.
+    /// Points farther get no light; not to be used for rays that begin at t ≥ clearance / 2.
     double dark = kInf;
     double clearance = 0;
   };
 
   LightHorizons() = default;
-  /// By light; a map has kTexels distances or none.
+  /// Takes a map for each light; a map has kTexels distances or none.
   explicit LightHorizons(std::vector<HorizonMap> maps) : LightHorizons(std::move(maps), {}) {}
-  /// By light, too, or for none; only lights that have a map have depths.
+  /// Takes depths for each light or an empty list; only lights that have a map have depths.
   LightHorizons(std::vector<HorizonMap> maps, std::vector<LightDepths> depths);
-  /// Of a whole model. A light that something surrounds so closely that its map would be useless
-  /// gets none.
+  /// Makes the horizons of a whole model. A light that something surrounds so closely that its map
+  /// would be useless gets no map.
   static LightHorizons of(const Model& model);
 
   const std::vector<HorizonMap>& maps() const { return maps_; }
@@ -93,20 +93,20 @@ class LightHorizons {
   /// True when no light has a map.
   bool is_empty() const;
 
-  /// In that direction from a light (unit).
+  /// The distances known for a unit direction from a light.
   Reach toward(std::size_t light, const Vec3& direction) const;
   /// The horizon alone.
   double distance(std::size_t light, const Vec3& direction) const {
     return toward(light, direction).lit;
   }
-  /// How far away from the light (scene units) distances are worth something: the farthest corner
-  /// of the bounds of any object that has any; 0 where none has.
+  /// The distance from the light (scene units) up to which horizons matter: that of the farthest
+  /// corner of all bounded objects' bounds; 0 if no object is bounded.
   static double reach_of(const Model& model, const PointLight& light);
   bool has_depths(std::size_t light) const {
     return light < block_of_.size() && !block_of_[light].empty();
   }
-  /// distance(light, …) of each texel of the map alone, without depths; at most as many as
-  /// `distances` holds.
+  /// Looks up distance(light, …) for each of `texels`, from the map alone, without depths; there
+  /// must be at most as many texels as `distances` holds.
   void distances_at(std::size_t light, std::span<const std::uint32_t> texels,
                     std::span<float> distances) const {
     if (light >= maps_.size() || maps_[light].empty()) {
@@ -127,7 +127,7 @@ class LightHorizons {
 
   std::vector<HorizonMap> maps_;
   std::vector<LightDepths> depths_;
-  /// By light with depths and texel of its map: the number of its block, or kNoBlock.
+  /// For each light (with depths) and texel of its map, the number of its block or kNoBlock.
   std::vector<std::vector<std::uint16_t>> block_of_;
 };
 

@@ -11,9 +11,9 @@
 namespace graycube {
 namespace {
 
-/// Directions are taken this much wider than a texel, in units of a face's half side.
+/// Cones of directions reach this far beyond their texels, in units of a face's half side.
 constexpr double kWiden = 1e-6;
-/// Solids are taken this many δ larger; distances are given this much shorter, relatively.
+/// Solids are grown by this many δ; distances are made this much shorter, relatively.
 constexpr double kGrowDeltas = 16;
 constexpr double kShorten = 1e-9;
 /// Boxes that show in at most so many texels are entered texel by texel, others by quarters of a
@@ -46,12 +46,12 @@ struct Cone {
   }
 };
 
-/// From where on, along directions of a cone, a solid may be met; and its surface. Infinity: never.
+/// The least s at which s · (a cone's direction) may be in a solid, and on its surface, if any.
 struct Begin {
   double solid, surface;
 };
 
-/// s ≥ 0 with s · (some d in [lo, hi]) ≥ at: clips [from, to].
+/// Clips [from, to] to the s ≥ 0 for which some c in [d.lo, d.hi] has s · c ≥ at.
 void clip_reach(const Range& d, double at, double& from, double& to) {
   if (at <= 0) {
     if (d.hi < 0) to = std::min(to, at / d.hi);
@@ -64,7 +64,7 @@ void clip_reach(const Range& d, double at, double& from, double& to) {
   from = std::max(from, at / d.hi);
 }
 
-/// Where the cone may enter the box (relative to the light); infinity when it misses it.
+/// The least s at which a cone may enter the box (relative to the light); infinite if it misses it.
 double box_begin(const Aabb& box, const Cone& cone) {
   double from = 0, to = kInf;
   for (int a = 0; a < 3; ++a) {
@@ -75,7 +75,7 @@ double box_begin(const Aabb& box, const Cone& cone) {
   return from <= to ? from : kInf;
 }
 
-/// The nearest that a cone from inside the box may leave it; 0 from outside.
+/// The least s at which a cone from inside the box may leave it; 0 if the light is outside.
 double box_end(const Aabb& box, const Cone& cone) {
   double end = kInf;
   for (int a = 0; a < 3; ++a) {
@@ -97,7 +97,7 @@ Range along(const Vec3& normal, const Cone& cone) {
   return sum;
 }
 
-/// normal · q ≤ offset, relative to the light: where it begins.
+/// The least s at which a cone may enter normal · q ≤ offset, with q relative to the light.
 double half_space_begin(const Vec3& normal, double offset, const Cone& cone) {
   if (offset >= 0) return 0;
   const double steepest = along(normal, cone).lo;
@@ -121,8 +121,8 @@ class ObjectView {
   }
 
  private:
-  /// Enters the object, which is in a box about the light, into a face: where it shows in few
-  /// texels, into these; else part by part.
+  /// Enters the object into the texels of a face: directly if its `box` (relative to the light)
+  /// shows in few of them; else quarter by quarter.
   void cover_face(const Aabb& box, int axis, double sign) {
     const double nearest = sign > 0 ? box.lo[axis] : -box.hi[axis],
                  farthest = sign > 0 ? box.hi[axis] : -box.lo[axis];
@@ -140,7 +140,7 @@ class ObjectView {
     std::uint32_t first, end;
     std::uint32_t count() const { return end - first; }
   };
-  /// Along an axis of a face on which the box lies between `nearest` > 0 and `farthest`.
+  /// Texels along `axis` that a box between depths `nearest` > 0 and `farthest` may cover.
   static TexelRange texels_of(const Aabb& box, int axis, double nearest, double farthest) {
     const double lo = box.lo[axis] / (box.lo[axis] > 0 ? farthest : nearest);
     const double hi = box.hi[axis] / (box.hi[axis] > 0 ? nearest : farthest);

@@ -1,4 +1,4 @@
-// What a light sees of an object, texel by texel of the cube map about it.
+// Finds where a light sees an object, texel by texel of the cube map around the light.
 #pragma once
 
 #include <cstdint>

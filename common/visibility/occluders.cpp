@@ -81,8 +81,8 @@ LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const M
     const LightView view(parts, model.settings.lights[light].position);
     for (const Object& part : parts.objects) {
       seen.clear();
-      // A pruned tree lies within the object's bounds: what goes from a conjunction is the
-      // complement of something.
+      // A pruned tree lies within the object's bounds: only complements can be dropped from a
+      // conjunction.
       view.look_at(part, seen);
       for (const Sight& s : seen)
         distances[light][s.texel] = std::min(distances[light][s.texel], s.begin);
@@ -95,7 +95,7 @@ LightHorizons Occluders::foreign_horizons(const ModelContents& contents, const M
 void choose_occluders(const Occluders& occluders, std::span<const OccluderQuery> queries,
                       std::span<const std::size_t> bytes, std::size_t room,
                       std::vector<bool>& is_held) {
-  // A ray is finished only when all that it asks for is held: each object gets its part of it.
+  // A ray is finished only if all its objects are held, so each of these gets a share of its worth.
   std::vector<double> worth(is_held.size());
   std::vector<std::uint32_t> wanted, missing;
   for (const OccluderQuery& q : queries) {
