@@ -17,7 +17,7 @@ class TileHandout {
     kAny,   ///< `roth`: any node gets any tile
     kOwn,   ///< each node gets tiles of its macro-regions
     kHelp,  ///< the same, and a node that has none left gets tiles of the
-            ///< that has most
+            ///< neighbour that has most left
   };
 
   /// The plan must outlive this.

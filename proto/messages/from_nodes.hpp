@@ -31,8 +31,7 @@ struct Ready {
   friend bool operator==(const Ready&, const Ready&) = default;
 };
 
-/// The node has dropped everything of older epochs. Frontals wait for it when they begin an epoch,
-/// but none does so yet.
+/// The node has dropped everything of older epochs. A frontal that begins one waits for this.
 struct EpochAck {
   static constexpr std::string_view kType = "epoch_ack";
   std::uint32_t job = 0, epoch = 0;
