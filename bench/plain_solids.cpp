@@ -57,8 +57,7 @@ bool touches(const Aabb& box, const Line& line, Window w) {
   return w.from <= w.to;
 }
 
-/// Removes the intervals from `start` up to `result`, so that those appended behind take their
-/// place.
+/// Removes the intervals from `start` up to `result`; those appended behind move there.
 void keep_from(Spans& s, std::size_t start, std::size_t result) {
   s.erase(s.begin() + static_cast<std::ptrdiff_t>(start),
           s.begin() + static_cast<std::ptrdiff_t>(result));

@@ -11,9 +11,8 @@
 
 namespace graycube::bench {
 
-/// Rounds to nine digits, as many as other programs' scene files have. Sixteen would take longer to
-/// read, and a turned sphere would be a sphere to the last bit, which changes how it is
-/// intersected.
+/// Rounds to nine digits, as scene files of other programs have. Sixteen would take longer to read,
+/// and a turned sphere would be one to the last bit, which is intersected in another way.
 double nine_digits(double value);
 Vec3 nine_digits(const Vec3& v);
 

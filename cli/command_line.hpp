@@ -98,7 +98,7 @@ struct ConvertCommand {
   std::string in, out;
   ModelChoice choice;
 };
-/// A text to print: that of `--help` or `--version` of any command, or of another such option.
+/// A text to print: help, the version, a shell's completion file or the man page.
 struct PrintCommand {
   std::string text;
 };

@@ -56,8 +56,7 @@ bool is_openscad(const std::filesystem::path& path);
 /// Whether the file is a BRL-CAD database, by its name's ending.
 bool is_brlcad(const std::filesystem::path& path);
 
-/// One line for each of a database's top-level objects, with its number of primitives; throws as
-/// above.
+/// A line for each top-level object of a database, with its number of primitives; throws as above.
 std::string brlcad_tops_text(const std::filesystem::path& path);
 
 /// Throws a Failure of status 2 when the scene asks for something that the format has but this

@@ -8,9 +8,8 @@
 
 namespace graycube::simulation {
 
-/// Least squares over all measurements, each cost at least 0. Then the costs of evaluators, of
-/// building, of nodes' brains and of the frontal's are scaled, each group so that its measured sum
-/// is met.
+/// Least squares over all measurements, each cost at least 0. Then the costs of evaluators,
+/// building, nodes' brains and the frontal's are scaled, so that each group's measured sum is met.
 class CostFit {
  public:
   /// `overhead_s`: seconds that measuring itself adds to each measurement.

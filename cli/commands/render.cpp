@@ -77,8 +77,8 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
   return rendered;
 }
 
-/// With what the whole command took, which it returns, what reading took of that, and what the
-/// frontal took to write pictures.
+/// Writes statistics with the time of the whole command, which it returns, with the part that
+/// reading took, and with the CPU time in which the frontal wrote pictures.
 double write_timed_stats(const Outputs& outputs, const std::string& stats,
                          Clock::time_point started, double load_s, double written_cpu_s = 0) {
   const double wall_s = seconds_since(started);

@@ -10,8 +10,7 @@
 
 namespace graycube {
 
-/// "30 of 64 parts of the picture are final": parts are tiles, final when none of their rays is
-/// left.
+/// "30 of 64 parts of the picture are final": parts are tiles, final when no ray of theirs is left.
 std::string final_parts_text(std::uint32_t final_parts, std::uint32_t parts);
 
 /// "2 checks whether all is done": these are the rounds of the token.

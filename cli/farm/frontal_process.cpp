@@ -40,8 +40,7 @@ fs::path frontal_program() {
   return program;
 }
 
-/// Removes the folder of a private frontal's sockets, which a frontal that was killed leaves
-/// behind.
+/// Removes the folder of a private frontal's sockets, which one that was killed leaves behind.
 void remove_socket_folder(const std::string& endpoint) {
   constexpr std::string_view ipc = "ipc://";
   if (!endpoint.starts_with(ipc)) return;
