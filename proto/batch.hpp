@@ -158,7 +158,8 @@ constexpr std::size_t most_contribution_bytes(std::size_t tiles, std::size_t pix
 bool looks_like_batch(std::span<const std::byte> message);
 
 /// Each decodes a whole message of its type. The vectors are replaced; after an error they are
-/// empty (other outputs untouched). decode_rays() is for type kRays or kClassRays, as `type` says.
+/// empty (other outputs untouched). decode_rays() is for type kRays or kClassRays, as `type`
+/// says.
 [[nodiscard]] BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
                                       std::vector<RayTask>& rays,
                                       BatchType type = BatchType::kRays);

@@ -16,7 +16,8 @@ double measuring_overhead_s();
 PerUnit transport_costs();
 
 /// Renders the scene on a few simulated nodes and measures every piece of work: all costs but the
-/// transport's. If flow is blocking, queues are as long as they can be, so that no job ends early.
+/// transport's. If flow is blocking, queues are as long as they can be, so that no job ends
+/// early.
 PerUnit measured_costs(const std::string& scene_text, control::JobOptions options,
                        std::uint32_t nodes);
 

@@ -10,7 +10,8 @@
 namespace graycube {
 namespace {
 
-/// The farthest that a vertex may move, in units of the growth: the tip of a spike would run away.
+/// The farthest that a vertex may move, in units of the growth: the tip of a spike would run
+/// away.
 constexpr double kMostShift = 8;
 /// Keeps the equations of a vertex between nearly parallel faces solvable; this share of the growth
 /// is lost by it.

@@ -179,7 +179,8 @@ BrlcadNode quadric(std::array<double, 4> q, Vec3 lo, Vec3 hi, const Affine& map,
   return built(node_of(QuadricShape{q, lo, hi}, map));
 }
 
-/// The factors of 1, z and z². `c`: how far behind the tip the asymptotes cross, in heights.
+/// The factors of 1, z and z². `c`: how far behind the tip the asymptotes cross, in
+/// heights.
 std::array<double, 4> hyperbola(double second, double c) {
   const double k = 2 * c + 1;
   return {second, -1 / k, 2 * (c + 1) / k, -1};

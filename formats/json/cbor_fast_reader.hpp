@@ -23,7 +23,8 @@ class FastCborReader {
   /// Reads everything up to the elements of the root's last member, which must be an array called
   /// `key`: it gets its size, but no children. read_element() reads the elements.
   bool read_up_to(std::string_view key);
-  /// Reads the next element of that array in the place of the one before; `at` becomes its number.
+  /// Reads the next element of that array in the place of the one before; `at` becomes its
+  /// number.
   bool read_element(JsonIndex& at);
   bool is_at_end() const { return at_ == end_; }
 

@@ -24,8 +24,9 @@ struct OpenscadResult {
   std::vector<std::string> warnings;
 };
 
-/// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction of
-/// view, framed, with two lights and a grey background. Never throws, whatever `text` holds.
+/// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction
+/// of view, framed, with two lights and a grey background. Never throws, whatever `text`
+/// holds.
 ///
 /// Spheres and cylinders are exact, unless $fn asks for 8 sides or fewer: then they are the
 /// polyhedra that OpenSCAD builds. Parts outside any difference and intersection become objects of

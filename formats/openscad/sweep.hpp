@@ -28,7 +28,8 @@ struct PlainSweep {
   double low = 0, high = 0;
   FlatPoint scale{1, 1};
 };
-/// False for one with twist; nothing in `sweep` if the solid is empty, or wrong, which is reported.
+/// False for one with twist; nothing in `sweep` if the solid is empty, or wrong, which is
+/// reported.
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep);
 
 /// The figure of a rotate_extrude() that goes all around and is round; nothing for any other.

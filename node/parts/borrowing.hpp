@@ -17,7 +17,7 @@ class Borrowing {
       : is_on_(is_on), room_(room), loans_(nodes) {}
   bool is_on() const { return is_on_; }
 
-  /// Where a ray goes on that lacks the model of a node.
+  /// How a ray goes on that lacks a node's model.
   enum class Place : std::uint8_t {
     kHere,   ///< the model is here meanwhile
     kWaits,  ///< it was taken over, until the model comes

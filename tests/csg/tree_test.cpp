@@ -1,4 +1,5 @@
-// Trees of the compiled model: pruning, membership, bounds, and how the scene's trees are compiled.
+// Trees of the compiled model: pruning, membership, bounds, and how the scene's trees are
+// compiled.
 #include "csg/tree.hpp"
 
 #include <vector>

@@ -43,8 +43,9 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
       }
     }
   }
-  // A farm must accept the scene's text, and read the same from it. No camera sees coordinates near
-  // the largest double, and none is away from a mesh that is next to nothing.
+  // A farm must accept the scene's text, and read the same from it. No camera sees
+  // coordinates near the largest double, and none is away from a mesh that is next to
+  // nothing.
   for (const Vec3& p : mesh.points) {
     if (!(max_abs(p) < 1e100)) return;
   }

@@ -20,7 +20,8 @@ constexpr std::uint32_t kSide = 64;
 const Hypercube kCube = *Hypercube::of_size(8);
 const Vec3 kFirstMirror{-6, 2, 5}, kSecondMirror{2, 2, 5}, kBall{2, 2, 9};
 
-/// A cube of side 2 about a point, without the part that lies beyond the point in a direction.
+/// A cube of side 2 about a point, without the part that lies beyond the point in a
+/// direction.
 CsgNode mirror_at(const Vec3& p, const Vec3& towards) {
   const HalfSpaceShape cut{towards, dot(towards, p)};
   return operation(Operation::kIntersection,

@@ -94,7 +94,8 @@ RegionIndex walk(const MacroGrid& grid, const Ray& ray, RegionIndex start) {
     }
     if (!exit) break;
     REQUIRE((exit->next.column == region.column) != (exit->next.row == region.row));
-    // Each step goes from one cell to another across a plane: no step comes twice, nor back.
+    // Each step goes from one cell to another across a plane: no step comes twice, nor
+    // back.
     const bool in_columns = exit->next.row == region.row;
     const int from = in_columns ? region.column : region.row;
     const int to = in_columns ? exit->next.column : exit->next.row;

@@ -160,7 +160,8 @@ TEST_CASE("between mirrors the coarse render ends early where secondary rays sta
           .map;
   const double all = total(load);
   CHECK(all > static_cast<double>(kLeastCoarseCrossings));
-  // A pixel takes thousands of rays: without a limit, each of the 1024 pixels would be traced.
+  // A pixel takes thousands of rays: without a limit, each of the 1024 pixels would be
+  // traced.
   CHECK(all < 40.0 * static_cast<double>(kLeastCoarseCrossings));
 }
 

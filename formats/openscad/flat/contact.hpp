@@ -1,4 +1,5 @@
-// Whether flat shapes touch: growing and shrinking distribute over operations only if they don't.
+// Whether flat shapes touch: growing and shrinking distribute over operations only if they
+// don't.
 #pragma once
 
 #include <span>

@@ -165,10 +165,11 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   return *std::move(result);
 }
 
-/// Growing distributes over unions, shrinking over intersections and over subtraction: A − B shrunk
-/// is A shrunk − B grown. Shrinking distributes over a union of shapes that are apart, and growing
-/// over holes that are apart and reach the outline nowhere. If sharp corners stay sharp, each
-/// outline moves by itself, which is the same as long as no two meet.
+/// Growing distributes over unions, shrinking over intersections and over subtraction: A − B
+/// shrunk is A shrunk − B grown. Shrinking distributes over a union of shapes that are
+/// apart, and growing over holes that are apart and reach the outline nowhere. If sharp
+/// corners stay sharp, each outline moves by itself, which is the same as long as no two
+/// meet.
 bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   const std::span<const FlatShape> all(shape.children);
   const bool is_round = corners == FlatCorners::kRound;

@@ -149,7 +149,8 @@ std::vector<std::uint32_t> used_points(const std::vector<Face>& faces) {
   return used;
 }
 
-/// Planes of all faces that have one, the largest face first, as rounding turns its plane least.
+/// Planes of all faces that have one, the largest face first, as rounding turns its plane
+/// least.
 std::vector<FacePlane> face_planes(const std::vector<Vec3>& points,
                                    const std::vector<Face>& faces) {
   Vec3 rounding;
@@ -220,7 +221,8 @@ ConvexPlanes convex_planes(const ScadMesh& mesh) {
 
 namespace {
 
-/// Rings of `sides` corners each, joined by quadrilaterals; polygons close the first and the last.
+/// Rings of `sides` corners each, joined by quadrilaterals; polygons close the first and the
+/// last.
 ScadMesh stacked_rings(std::span<const std::pair<double, double>> radius_and_height, int sides) {
   ScadMesh mesh;
   const auto n = static_cast<std::uint32_t>(sides);

@@ -21,8 +21,8 @@ bool before(const RoundPoint& a, const RoundPoint& b) {
   return a.center.x != b.center.x ? a.center.x < b.center.x : a.center.y < b.center.y;
 }
 
-/// Of points with one radius, those at the corners of the hull of their centres. All of them if
-/// these lie in a plane, unless it is a level plane of discs.
+/// Leaves only points at the corners of their centres' hull; all points must have one radius. All
+/// are left if the centres lie in a plane, unless it is a level plane of discs.
 std::vector<RoundPoint> corners_of_group(std::vector<RoundPoint> group) {
   if (group.size() < kLeastGroup) return group;
   const double radius = group.front().radius;

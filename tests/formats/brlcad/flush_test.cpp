@@ -26,8 +26,9 @@ std::string words_of(const Affine& map) {
   return out.str();
 }
 
-/// A plate of 100 × 60 × 8 mm with a bore, a slot and an oval hole, each reaching `beyond` out of
-/// it, and a boss on it. The group is turned by `outer`, and its members by `inner`.
+/// A plate of 100 × 60 × 8 mm with a bore, a slot and an oval hole, each reaching `beyond`
+/// out of it, and a boss on it. The group is turned by `outer`, and its members by
+/// `inner`.
 std::string plate(const Affine& outer, const Affine& inner, double beyond) {
   std::ostringstream text;
   const double low = -beyond, high = 8 + beyond, h = high - low;

@@ -1,4 +1,5 @@
-// Every kind of error that a scene file can hold: a snippet, the place of the error, and its words.
+// Every kind of error that a scene file can hold: a snippet, the place of the error, and its
+// words.
 #include <algorithm>
 #include <string>
 #include <vector>

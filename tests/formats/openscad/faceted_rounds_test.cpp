@@ -61,7 +61,7 @@ TEST_CASE("nothing is left of a round part that a faceted hull of it is taken fr
     const std::string hull = "hull() { " + part + kAcross + "} ";
     for (const std::string& turn : {std::string{}, kTurned}) {
       CHECK(rays_that_hit(turn + "difference() { " + part + hull + "}") == 0);
-      // Left as exact as it is, a skin remains.
+      // With the hull moved aside, nothing is cut off, and the part is there as it was.
       CHECK(rays_that_hit(turn + "difference() { " + part + kAside + hull + "}") > 100);
     }
   }
