@@ -1,7 +1,7 @@
-// bare_farm NODES…: what a farm's processes cost before they trace anything. Forks as many
+// bare_farm NODES…: the cost of a farm's processes before they trace anything. Forks as many
 // processes as a farm has nodes, which open the sockets that nodes have, greet the hub and their
-// neighbours in the hypercube, and end: nothing of Graycube but its transport. Three lines for each
-// number: forked only; with their sockets; linked, too.
+// neighbours in the hypercube, and end: nothing of Graycube but its transport. Prints three lines
+// for each number: forked only; with their sockets; linked, too.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -55,7 +55,7 @@ std::string receive(Inbox& inbox) {
   }
 }
 
-/// What a node of that rank does until it could begin.
+/// Does what the node of that rank does before it could begin.
 void run_process(Rank rank, const Hypercube& cube, Stage stage, const TemporaryFolder& folder) {
   if (stage == Stage::kForked) return;
   keep_freed_memory(1, 0);
@@ -82,11 +82,11 @@ void run_process(Rank rank, const Hypercube& cube, Stage stage, const TemporaryF
     hub.send(some_message());
     receive(hub);
   }
-  // As a node does.
+  // Ends as a node does.
   ::_exit(0);
 }
 
-/// Answers all of them once all have spoken.
+/// Answers all processes once each of them has spoken.
 void answer_all(Inbox& hub, std::uint32_t processes) {
   std::vector<std::string> peers;
   while (peers.size() < processes) peers.push_back(receive(hub));
@@ -94,7 +94,7 @@ void answer_all(Inbox& hub, std::uint32_t processes) {
 }
 
 void measure(const Hypercube& cube, Stage stage) {
-  // As nodes' common parent: no process looks for the system's protocols itself.
+  // Kept as by the nodes' common parent: no process looks for the system's protocols itself.
   const ZmqContext first;
   const TemporaryFolder folder;
   int start[2];

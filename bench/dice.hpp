@@ -22,7 +22,7 @@ class Dice {
     const double y = between(lo.y, hi.y);
     return {x, y, between(lo.z, hi.z)};
   }
-  /// Uniform on the unit sphere.
+  /// A direction uniform on the unit sphere.
   Vec3 direction() {
     for (;;) {
       const Vec3 v = point_between({-1, -1, -1}, {1, 1, 1});

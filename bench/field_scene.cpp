@@ -8,7 +8,7 @@ namespace {
 
 constexpr Vec3 kFieldLo{-50, 3, -50};
 constexpr Vec3 kFieldHi{50, 63, 50};
-/// The share of that block that balls around the solids would fill.
+/// The share of the block of space that balls around the solids would fill.
 constexpr double kFill = 0.08;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -38,7 +38,7 @@ class Field {
   Dice& dice() { return dice_; }
   Vec3 somewhere() { return dice_.point_between(kFieldLo, kFieldHi); }
   double reach() { return reach_ * dice_.between(0.75, 1.25); }
-  /// One in five is a mirror.
+  /// Adds a solid; one in five is a mirror.
   void add(CsgNode csg) {
     const bool mirrors = dice_.below(5) == 0;
     const auto matte = first_matte_ + static_cast<MaterialIndex>(dice_.below(kMattes));

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kRays = 1024;
 
-/// Cuts a triangle of the unit sphere into four, and those again.
+/// Cuts a triangle of the unit sphere into four, and each of these again.
 void add_facets(PolygonMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, int times) {
   if (times == 0) {
     const auto n = static_cast<std::uint32_t>(mesh.points.size());
@@ -102,7 +102,7 @@ struct Specimen {
   std::vector<Mesh> meshes;
 };
 
-/// About two of three rays hit what Specimen makes.
+/// Rays about the origin; about two of three hit what Specimen makes.
 std::vector<Ray> rays_about_the_origin() {
   Dice dice(1987);
   std::vector<Ray> rays;

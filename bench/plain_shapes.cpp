@@ -6,7 +6,7 @@
 namespace graycube::plain {
 namespace {
 
-/// Where lo ≤ o + t d ≤ hi.
+/// Clips the interval to the parameters t with lo ≤ o + t d ≤ hi.
 void clip_to_slab(Interval& i, double lo, double hi, double o, double d, double inverse) {
   if (d == 0) {
     if (o < lo || o > hi) i = {kInf, -kInf};

@@ -11,7 +11,7 @@ namespace {
 
 /// Operations with more children than this get a hierarchy.
 constexpr std::uint32_t kFewChildren = 4;
-/// Bounds are grown by this much of their size and place, against rounding in the slab test.
+/// Bounds grow by this part of their size and distance, against rounding in the slab test.
 constexpr double kMargin = 1e-9;
 
 /// The bounds of a node in the space that `outer` leads to.
@@ -57,13 +57,13 @@ bool touches(const Aabb& box, const Line& line, Window w) {
   return w.from <= w.to;
 }
 
-/// Replaces everything from `start` on by what was appended at `result`.
+/// Removes the intervals from `start` up to `result`; those appended behind move there.
 void keep_from(Spans& s, std::size_t start, std::size_t result) {
   s.erase(s.begin() + static_cast<std::ptrdiff_t>(start),
           s.begin() + static_cast<std::ptrdiff_t>(result));
 }
 
-/// s[start, …) holds intervals in any order; leaves their union.
+/// Replaces the intervals s[start, …), which may be in any order, by their union.
 void merge(Spans& s, std::size_t start) {
   if (s.size() - start < 2) return;
   std::sort(s.begin() + static_cast<std::ptrdiff_t>(start), s.end(),
@@ -80,7 +80,7 @@ void merge(Spans& s, std::size_t start) {
   s.resize(last + 1);
 }
 
-/// s[start, second) minus s[second, …).
+/// Replaces s[start, …) by s[start, second) minus s[second, …).
 void subtract(Spans& s, std::size_t start, std::size_t second) {
   const std::size_t end = s.size();
   if (second == end) return;
@@ -100,7 +100,7 @@ void subtract(Spans& s, std::size_t start, std::size_t second) {
   keep_from(s, start, end);
 }
 
-/// What is in both s[start, second) and s[second, …).
+/// Replaces s[start, …) by the points that are in both s[start, second) and s[second, …).
 void intersect(Spans& s, std::size_t start, std::size_t second) {
   const std::size_t end = s.size();
   for (std::size_t i = start, j = second; i < second && j < end;) {
@@ -121,7 +121,7 @@ void intersect(Spans& s, std::size_t start, std::size_t second) {
   keep_from(s, start, end);
 }
 
-/// All that is not in s[start, …).
+/// Replaces s[start, …) by all points that are not in it.
 void invert(Spans& s, std::size_t start) {
   const std::size_t end = s.size();
   Span gap{-kInf, kInf, 0, 0};
@@ -211,7 +211,7 @@ void Solids::add_operation(const OperationNode& o, MaterialIndex material, const
   split(static_cast<std::uint32_t>(node.bundle));
 }
 
-/// At the median of the centres, along the longest side.
+/// Splits a bundle at the median of the centres, along the longest side.
 void Solids::split(std::uint32_t bundle) {
   const std::uint32_t first = bundles_[bundle].first;
   const std::uint32_t count = bundles_[bundle].count;

@@ -24,7 +24,7 @@ struct Ball {
 struct Block {
   Vec3 lo, hi;
 };
-/// Cylinder or cone: at height h above `base` the radius is radius + slope · h, for 0 ≤ h ≤ height.
+/// Cylinder or cone: its radius at height h above `base` is radius + slope · h, for 0 ≤ h ≤ height.
 struct Tube {
   Vec3 base, axis;
   double height, radius, slope;
@@ -33,7 +33,7 @@ struct Ring {
   Vec3 center, axis;
   double major, minor;
 };
-/// normal · p ≤ offset for every plane.
+/// The points p with normal · p ≤ offset for every plane.
 struct Planes {
   std::vector<HalfSpaceShape> planes;
 };
@@ -46,15 +46,15 @@ struct Line {
   Vec3 origin, direction, inverse;
 };
 
-/// Inside from `enter` to `leave`; each end lies on the surface of a leaf.
+/// An interval inside a solid; each end lies on the surface of a leaf.
 struct Span {
   double enter, leave;
   std::uint32_t enter_leaf, leave_leaf;
 };
-/// Sorted and disjoint from some place on: a stack of lists.
+/// A stack of lists: intervals from some index on are sorted and disjoint.
 using Spans = std::vector<Span>;
 
-/// Intervals need to be right only where they overlap it.
+/// The part of a line within which intervals need to be right.
 struct Window {
   double from, to;
 };
@@ -71,7 +71,7 @@ class Solids {
   explicit Solids(const Scene& scene);
 
   std::uint32_t object_count() const { return static_cast<std::uint32_t>(roots_.size()); }
-  /// Infinite where the object is unbounded.
+  /// The object's bounds; infinite if it is unbounded.
   const Aabb& bounds(std::uint32_t object) const { return bounds_[roots_[object]]; }
 
   /// Appends the object's intervals.
@@ -79,7 +79,7 @@ class Solids {
     add_spans(roots_[object], line, w, out);
   }
   const Material& material(std::uint32_t leaf) const { return materials_[leaf_material_[leaf]]; }
-  /// The unit normal out of the leaf at a point of its surface, in the world.
+  /// The unit normal out of the leaf at a point of its surface, in world coordinates.
   Vec3 normal(std::uint32_t leaf, const Vec3& point) const;
 
  private:
@@ -89,7 +89,7 @@ class Solids {
     std::int32_t bundle = -1;  // root of the hierarchy over the children that are added up
     std::int32_t map = -1;     // inverse_maps_
   };
-  /// A node of a hierarchy: two bundles, `first` and the next, or `count` nodes, from
+  /// A node of a hierarchy: either two bundles, `first` and the next, or `count` nodes from
   /// sorted_[first] on.
   struct Bundle {
     Aabb bounds;
@@ -103,9 +103,9 @@ class Solids {
   void split(std::uint32_t bundle);
 
   void add_spans(std::uint32_t node, const Line& line, Window w, Spans& out) const;
-  /// As add_spans, with the line in the coordinates inside the node's map.
+  /// Like add_spans(), for a line in the coordinates inside the node's map.
   void add_inside(const Node& node, const Line& line, Window w, Spans& out) const;
-  /// The union of the node's children but the first `skip`.
+  /// Appends the union of the node's children from number `skip` on.
   void add_sum(const Node& node, std::uint32_t skip, const Line& line, Window w, Spans& out) const;
   void add_bundle(std::uint32_t bundle, const Line& line, Window w, Spans& out) const;
 

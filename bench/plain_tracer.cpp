@@ -23,7 +23,7 @@ struct Ray {
   double from = 0, to = kInf;
 };
 
-/// What Embree's callbacks get at: Embree's own ray is of single precision and only finds
+/// The data of Embree's callbacks: Embree's own ray is of single precision and only finds
 /// candidates.
 struct Query {
   RTCIntersectContext base;
@@ -115,7 +115,7 @@ class Tracer {
     reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
-  /// Whether the object's first surface is nearer than what the query has found so far.
+  /// Finds out if the object's first surface is nearer than the nearest found so far.
   bool find_nearest(std::uint32_t object, Query& query) const {
     query.spans->clear();
     const Window w{query.window.from, std::fmin(query.window.to, query.hit.t)};
@@ -130,7 +130,7 @@ class Tracer {
     }
     return false;
   }
-  /// Dims the query's light by each of the object's surfaces; false when it is gone.
+  /// Dims the query's light by each of the object's surfaces; false when no light is left.
   bool lets_through(std::uint32_t object, Query& query) const {
     query.spans->clear();
     const Window w = query.window;

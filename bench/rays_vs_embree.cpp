@@ -83,7 +83,7 @@ std::vector<Segment> primary_rays(const Domain& domain) {
   return rays;
 }
 
-/// From every hit of a primary ray to every light that its surface faces.
+/// Rays from every hit of a primary ray to every light that its surface faces.
 std::vector<Segment> shadow_rays(const Domain& domain, std::span<const Segment> primary) {
   const Model& model = domain.model();
   CrossingScratch scratch;
@@ -96,7 +96,7 @@ std::vector<Segment> shadow_rays(const Domain& domain, std::span<const Segment> 
     for (const PointLight& light : domain.settings().lights) {
       const Vec3 to_light = light.position - p;
       if (!(dot(n, to_light) > 0)) continue;
-      // Far enough from the surface for single precision too.
+      // The start is far enough from the surface for single precision, too.
       const double epsilon = 1e-4 * std::fmax(1, max_abs(p));
       rays.push_back({{p, normalized(to_light)}, epsilon, length(to_light) - epsilon});
     }
@@ -173,7 +173,7 @@ struct Rate {
   std::size_t found = 0;
 };
 
-/// The same questions to both, in turns, so that both have the machine as it is at the time.
+/// Asks both the same, in turns, so that changes of the machine's speed meet both alike.
 template <typename A, typename B>
 std::pair<Rate, Rate> race(std::uint32_t rounds, std::size_t rays, A&& ours, B&& embree) {
   std::pair<Rate, Rate> best;

@@ -1,6 +1,6 @@
 // The families of scenes that Graycube is measured on: deterministic functions of a family, a size
-// and a seed. The seed changes the layout, the size the amount of work; the density of what is seen
-// stays about the same.
+// and a seed. The seed changes the layout, the size the amount of work; the density of what the eye
+// sees stays about the same.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct FamilyInfo {
 std::span<const FamilyInfo> families();
 std::optional<Family> family_of(std::string_view name);
 
-/// A picture of `image_side` × `image_side` pixels, 1 ray each. The size must be in the family's
-/// range.
+/// A scene with a picture of `image_side` × `image_side` pixels, 1 ray each. The size must be in
+/// the family's range.
 Scene make_scene(Family family, std::uint32_t size, std::uint64_t seed,
                  std::uint32_t image_side = 512);
 

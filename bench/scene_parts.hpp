@@ -1,4 +1,4 @@
-// What the scene families are put together from.
+// Parts from which the scene families are put together.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace graycube::bench {
 
-/// Scene files by other programs have nine digits or so. Sixteen would take longer to read, and a
-/// turned sphere would be one to the last bit, which changes how it is intersected.
+/// Rounds to nine digits, as scene files of other programs have. Sixteen would take longer to read,
+/// and a turned sphere would be one to the last bit, which is intersected in another way.
 double nine_digits(double value);
 Vec3 nine_digits(const Vec3& v);
 
-/// A turn that is equally likely to be any, as rows, followed by a translation.
+/// A rotation as rows, all being equally likely, followed by a translation.
 Affine random_placement(Dice& dice, const Vec3& to);
 
 template <typename Shape>
@@ -33,7 +33,7 @@ CsgNode operation(Operation operation, std::vector<CsgNode> children);
 /// A scene under construction.
 class SceneParts {
  public:
-  /// Perspective, up +y unless told, a picture of `side` × `side` pixels.
+  /// A perspective camera, +y up unless told otherwise, and a picture of `side` × `side` pixels.
   SceneParts(std::uint32_t side, const Vec3& eye, const Vec3& look_at, double fov_degrees,
              const Vec3& up = {0, 1, 0});
 
@@ -42,7 +42,7 @@ class SceneParts {
   MaterialIndex material(std::string name, const Material& material);
   /// Eight matte colours, "matte0" to "matte7"; returns the first one's index.
   MaterialIndex mattes(double ambient, double diffuse, double specular, double shininess);
-  /// Named "o0", "o1" and so on.
+  /// Adds an object; their names are "o0", "o1" and so on.
   void object(MaterialIndex material, CsgNode csg);
 
   Scene take() { return std::move(scene_); }

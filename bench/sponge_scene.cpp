@@ -8,10 +8,10 @@ namespace graycube::bench {
 namespace {
 
 constexpr double kSpongeHalf = 40.5;
-/// Holes reach a little beyond what they are cut into, so that no faces coincide.
+/// Holes reach a little beyond the solids that they are cut into, so that no faces coincide.
 constexpr double kOverhang = 0.004;
 
-/// Cuts the three square bars out of a cube, then goes into the twenty cubes that are left.
+/// Cuts the three square bars out of a cube, then those of the twenty cubes that are left.
 void cut_bars(std::vector<CsgNode>& children, const Vec3& center, double half,
               std::uint32_t level) {
   const double reach = half + kOverhang;
@@ -29,7 +29,7 @@ void cut_bars(std::vector<CsgNode>& children, const Vec3& center, double half,
   }
 }
 
-/// Two lights, a floor at this height, 5 thick.
+/// Two lights, and a floor that is 5 thick, with its top at `floor_top`.
 SceneParts stage(std::uint32_t side, const Vec3& eye, double fov, double floor_top) {
   SceneParts parts(side, eye, {0, -4, 0}, fov);
   parts.light({-120, 200, -140}, 0.7);

@@ -20,10 +20,10 @@ namespace graycube {
 namespace {
 
 constexpr std::uint32_t kMaxCores = 1u << 16;
-/// 100 GB of them.
+/// Rays that take about 100 GB of memory.
 constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
 
-/// All commands; the chosen one's values are in its declaration after parsing.
+/// All commands; after parsing, the chosen command's values are in its declaration.
 class Parser {
  public:
   Parser() {
@@ -67,7 +67,7 @@ class Parser {
   }
 
  private:
-  /// A command and where its options are declared.
+  /// A command's values, and where its options are declared.
   template <typename C>
   struct Declared {
     C& command;
@@ -139,8 +139,8 @@ class Parser {
     add_connect(options, submit.connect);
   }
 
-  /// A command that asks a farm for something, of a job or not; `add_more` declares its options
-  /// beyond those that all of them have.
+  /// Declares a command that asks a farm for something, about a job or not; `add_more` declares its
+  /// options beyond those that all such commands have.
   template <typename C>
   void declare_client(
       const char* name, const char* help,
@@ -224,7 +224,7 @@ class Parser {
     add_table_options(options, c.as_json, c.is_quiet, c.plot);
   }
 
-  /// What simulate takes the other machines to be.
+  /// Declares the figures of the machines that simulate assumes.
   void add_machine(Declaring& options, SimulateCommand& c) {
     const auto figure = [&](const char* name, const char* type, const char* help, auto& value,
                             double least, double most) {
@@ -249,7 +249,7 @@ class Parser {
         [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
   }
 
-  /// Texts made of these very declarations.
+  /// Declares the commands that print texts made of these very declarations.
   void declare_texts() {
     const char* help = "Print what makes a shell complete this command's options";
     CLI::App* sub = app_.add_subcommand("completion", help);
@@ -264,12 +264,12 @@ class Parser {
                     .choices = names_of(kShellChoices),
                     .is_required = true},
                    [shell](const std::string& text) { *shell = parse_shell("SHELL", text); });
-    // Only for the build, which installs it: users have it as `man graycube`.
+    // This is only for the build, which installs the page: users read it by `man graycube`.
     CLI::App* page = app_.add_subcommand("man-page", "Print the man page")->group("");
     page->callback([this] { chosen_ = [this] { return PrintCommand{man_page(described_)}; }; });
   }
 
-  /// An argument that no option of the command takes.
+  /// The failure for an argument that no option of the command takes.
   Failure unexpected(const CLI::ExtrasError& e) {
     const auto chosen = app_.get_subcommands();
     const CLI::App* sub = chosen.empty() ? &app_ : chosen.back();
@@ -294,7 +294,7 @@ class Parser {
   std::function<Command()> chosen_;
 };
 
-/// The clearest message for what CLI11 would report as an unexpected argument or a missing command.
+/// Gives a clearer message than CLI11 for an unexpected argument or a missing command.
 void check_command_name(int argc, const char* const* argv, Parser& parser) {
   if (argc < 2) throw usage_failure("", "expected a command; see 'graycube --help'");
   const std::string_view written = argv[1];
@@ -306,7 +306,7 @@ void check_command_name(int argc, const char* const* argv, Parser& parser) {
       "", "unknown command " + graycube::quoted(written) + did_you_mean(written, candidates));
 }
 
-/// Where client commands find the farm.
+/// Finds out the endpoint at which client commands look for the farm.
 void resolve_endpoint(std::string& endpoint) {
   const char* origin = "--connect";
   if (endpoint.empty()) {

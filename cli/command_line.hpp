@@ -1,4 +1,4 @@
-// What the command line asks for. Only command_line.cpp and options/declaring.cpp know CLI11.
+// The values of the command line. Only command_line.cpp and options/declaring.cpp know CLI11.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct SubmitCommand {
   ModelChoice choice;
   Outputs outputs;
   control::JobOptions options;
-  /// 0: whatever the farm has.
+  /// 0 for whatever number the farm has.
   std::uint32_t nodes = 0;
   bool is_quiet = false, waits = false;
 };
@@ -35,7 +35,7 @@ struct SubmitCommand {
 struct UpCommand {
   std::string listen, state, http;
   std::uint32_t nodes = 1, threads = 1;
-  /// 0: the frontal's default.
+  /// 0 for the frontal's default.
   std::uint32_t outbox_rays = 0;
 };
 
@@ -73,7 +73,7 @@ struct CheckCommand {
 struct CompareCommand {
   std::string scene;
   ModelChoice choice;
-  /// What all ways have in common: size, samples, depth, the historical queue.
+  /// Options that all ways have in common: size, samples, depth, the historical queue.
   control::JobOptions options;
   std::uint32_t nodes = 1;
   std::filesystem::path plot;
@@ -86,9 +86,9 @@ struct SimulateCommand {
   std::vector<std::uint32_t> nodes;
   /// See simulation::MachineFigures.
   double link_gbps = 10, link_us = 50, cpu_scale = 1;
-  /// As the other links, where not given.
+  /// Bandwidth of the frontal's link; like the other links if not given.
   std::optional<double> host_gbps;
-  /// What handing a message over takes each side; measured, where not given.
+  /// Microseconds that handing a message over takes each side; measured if not given.
   std::optional<double> message_us;
   std::uint32_t cores = 0;
   std::filesystem::path plot;
@@ -98,7 +98,7 @@ struct ConvertCommand {
   std::string in, out;
   ModelChoice choice;
 };
-/// `--help` and `--version`, of any command.
+/// A text to print: help, the version, a shell's completion file or the man page.
 struct PrintCommand {
   std::string text;
 };
@@ -108,7 +108,7 @@ using Command =
                  CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
                  CompareCommand, SimulateCommand, ConvertCommand, PrintCommand>;
 
-/// Throws a usage failure. The arguments are as main gets them, the command's own name first.
+/// Throws a usage failure. The arguments are main's, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);
 
 }  // namespace graycube

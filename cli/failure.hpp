@@ -1,4 +1,4 @@
-// How the command says that something went wrong, and with which status it then ends.
+// How the command reports that something went wrong, and the status with which it then ends.
 #pragma once
 
 #include <exception>
@@ -26,11 +26,11 @@ class Failure : public std::exception {
 
   ExitStatus status() const { return status_; }
   const std::vector<Problem>& problems() const { return problems_; }
-  /// Of a job that ended in a deadlock: the statistics file; else empty.
+  /// The statistics file of a job that ended in a deadlock; else empty.
   const std::string& statistics() const { return statistics_; }
   /// Whether a job's nodes waited for each other in a circle.
   bool is_deadlock() const { return is_deadlock_; }
-  /// It was a farm that failed, and it told that.
+  /// Notes that a farm failed, and what it told about that.
   Failure& told_by_farm(bool is_deadlock, std::string statistics) {
     is_deadlock_ = is_deadlock;
     statistics_ = std::move(statistics);
@@ -45,14 +45,14 @@ class Failure : public std::exception {
   std::string statistics_;
 };
 
-/// A command line that means nothing: `graycube: usage: WHERE: WHY`, exit status 2.
+/// The failure for a command line without meaning: `graycube: usage: WHERE: WHY`, status 2.
 Failure usage_failure(std::string where, std::string why);
 
-/// The line of a problem, without its end; control characters become spaces, so that a line stays
-/// one.
+/// The line of a problem, without its end; control characters become spaces, so that it stays one
+/// line.
 std::string line_of(const Problem& problem);
 
-/// The line on standard error.
+/// Prints the line on standard error.
 void print(const Problem& problem);
 
 }  // namespace graycube

@@ -39,7 +39,7 @@ void write_text(const char* text) {
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
-/// Only functions that a signal handler may call.
+/// Calls only functions that a signal handler may call.
 void on_signal(int signal) {
   const int saved_errno = errno;
   if (signal != SIGCHLD) {
@@ -82,7 +82,7 @@ void catch_interrupts(const char* what, double timeout_s) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM, SIGCHLD}) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    // nohup's wish.
+    // nohup wants SIGHUP to be ignored.
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }

@@ -5,12 +5,12 @@
 namespace graycube {
 
 /// From now on the three signals, and the end of `timeout_s` (0: none), end the process at once
-/// with status 1 and a line that says so. `what` names the command in it; it must live forever.
-/// SIGPIPE is ignored: writing says so itself.
+/// with status 1 and a line that says so. `what` names the command in that line; it must live
+/// forever. SIGPIPE is ignored, as writing fails with its own error.
 void catch_interrupts(const char* what, double timeout_s);
 
-/// While one lives, an interrupt is only noted: there is something to put away first. Main thread
-/// only.
+/// While an object of this class lives, an interrupt is only noted, as there is something to put
+/// away first. For the main thread only.
 class InterruptsHeld {
  public:
   InterruptsHeld();
@@ -28,8 +28,8 @@ void throw_if_interrupted();
 /// remove.
 void note_terminal_line(bool is_open);
 
-/// Becomes readable when a signal has come, of a child that ended too. `clear_wakeup` makes it
-/// unreadable.
+/// A descriptor that becomes readable when a signal has come, that of a child's end included.
+/// clear_wakeup() makes it unreadable.
 int wakeup_descriptor();
 void clear_wakeup();
 

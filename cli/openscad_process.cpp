@@ -26,18 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often to look whether the process has ended, where nothing tells.
+/// Milliseconds between looks whether the process has ended, if the system can't tell that.
 constexpr int kLookMs = 20;
 constexpr std::string_view kEmptyModel = "Current top level object is empty.";
 
-/// The folder has to go on an interrupt, too. Only while there is one: an importer that is busy
-/// with what came from it may be interrupted at any time.
+/// The folder must be removed on an interrupt, too, so interrupts are held while there is one.
+/// Afterwards an importer that is busy with the results may be interrupted at any time.
 struct Workplace {
   InterruptsHeld held;
   TemporaryFolder folder;
 };
 
-/// At most `most` bytes; nothing when there is no such file.
+/// The bytes of a file, at most `most`; nothing when there is no such file.
 std::optional<std::string> bytes_of(const fs::path& path, std::uint64_t most) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
@@ -56,7 +56,7 @@ void reap(pid_t pid) {
   }
 }
 
-/// Statistics of an export, of no interest here.
+/// False for the statistics that an export prints, which are of no interest here.
 bool is_worth_telling(std::string_view line) {
   return line.starts_with("ERROR") || line.starts_with("WARNING") || line.starts_with("ECHO") ||
          line.starts_with("TRACE") || line.starts_with("DEPRECATED") || line.starts_with("Can't");

@@ -15,9 +15,9 @@
 
 namespace graycube {
 
-/// Longest run; then the process is killed.
+/// The most seconds that the process may run; then it is killed.
 inline constexpr int kMaxOpenscadSeconds = 300;
-/// Largest file that is taken from it, and how much of what it says is read.
+/// Most bytes of a file that are taken from it, and most bytes of its messages that are read.
 inline constexpr std::uint64_t kMaxOpenscadOutputBytes = std::uint64_t{1} << 28;
 inline constexpr std::uint64_t kMaxOpenscadLogBytes = 65536;
 
@@ -30,24 +30,24 @@ class OpenscadProcess : public OpenscadProgram {
 
   /// An interrupt ends the process and is thrown as a Failure.
   Result evaluate(const std::string& csg, Format format) override;
-  /// The .csg file that a .scad file comes to.
+  /// Evaluates a .scad file to the text of a .csg file.
   Result evaluate_file(const std::filesystem::path& scad);
-  /// The same with definitions put behind the model's, without messages; empty where it fails or
+  /// The same with definitions put behind the model's, without messages; empty when it fails or
   /// takes too long.
   std::string evaluate_with(const std::filesystem::path& scad, std::string_view definitions);
-  /// What the program had to say, line by line, since this was last asked.
+  /// The program's messages, line by line, since the last call.
   std::vector<std::string> take_messages();
 
  private:
-  /// Runs the program with `-o FOLDER/output input` and gives what it wrote.
+  /// Runs the program with `-o FOLDER/output input` and returns the file that it wrote.
   Result run(const std::filesystem::path& folder, const std::filesystem::path& input,
              const std::string& output);
-  /// `program -o output input OPTIONS`.
+  /// Starts `program -o output input OPTIONS`.
   pid_t start(const std::filesystem::path& input, const std::filesystem::path& output,
               const std::filesystem::path& log, const std::vector<std::string>& options = {});
-  /// Its wait status; nothing when the time was up.
+  /// The process's wait status; nothing when the time was up.
   static std::optional<int> wait_for_end(pid_t pid, int most_seconds);
-  /// Notes what it said, and gives what went wrong.
+  /// Notes the program's messages, and returns what went wrong.
   std::string trouble_in(const std::string& log, int status);
 
   std::filesystem::path program_;

@@ -24,7 +24,7 @@ constexpr double kMaxSeconds = 366.0 * 24 * 3600;
   throw usage_failure(std::string(option), "expected " + what + ", found " + quoted(found));
 }
 
-/// The whole text as a number; nothing when it isn't one or doesn't fit.
+/// The whole text as a number; nothing when it isn't a number, or is too large for the type.
 template <typename Number>
 std::optional<Number> number(std::string_view text) {
   Number value{};

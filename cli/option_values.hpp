@@ -1,5 +1,5 @@
-// The values of options, from text. Each function throws a usage failure that names the option,
-// what was expected and what was found.
+// The values of options, read from text. Each function throws a usage failure that names the
+// option, what was expected and what was found.
 #pragma once
 
 #include <array>
@@ -19,22 +19,22 @@ struct PictureSize {
   friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
-/// A whole number in decimal digits, least … most.
+/// Reads a whole number in decimal digits, least … most.
 std::uint32_t parse_count(std::string_view option, std::string_view text, std::uint32_t least,
                           std::uint32_t most);
-/// A power of two, 1 … kMaxNodes.
+/// Reads a power of two, 1 … kMaxNodes.
 std::uint32_t parse_nodes(std::string_view option, std::string_view text);
-/// "WxH" within the limits of a picture.
+/// Reads "WxH", within the limits of a picture.
 PictureSize parse_size(std::string_view option, std::string_view text);
-/// Powers of two as parse_nodes takes, with commas between; at most kMaxNodeCounts.
+/// Reads powers of two as parse_nodes() does, with commas between; at most kMaxNodeCounts.
 std::vector<std::uint32_t> parse_node_list(std::string_view option, std::string_view text);
 inline constexpr std::size_t kMaxNodeCounts = 16;
-/// A number, least … most.
+/// Reads a number, least … most.
 double parse_number(std::string_view option, std::string_view text, double least, double most);
-/// More than 0, at most a year.
+/// Reads seconds, more than 0 and at most a year.
 double parse_seconds(std::string_view option, std::string_view text);
 
-// What the options below take, in the order in which errors and completion list it.
+// The choices of the options below, in the order in which errors and completion list them.
 inline constexpr std::array kAlgorithmChoices{Algorithm::kAuto, Algorithm::kSerial,
                                               Algorithm::kRoth, Algorithm::kMacro};
 inline constexpr std::array kGrainChoices{Grain::kPixel, Grain::kLine, Grain::kTile};
@@ -46,7 +46,7 @@ inline constexpr std::array kFlowChoices{FlowMode::kCredit, FlowMode::kBlocking}
 inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree};
 inline constexpr std::array kShellChoices{Shell::kBash, Shell::kZsh, Shell::kFish};
 
-/// How choices are spelled.
+/// The choices as they are spelled.
 template <typename Value, std::size_t N>
 std::vector<std::string> names_of(const std::array<Value, N>& choices) {
   std::vector<std::string> names;
@@ -63,10 +63,10 @@ FlowMode parse_flow(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
 Shell parse_shell(std::string_view option, std::string_view text);
 
-/// A finite number.
+/// Reads a finite number.
 double parse_angle(std::string_view option, std::string_view text);
 
-/// Names of AOVs, with commas between; as to_string(AovSet) writes them.
+/// Reads names of AOVs, with commas between; returns them as to_string(AovSet) writes them.
 std::string parse_aov_list(std::string_view option, std::string_view text);
 
 /// The largest power of two not above the number of processors that this process may use.

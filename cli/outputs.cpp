@@ -53,7 +53,7 @@ void check_output(const std::string& option, const fs::path& file, const fs::pat
   }
   if (is_same_file(file, input)) throw usage_failure(where, "would replace the input");
   try {
-    // The surest way to find out. It disappears again, whatever happens.
+    // Writing is the surest way to find out. The file disappears again, whatever happens.
     const InterruptsHeld held;
     const WholeFile probe(file);
   } catch (const PictureError& e) {

@@ -1,4 +1,4 @@
-// The files that a render leaves.
+// The files that a render writes.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace graycube {
 
-/// Empty: not wanted.
+/// The files' paths; an empty path means that the file is not wanted.
 struct Outputs {
   std::filesystem::path exr, png, stats;
   bool none() const { return exr.empty() && png.empty() && stats.empty(); }
@@ -33,7 +33,7 @@ void write_pictures(const Outputs& outputs, const Picture& picture, const std::s
 /// too (Failure::statistics): its nodes' times and queues are worth as much as a picture's.
 void write_stats(const Outputs& outputs, const std::string& stats);
 
-/// A text file, whole or not at all. Throws a Failure of status 1.
+/// Writes a text file, whole or not at all. Throws a Failure of status 1.
 void write_text_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace graycube

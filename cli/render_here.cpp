@@ -36,8 +36,8 @@ std::uint64_t created(const RayCounts& rays, RayKind kind) {
   return rays.created[static_cast<std::size_t>(kind)];
 }
 
-/// The only node of a serial render. What its threads did not spend tracing they spent waiting for
-/// the last.
+/// The only node of a serial render. In the time that its threads did not trace, they waited for
+/// the last one.
 control::NodeStats node_stats(const SerialResult& r, double threads, double render_s) {
   control::NodeStats n;
   n.pid = static_cast<std::uint64_t>(::getpid());

@@ -11,12 +11,12 @@ namespace graycube {
 
 struct Rendered {
   Picture picture;
-  /// As of statistics_json.
+  /// A text of statistics_json.
   std::string stats;
-  /// "serial, 4 threads".
+  /// A summary for people, such as "serial, 4 threads".
   std::string summary;
-  /// What it took another process, in CPU time, to write the picture's files; there are no pixels
-  /// then.
+  /// CPU seconds that another process took to write the picture's files; then there are no pixels
+  /// here.
   double written_cpu_s = 0;
 };
 

@@ -57,7 +57,7 @@ std::string read_file(const fs::path& path, std::size_t most) {
   return text;
 }
 
-/// "line 7: text" as FILE:7 and text.
+/// Splits "line 7: text" into the place FILE:7 and the text.
 Problem located(const char* what, const fs::path& path, const std::string& message) {
   constexpr std::string_view prefix = "line ";
   const auto colon = message.find(": ");
@@ -88,11 +88,11 @@ void read_json(const fs::path& path, SceneInput& input) {
     throw Failure(ExitStatus::kBadInput, problems_of(path, read.errors));
   }
   input.scene = std::move(*read.scene);
-  // A farm opens no files: it gets the meshes in a text of their own.
+  // A farm opens no files: then the meshes are sent in a text made for it.
   if (!read.used_files) input.text = std::move(text).take();
 }
 
-/// The .csg text of an OpenSCAD file. Of a .scad file it is what the program makes of it.
+/// The .csg text of an OpenSCAD file; for a .scad file, the text that the program makes of it.
 std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
   if (path.extension() == ".csg") return read_file(path, kMaxOpenscadBytes);
   read_file(path, kMaxOpenscadBytes);  // says why when it can't be read
@@ -111,7 +111,7 @@ std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
   return std::move(result.text);
 }
 
-/// The picture and depth to import for, in what any importer is told.
+/// Sets the picture's size and depth for which a model is imported, in any importer's options.
 template <typename How>
 void set_overrides(const control::JobOptions& options, How& how) {
   how.image.width = options.width.value_or(how.image.width);
@@ -128,7 +128,7 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
   how.program = program.get();
   how.folder = fs::absolute(path).parent_path().string();
   const bool is_tree = path.extension() == ".csg";
-  // Lines are those of the evaluated tree.
+  // Line numbers are those of the evaluated tree.
   const fs::path where = is_tree ? path : fs::path(path.string() + " (as .csg)");
   const std::string text = openscad_text(path, program.get());
   std::string spelled_out;
@@ -159,7 +159,7 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
 void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
   auto read = read_mesh_file(path);
   if (const auto* fault = std::get_if<MeshFault>(&read)) {
-    // The file's name is in front already.
+    // The problem has the file's name in front already.
     const std::string name = path.string() + ": ";
     throw bad_scene(path,
                     fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);

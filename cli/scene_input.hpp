@@ -1,4 +1,4 @@
-// Scenes as files: read, imported, checked, and as the text that goes to a farm.
+// Scenes from files: read, imported and checked, and as the text that goes to a farm.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace graycube {
 
-/// What to show of a file that holds a model without a view: a BRL-CAD database or an OpenSCAD
-/// model.
+/// Options that choose what to show of a file that holds a model without a view: a BRL-CAD database
+/// or an OpenSCAD model.
 struct ModelChoice {
-  /// OpenSCAD: everything round as OpenSCAD would make it of facets.
+  /// For OpenSCAD: round solids are made of facets, as OpenSCAD makes them.
   bool facets = false;
-  /// All that nothing refers to, when empty.
+  /// For BRL-CAD: the objects to show; if empty, all that nothing refers to.
   std::vector<std::string> objects;
-  /// A view script of rt's; empty for azimuth and elevation.
+  /// The file of a view script for rt; if empty, azimuth and elevation count.
   std::filesystem::path view;
   double azimuth_degrees = 35, elevation_degrees = 25;
   /// Whether any option for BRL-CAD was given: other files have no use for them.
@@ -31,10 +31,10 @@ struct SceneInput {
   /// The file's name without folders.
   std::string name;
   Scene scene;
-  /// A scene file's own text; empty for what was imported or needs other files, until it is
+  /// A scene file's own text. Empty for a scene that was imported or needs other files, until it is
   /// prepared for a farm.
   std::string text;
-  /// From the importer; `where` is FILE:LINE.
+  /// The importer's warnings; `where` is FILE:LINE.
   std::vector<Problem> warnings;
 };
 
@@ -45,10 +45,10 @@ SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {},
                             const ModelChoice& choice = {});
 
-/// How the names of files end that read_scene_input reads.
+/// The endings of the file names that read_scene_input reads.
 inline constexpr std::array<std::string_view, 8> kSceneEndings{".json", ".cbor", ".scad", ".csg",
                                                                ".g",    ".asc",  ".stl",  ".off"};
-/// All of them: ".json, .cbor, … .stl or .off".
+/// All endings as text: ".json, .cbor, … .stl or .off".
 std::string scene_endings_text();
 
 /// Whether the file is OpenSCAD's, by its name's ending.
@@ -56,15 +56,15 @@ bool is_openscad(const std::filesystem::path& path);
 /// Whether the file is a BRL-CAD database, by its name's ending.
 bool is_brlcad(const std::filesystem::path& path);
 
-/// A database's top-level objects, each with its number of primitives, in lines; throws as above.
+/// A line for each top-level object of a database, with its number of primitives; throws as above.
 std::string brlcad_tops_text(const std::filesystem::path& path);
 
-/// Throws a Failure of status 2 when the scene asks for something that the format has and this
+/// Throws a Failure of status 2 when the scene asks for something that the format has but this
 /// version can't compute.
 void check_is_built(const std::filesystem::path& path, const Scene& scene);
 
 /// Makes the scene ready to be sent: with its text, and within a farm's limits. Throws a Failure of
-/// status 2 when the scene, with the options' overrides, can't be rendered but by `serial`.
+/// status 2 when only `serial` can render the scene with the options' overrides.
 void prepare_for_farm(SceneInput& input, const control::JobOptions& options);
 
 }  // namespace graycube

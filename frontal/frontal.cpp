@@ -61,9 +61,9 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
                    jobs_.on_wait_report(rank, m, heartbeat_.last_ping());
                  },
                  [&](const control::Goodbye&) { nodes_.has_left(rank); },
-                 // That it was heard is all that a pong tells.
+                 // A pong tells only that the node was heard.
                  [](const control::Pong&) {},
-                 // No epoch but the first is begun yet.
+                 // Only the first epoch is ever begun.
                  [](const control::EpochAck&) {},
                  [](const control::Hello&) {},
                  [&](const FromNode auto& m) { jobs_.on_node(rank, m); },
@@ -79,7 +79,7 @@ void Frontal::on_node_exit(const Process& process, const std::string& how) {
   if (!is_going_down_) lose(process.rank, how);
 }
 
-/// The running job fails with the node's name; a new process takes its place for the next one.
+/// The running job fails with the node's name; a new process takes the node's place for the next.
 void Frontal::lose(Rank rank, const std::string& how) {
   const NodeRegistry::Lost lost = nodes_.lose(rank);
   jobs_.node_was_lost(lost.name, how, lost.was_starting);

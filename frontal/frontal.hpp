@@ -27,7 +27,7 @@ class Frontal {
   Frontal(FrontalOptions options, JobStore& store);
   Frontal(const Frontal&) = delete;
   Frontal& operator=(const Frontal&) = delete;
-  /// Without one, the statistics tell of no CPU time.
+  /// Without a meter, the statistics tell of no CPU time.
   void set_cpu_meter(CpuMeter meter) { jobs_.set_cpu_meter(std::move(meter)); }
 
   /// Call before the events of that moment; also pings, notices silence and timeouts, and tells of
@@ -50,7 +50,7 @@ class Frontal {
   bool all_nodes_left() const { return nodes_.all_left(); }
   /// Why the farm gave up; empty when it did not.
   const std::string& fatal_error() const { return fatal_error_; }
-  /// A client's or the operator's wish to stop.
+  /// Stops the farm, as a client or the operator wishes.
   void go_down();
 
  private:

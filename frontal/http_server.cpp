@@ -53,8 +53,8 @@ class FrontalClient {
 };
 
 int status_of(const Failed& failed) {
-  // A number that no job can have is a bad request to the frontal; here it is a page that isn't
-  // there.
+  // To the frontal, a number that no job can have is a bad request; here it is a page that doesn't
+  // exist.
   const bool is_unknown =
       failed.code == FailureCode::kUnknownJob || failed.code == FailureCode::kBadRequest;
   return is_unknown ? 404 : 409;

@@ -24,7 +24,7 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// http://HOST:PORT, with the port that was picked.
+  /// The page's address, http://HOST:PORT, with the port that was picked.
   const std::string& url() const;
 
  private:

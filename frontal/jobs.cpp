@@ -10,7 +10,7 @@ namespace {
 
 Refusal unknown(std::uint32_t job) { return {job, FailureCode::kUnknownJob, "", "no such job"}; }
 
-/// The message that tells of a job that it has ended.
+/// The message that tells clients that a job has ended, and how.
 ControlMessage end_of(const EndedJob& job) {
   if (job.info.state == JobState::kDone) return control::Done{job.info.job, {job.stats_json}};
   FailureCode code = FailureCode::kFailed;
@@ -124,7 +124,7 @@ Answer Jobs::fetch(const control::Fetch& m) {
   return picture_rows(*std::get<const Picture*>(found), m);
 }
 
-/// The picture needs no way through sockets: who asks is the one that has started this frontal, and
+/// The picture need not go through sockets: the client that asks has started this frontal, and
 /// could write the files itself.
 Answer Jobs::write(const control::Write& m) {
   if (!farm_.is_private) {
@@ -243,8 +243,8 @@ void Jobs::complete() {
   }
 }
 
-/// The nodes drop it. One that is deadlocked ends as that, whatever else happens while it waits for
-/// reports.
+/// The nodes drop the job. A job that is deadlocked ends as deadlocked, whatever else happens while
+/// it waits for reports.
 void Jobs::fail(JobFailure failure) {
   if (running_->is_loaded()) post_.to_nodes(control::Finish{running_->id()});
   EndedJob job{running_->info(), "{}", false};

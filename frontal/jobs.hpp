@@ -1,5 +1,5 @@
-// The jobs of a farm: which one is on, which wait for it and which have ended, what clients may ask
-// of them, and who is told when one gets on or ends.
+// The jobs of a farm: the one that is on, those that wait for it and those that have ended; what
+// clients may ask of them, and who is told when a job gets on or ends.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Jobs {
   Jobs(const FrontalOptions& farm, JobStore& store, Post& post);
   void set_cpu_meter(CpuMeter meter) { cpu_ = std::move(meter); }
 
-  /// The time from now on, until it is told again.
+  /// Sets the time that all other calls use, until it is set again.
   void set_time(const Moment& now) { now_ = now; }
   /// Ends the job that is on if it is out of time; tells of its progress now and then.
   void check_time();
@@ -40,7 +40,7 @@ class Jobs {
   /// The preparation of the next job, once none is on.
   std::optional<PreparationWork> take_work();
   void give_result(PreparationResult result);
-  /// All nodes are here: a job that waits for them is loaded.
+  /// Tells that all nodes are here: a job that waits for them is loaded.
   void load_what_waits();
   /// Whether nodes work on a job.
   bool keep_nodes_busy() const { return running_ && running_->is_loaded(); }
@@ -49,7 +49,7 @@ class Jobs {
   void on_light(std::span<const std::byte> batch);
   /// Whether the job can start: all nodes are ready.
   [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
-  /// `incarnations` by rank.
+  /// `incarnations`: the nodes' start numbers, indexed by rank.
   void start(std::vector<std::uint32_t> incarnations);
   void on_node(Rank rank, const control::TokenRound& m);
   void on_node(Rank rank, const control::Terminated& m);
@@ -57,13 +57,13 @@ class Jobs {
   void on_node(Rank rank, const control::NodeError& m);
   void on_node(Rank rank, const control::Borrow& m);
   void on_node(Rank rank, const control::Share& m);
-  /// `last_ping`: the newest that was sent.
+  /// `last_ping`: the sequence of the newest ping that was sent.
   void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping);
 
-  /// A node is lost, which ends a job that was loaded. One that can't be started ends any that is
-  /// on.
+  /// Tells that a node is lost, which ends a job that was loaded. A node that can't be started ends
+  /// any job that is on.
   void node_was_lost(const std::string& name, const std::string& how, bool was_starting);
-  /// The farm stops.
+  /// Cancels every job, as the farm stops.
   void cancel_all();
 
  private:

@@ -35,16 +35,16 @@ struct FrontalArguments {
   FlowLimits limits{};
 };
 
-/// Of the frontal's heap, what lies in large pages as it is needed: slices, the picture, light that
-/// waits.
+/// Bytes of the frontal's heap that lie in large pages as they are needed, for slices, the picture
+/// and light that waits.
 constexpr std::size_t kLargeHeap = std::size_t{256} << 20;
-/// Nodes that don't leave within this time after `shutdown` are ended.
+/// Nodes that don't leave within so many seconds after `shutdown` are killed.
 constexpr double kGrace_s = 2;
 constexpr auto kTick = std::chrono::milliseconds(50);
 
 Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
 
-/// Signals that ask for the end, as a descriptor; SIGCHLD too, to wake the loop.
+/// A descriptor of the signals that ask for the end, and of SIGCHLD, which wakes the loop.
 int signal_descriptor() {
   sigset_t set;
   ::sigemptyset(&set);
@@ -77,7 +77,7 @@ class FrontalProcess {
     own_start_cpu_s_ = process_cpu_seconds();
   }
 
-  /// Until the farm is down; why it gave up, or nothing.
+  /// Runs until the farm is down; returns why it gave up, or nothing.
   std::string run() {
     double down_since_s = 0;
     for (;;) {

@@ -46,7 +46,7 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
-/// What comes out of a pipe until its other end is closed.
+/// Reads all that comes out of a pipe until its other end is closed.
 std::string all_of(int pipe) {
   std::string text;
   std::array<char, 4096> part;
@@ -57,8 +57,8 @@ std::string all_of(int pipe) {
   }
 }
 
-/// Runs a program to its end; what it wrote. Its CPU time is added to `cpu_s`. Its standard input,
-/// and that of processes it leaves behind, ends when it has ended.
+/// Runs a program to its end and returns what it wrote. Its CPU time is added to `cpu_s`. Its
+/// standard input, and that of processes it leaves behind, ends when it has ended.
 std::string output_of(const std::vector<std::string>& command, double& cpu_s) {
   Pipe input, output;
   SpawnPlan plan;
@@ -119,8 +119,8 @@ void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
 std::vector<NodeExit> NodeProcesses::reap() {
   std::vector<NodeExit> exits;
   for (;;) {
-    // They are the only children here; asked one by one, each message would cost as many calls as
-    // there are nodes.
+    // Nodes are the only children here. If each were asked for by its id, every message would cost
+    // as many calls as there are nodes.
     int status = 0;
     const pid_t pid = ::waitpid(-1, &status, WNOHANG);
     if (pid <= 0) return exits;

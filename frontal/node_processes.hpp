@@ -30,7 +30,7 @@ class NodeProcesses {
  public:
   /// `program` is graycube-node; inboxes are made in `folder`.
   NodeProcesses(std::filesystem::path program, std::filesystem::path folder, std::uint32_t threads);
-  /// Ends those that are left, and waits for them.
+  /// Kills the processes that are left, and waits for them.
   ~NodeProcesses();
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;

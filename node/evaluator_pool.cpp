@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// About what rays, light and batches under way take of an evaluator's heap beside what it keeps.
+/// About what rays, light and batches under way take of an evaluator's heap, beside what it keeps.
 constexpr std::size_t kHeapOfRendering = std::size_t{1} << 20;
 
 }  // namespace
@@ -56,7 +56,7 @@ void EvaluatorPool::work(unsigned index) {
     std::optional<Work> piece;
     if (index < node_.threads()) piece = node_.take_work();
     if (!piece) ++waiting_;
-    // Also for the result of the piece before.
+    // This tells the brain's change by the result of the last piece, too.
     after_change();
     if (!piece) {
       busy_s_ += since_last_count();
@@ -86,7 +86,7 @@ void EvaluatorPool::work(unsigned index) {
   }
 }
 
-/// Times since the last report, so that each job of a daemon has its own.
+/// Fills in the times since the last report, so that each job of a daemon has its own.
 void EvaluatorPool::measure(control::NodeStats& stats) {
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, false);
   const double cpu_s = process_cpu_seconds();

@@ -50,7 +50,7 @@ class EvaluatorPool {
   std::optional<WaitClock::Time> last_primary_;
   double busy_s_ = 0;
   double cpu_reported_s_ = 0;
-  /// Until the first job came.
+  /// CPU seconds before the first job; nothing until that job came, 0 once they are reported.
   std::optional<double> start_cpu_s_;
 };
 

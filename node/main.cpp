@@ -23,7 +23,7 @@
 namespace graycube {
 namespace {
 
-/// Of a node's heap, what lies in large pages as it is needed: most nodes need one or two.
+/// Bytes of a node's heap that lie in large pages as they are needed: most nodes need one or two.
 constexpr std::size_t kLargeHeap = std::size_t{64} << 20;
 
 struct NodeArguments {
@@ -38,7 +38,7 @@ std::string inbox_of(const NodeArguments& a, std::size_t number) {
 
 class Mailroom {
  public:
-  /// Of the node with that number in the arguments.
+  /// Opens the sockets of the node whose place in the arguments is `number`.
   Mailroom(const NodeArguments& a, std::size_t number)
       : inbox_(context_, inbox_of(a, number)),
         frontal_(context_, a.frontal),
@@ -89,7 +89,7 @@ class Mailroom {
     link->second.send(std::move(o.message));
   }
 
-  /// Neighbours that connect greet first: a new process by its new connection.
+  /// Remembers by which connection a neighbour is reached; a new process greets on a new one.
   void note_peer(const Inbox::Received& m) {
     const auto header = peek_header(m.message.frame);
     const auto* h = std::get_if<BatchHeader>(&header);
@@ -100,8 +100,8 @@ class Mailroom {
   Wakeup wakeup_;
   Inbox inbox_;
   Connection frontal_;
-  /// To neighbours that this node connects to; and by which peer of the inbox the others are
-  /// reached.
+  /// Connections to the neighbours that this node connects to; and the ids by which the inbox
+  /// reaches the others.
   std::map<Rank, Connection> links_;
   std::map<Rank, std::string> peers_;
   std::vector<Readable*> sockets_{&inbox_, &frontal_};
@@ -134,8 +134,8 @@ int run_node(const NodeArguments& a, std::size_t number) {
   return 0;
 }
 
-/// In a process just forked: once its parent has ended, and the frontal has become its parent, a
-/// node. Standard input is what the frontal closes then.
+/// Runs a node in a process just forked, once its parent has ended and the frontal has become its
+/// parent: then the frontal closes standard input.
 int become_node(const NodeArguments& a, std::size_t number, pid_t frontal) {
   char none = 0;
   while (::read(STDIN_FILENO, &none, 1) == -1 && errno == EINTR) {
@@ -159,7 +159,7 @@ int fork_nodes(const NodeArguments& a) {
     if (pid < 0)
       return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
     if (pid == 0) {
-      // What the frontal waits for the end of.
+      // The frontal waits for the end of standard output, so the nodes must not keep it open.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       ::dup2(nowhere, STDOUT_FILENO);
       ::close(nowhere);

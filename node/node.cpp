@@ -19,7 +19,7 @@ void Node::on_frontal(const Message& message) {
   on_control(message);
 }
 
-/// That job's and epoch's, when it has begun.
+/// The rendering of that job and epoch, when it has begun; null otherwise.
 Rendering* Node::rendering_of(std::uint32_t job, std::uint32_t epoch) {
   return is_rendering() && membership_.is_now(job, epoch) ? &*rendering_ : nullptr;
 }
@@ -176,7 +176,7 @@ void Node::on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte
   }
 }
 
-/// A broken batch can't be repaired, and what was in it is missing from the picture.
+/// A broken batch can't be repaired, and its rays are missing from the picture: the job fails.
 void Node::on_rays(std::uint32_t bit, BatchType type, std::span<const std::byte> batch) {
   const bool on_class = type == BatchType::kClassRays;
   const auto result = decode_rays(batch, rendering_->limits(), received_, type);

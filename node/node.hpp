@@ -49,12 +49,12 @@ class Node {
   /// Between start and the end of a picture: what evaluators' waiting time is measured over.
   bool is_rendering() const { return rendering_ && rendering_->has_begun(); }
 
-  /// What is to be sent, in order; the caller sends all of it. Ask when all messages at hand are
-  /// taken in.
+  /// Takes the messages to be sent, in order; the caller sends all of them. To be called when all
+  /// messages at hand are taken in.
   std::vector<Outgoing> take_outgoing();
   bool has_outgoing() const { return !mail_.is_empty(); }
   bool is_shut_down() const { return is_shut_down_; }
-  /// Where each neighbour's inbox is; by rank, empty until the frontal has told.
+  /// Endpoints of all nodes' inboxes, indexed by rank; empty strings until the frontal has told.
   const std::vector<std::string>& endpoints() const { return membership_.endpoints(); }
 
   /// Fills in the times and memory of a report; the brain has no clock.
@@ -82,16 +82,16 @@ class Node {
   Mail mail_;
   bool is_shut_down_ = false;
   bool has_job_ = false;
-  /// Of the job, or the last one.
+  /// The current job's parameters, or the last job's.
   control::Load load_;
-  /// What the job was loaded with, until it is built.
+  /// The slice that the job was loaded with, until an evaluator takes it to subdivide it.
   std::optional<SharedBytes> unbuilt_slice_;
   std::size_t slice_bytes_ = 0;
-  /// Once it is built.
+  /// Nothing until the node's own macro-regions are subdivided.
   std::optional<Rendering> rendering_;
   double build_s_ = 0;
   bool is_ready_sent_ = false;
-  /// The batch of rays that came last; here so that its memory serves the next.
+  /// The batch of rays that came last; a member so that its memory serves the next batch.
   std::vector<RayTask> received_;
 };
 

@@ -87,8 +87,8 @@ void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
 
 // ---- from neighbours
 
-/// For this node's regions; or the sender's own, for whom this node is to trace them; or a
-/// neighbour's: what left a copy of another neighbour's regions comes this way.
+/// The rays are in this node's regions; or in the sender's own, for whom this node is to trace
+/// them; or in a neighbour's: rays that left a copy of another neighbour's regions come this way.
 void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
   const Rank sender = mail.peer(bit);
   const bool is_help = !rays.empty() && here_.seat.owner_of(rays.front().region) == sender;
@@ -132,7 +132,7 @@ void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, 
   tally_.note_queue(held());
 }
 
-/// Where all evaluators wait, none will come by to send the rest.
+/// When all evaluators wait, none will come by to send the rest, so part of a batch is sent, too.
 void Rendering::on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
   flow_->on_class_credit(bit, batch, limits(), all_evaluators_wait(), mail);
 }
@@ -142,7 +142,7 @@ void Rendering::on_link_credit(std::uint32_t bit, std::span<const std::byte> bat
   if (is_free && all_evaluators_wait()) flush_on_idle(mail);
 }
 
-/// A neighbour's, to be traced here.
+/// Tiles of a neighbour, to be traced here in the copy of its regions.
 void Rendering::on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
   std::vector<std::uint32_t> tiles;
   const auto result = decode_assignment(batch, limits(), tiles);
@@ -176,14 +176,14 @@ void Rendering::on_token(std::span<const std::byte> batch, Mail& mail) {
 
 // ---- work
 
-/// In `roth` and in replicas all tiles are everybody's; null where nothing here is good for the
-/// tile.
+/// The domain in which the tile is traced: in `roth` and in replicas this node's for every tile;
+/// null when the tile's regions are not held here.
 std::shared_ptr<const Domain> Rendering::domain_of(std::uint32_t tile) const {
   if (here_.is_own_tile(tile) || here_.domain->is_replica()) return here_.domain;
   return helping_.copy_of(here_.seat.bit_of(here_.owner_of_tile(tile)));
 }
 
-/// When there is none, whatever waits to be sent goes out.
+/// When there is no work, whatever waits to be sent goes out.
 std::optional<Work> Rendering::take_work(Mail& mail) {
   if (!has_begun_) return std::nullopt;
   if (!flow_->is_stalled()) {
@@ -270,7 +270,7 @@ void Rendering::absorb(Traced& traced, Mail& mail) {
   keep_set_aside(traced);
   light_.add(step.returns, traced.tile, here_.plan, mail);
   if (!step.leaving.empty() || !step.lacking.empty()) send(false, mail);
-  // Of each tile more is known of what the others take.
+  // After each tile it is better known how much work the other tiles are.
   if (traced.tile) share_work(mail);
 }
 
@@ -293,8 +293,8 @@ void Rendering::let_leave(const Traced& traced, Mail& mail) {
   }
 }
 
-/// A shadow ray goes on when the model that it lacks is here. False where there is no memory for
-/// that: then it goes on with the neighbour whose region it has entered.
+/// Makes a shadow ray wait for the model that it lacks. False when there is no memory for that
+/// model: then the ray goes on with the neighbour whose region it has entered.
 bool Rendering::waits_for_model(Rank owner, const RayTask& ray, Mail& mail) {
   const Borrowing::Place place = borrowing_.place_of(owner, ray, mail);
   if (place == Borrowing::Place::kHere) queue_.add_own({&ray, 1});
@@ -302,7 +302,7 @@ bool Rendering::waits_for_model(Rank owner, const RayTask& ray, Mail& mail) {
   return place != Borrowing::Place::kThere;
 }
 
-/// Rays leave a neighbour's regions, of which this node holds a copy, for the same region.
+/// Rays leave a neighbour's regions, of which this node holds a copy; all enter the same region.
 void Rendering::leave_copy(std::span<const RayTask> rays, Rank owner) {
   const Rank next = here_.seat.owner_of(rays.front().region);
   if (next == here_.seat.rank) return queue_.add_own(rays);
@@ -360,7 +360,7 @@ void Rendering::flush_on_idle(Mail& mail) {
   pass_token(mail);
 }
 
-/// No evaluator may come by to send on what others sent here.
+/// When all evaluators wait, none will come by to send on the light that others sent here.
 void Rendering::before_mail_leaves(Mail& mail) {
   if (has_begun_ && light_.holds_others_light() && all_evaluators_wait()) flush_on_idle(mail);
 }

@@ -1,6 +1,6 @@
-// A node's part in one picture, from when its macro-regions are subdivided: which mechanism is
-// asked in which order about rays, tiles and light that come, about work for evaluators and about
-// its results.
+// A node's part in one picture, from when its macro-regions are subdivided: decides which mechanism
+// is asked first about rays, tiles and light that come, about work for evaluators and about its
+// results.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ class Rendering {
 
   const Holding& holding() const { return here_; }
   const BatchLimits& limits() const { return here_.limits; }
-  /// The barrier is passed.
+  /// All nodes are ready: tracing begins.
   void begin() { has_begun_ = true; }
   bool has_begun() const { return has_begun_; }
   /// A new epoch: it has yet to begin, and nothing is under way.
@@ -46,7 +46,7 @@ class Rendering {
   void on_assigned(std::span<const std::uint32_t> tiles, Mail& mail);
   void on_relieved(std::uint64_t tiles, Mail& mail);
   void on_all_whole(Mail& mail);
-  /// Another node's model, which was asked for; empty when there is no room for it.
+  /// Another node's model, which was asked for; `slice` is empty when there is no room for it.
   void on_lend(Rank owner, const SharedBytes& slice, Mail& mail);
   /// A neighbour's slice.
   void on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes, Mail& mail);
@@ -68,7 +68,7 @@ class Rendering {
   WaitReason wait_reason() const;
   /// Whether rays, primary ones included, or light of the picture are left here.
   bool has_unfinished() const;
-  /// Sends what nobody may come by to send: what is asked last before mail goes out.
+  /// Sends other nodes' light that no evaluator will send; called last before mail goes out.
   void before_mail_leaves(Mail& mail);
 
   void report(control::NodeStats& stats) const;
@@ -98,7 +98,7 @@ class Rendering {
   Helping helping_;
   Borrowing borrowing_;
   LightOut light_;
-  /// Nothing in `roth`.
+  /// Nothing in `roth`, where no token goes round.
   std::optional<Ending> ending_;
   bool has_begun_ = false;
   unsigned working_ = 0;

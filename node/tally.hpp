@@ -1,4 +1,4 @@
-// What a node counts of the rays that come and of what is traced, for its report.
+// Counts the rays that come to a node, and what tracing did, for its report.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class Tally {
     clamped_ += step.rounding.clamped;
   }
   void rays_came(std::size_t rays) { rays_in_ += rays; }
-  /// So many that came across links are here.
+  /// Notes how many rays that came across links are here now; the report has the largest number.
   void note_queue(std::size_t rays) { queue_peak_ = std::max<std::uint64_t>(queue_peak_, rays); }
 
   void report(control::NodeStats& stats) const {

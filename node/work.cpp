@@ -11,7 +11,7 @@
 namespace graycube {
 namespace {
 
-/// A node's slice: its model, and where it has any, its foreign bounds and foreign horizons.
+/// A node's slice: its model, its foreign bounds and its foreign horizons; null when it has none.
 struct Slice {
   Model model;
   std::shared_ptr<const ForeignBounds> foreign_bounds;
@@ -31,7 +31,7 @@ std::shared_ptr<const LightHorizons> decoded_horizons(std::span<const std::byte>
   return nullptr;
 }
 
-/// Of a slice without the light horizons at its end.
+/// Decodes a slice without the light horizons at its end, which are `horizon_bytes` long.
 std::optional<Slice> decoded_slice(std::span<const std::byte> bytes, std::size_t horizon_bytes,
                                    std::string& error) {
   if (horizon_bytes > bytes.size()) {
@@ -116,7 +116,7 @@ Evaluator& Workbench::evaluator_for(std::shared_ptr<const Domain> domain) {
   return *first.evaluator;
 }
 
-/// The primary rays of those pixels; or, where there are none, those rays.
+/// Traces the primary rays of `pixels`; or `rays`, when `pixels` is null.
 Traced Workbench::trace(Work& work, const PixelRect* pixels, std::span<const RayTask> rays) {
   Traced traced{work.helped, work.on_class, std::nullopt, {}, {}};
   Evaluator& evaluator = evaluator_for(std::move(work.domain));

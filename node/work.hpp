@@ -44,7 +44,7 @@ struct CopyWork {
   Rank from;
   RegionShare share;
   SharedBytes slice;
-  /// As in BuildWork; they are the node's own, too.
+  /// Bytes of the light horizons at the slice's end, as in BuildWork; they are the node's own, too.
   std::size_t horizon_bytes = 0;
 };
 /// Trace the primary rays of a tile, or of a part of it.
@@ -74,27 +74,27 @@ struct Built {
   std::shared_ptr<const Domain> domain;
   std::string error;
 };
-/// Another node's, for shadow rays.
+/// Another node's macro-regions, subdivided, for shadow rays; or why they could not be.
 struct Borrowed {
   Rank from;
   std::shared_ptr<const Territory> model;
   std::string error;
 };
-/// A neighbour's, to help it.
+/// A copy of a neighbour's macro-regions, subdivided, to help it; or why they could not be.
 struct Copied {
   Rank from;
   std::shared_ptr<const Domain> domain;
   std::string error;
 };
-/// What came of a tile or of rays.
+/// The results of tracing a tile or rays.
 struct Traced {
-  /// As in Work.
+  /// `helped` and `on_class` are those of the Work.
   std::optional<Rank> helped;
   std::optional<std::uint16_t> on_class;
   /// TileWork: the tile.
   std::optional<std::uint32_t> tile;
   Step step;
-  /// What tracing it took.
+  /// The cells visited and primitives tested in tracing it.
   WalkCounts walk;
 };
 
@@ -105,12 +105,12 @@ struct WorkResult {
   std::variant<Built, Borrowed, Copied, Traced> what;
 };
 
-/// An evaluator thread's own: what it keeps from one piece of work to the next.
+/// An evaluator thread's own memory: it keeps evaluators from one piece of work to the next.
 class Workbench {
  public:
   /// Does the work. Never throws; a broken slice is an error in the result.
   WorkResult run(Work work);
-  /// Gives up what it keeps of the last job.
+  /// Frees the memory that it keeps of the last job.
   void clear();
 
  private:

@@ -44,7 +44,7 @@ std::size_t WorkQueue::held() const {
   return held;
 }
 
-/// Primary rays for an evaluator: a tile of them, or a pixel's.
+/// Primary rays for an evaluator: those of a whole tile, or of one pixel.
 std::optional<TileWork> WorkQueue::next_pixels(bool is_one_by_one, const TilePlan& plan) {
   if (!open_) {
     if (tiles_.empty()) return std::nullopt;

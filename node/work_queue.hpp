@@ -1,5 +1,5 @@
-// What waits on a node to be done: models to subdivide, rays, primary rays of tiles; and what comes
-// next of it.
+// Work that waits on a node: models to subdivide, rays, and primary rays of tiles; and the choice
+// of what is done next.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@ class WorkQueue {
   using ModelWork = std::variant<BorrowWork, CopyWork>;
   struct Piece {
     std::variant<TileWork, RayWork> what;
-    /// Rays in this neighbour's regions.
+    /// The neighbour in whose regions the rays are to be traced; nothing for own regions and tiles.
     std::optional<Rank> helped;
-    /// Rays from several links, whose credit may now be worth a message.
+    /// The rays came across links, and so much credit may now be free that it is worth a message.
     bool is_received = false;
   };
 
-  /// `own_tiles`: those that the frontal will hand out to this node, where it is known.
+  /// `own_tiles`: how many tiles the frontal will hand out to this node, where that is known.
   WorkQueue(std::uint64_t own_tiles, bool is_one_by_one);
 
   void add_model(ModelWork model) { models_.push_back(std::move(model)); }
   bool has_models() const { return !models_.empty(); }
-  /// The oldest of them, if there is one.
+  /// The model that has waited longest; nothing if none waits.
   std::optional<ModelWork> take_model();
 
   void add_tiles(std::span<const std::uint32_t> tiles) {
@@ -46,37 +46,37 @@ class WorkQueue {
   std::uint64_t unassigned() const { return unassigned_; }
   std::size_t tiles() const { return tiles_.size(); }
   bool has_tiles() const { return !tiles_.empty() || open_; }
-  /// The last ones, up to `most`, as long as `is_own(tile)`.
+  /// How many of the last tiles, up to `most`, are own ones without a gap: `is_own(tile)` holds.
   template <typename IsOwn>
   std::size_t own_tiles_at_end(std::size_t most, IsOwn&& is_own) const;
-  /// The last ones, last first: this node comes from the other end.
+  /// Takes the last `count` tiles, last first: this node itself begins tiles from the other end.
   std::vector<std::uint32_t> give_tiles(std::size_t count);
 
   /// Rays in this node's regions that came across a link, whose credit they take up until they are
   /// taken.
   void add_received(std::span<const RayTask> rays, std::uint32_t bit) { received_.add(rays, bit); }
-  /// Others in them: created here, or work was set aside.
+  /// Other rays in this node's regions: they were created here, or set aside by a piece of work.
   void add_own(std::span<const RayTask> rays) { own_.add(rays, 0); }
-  /// Rays in a neighbour's regions, from there.
+  /// Rays in the regions of the neighbour `owner`, which came from there across `bit`.
   void add_helped(Rank owner, std::uint32_t bit, std::span<const RayTask> rays);
-  /// The same, where work was set aside: they are first.
+  /// The same for rays that a piece of work set aside: they go to the front of the queue.
   void add_helped_again(Rank owner, std::vector<RayTask> rays);
   bool has_rays() const { return !received_.is_empty() || !own_.is_empty() || !helped_.empty(); }
   std::size_t received() const { return received_.size(); }
-  /// All that came across links.
+  /// Rays that came across links, those for a neighbour's regions included.
   std::size_t held() const;
-  /// Up to `most` of the deepest received; `taken_from(bit, count)` tells whose credit is free.
+  /// Takes up to `most` of the deepest received rays; `taken_from(bit, count)` frees their credit.
   template <typename TakenFrom>
   std::vector<RayTask> give_rays(std::size_t most, TakenFrom&& taken_from) {
     return received_.take(most, taken_from);
   }
 
-  /// What is to be done next, models aside: rays before tiles, which may have to wait.
+  /// The next piece of work, models aside: rays first, then tiles if `may_start_tiles`.
   template <typename TakenFrom>
   std::optional<Piece> take(const Pace& pace, bool may_start_tiles, const TilePlan& plan,
                             TakenFrom&& taken_from);
 
-  /// Neither rays nor tiles.
+  /// Neither rays nor tiles are left, and the frontal has no more tiles for this node.
   bool is_empty() const { return !has_rays() && !has_tiles() && unassigned_ == 0; }
   /// A new epoch; models stay.
   void reset();
@@ -85,7 +85,7 @@ class WorkQueue {
   struct Helped {
     Rank owner;
     std::vector<RayTask> rays;
-    /// Across which they came, and whose credit they take up.
+    /// The link across which the rays came, and whose credit they take up; nothing once set aside.
     std::optional<std::uint32_t> bit;
   };
   struct OpenTile {
@@ -96,7 +96,7 @@ class WorkQueue {
 
   std::deque<ModelWork> models_;
   std::deque<std::uint32_t> tiles_;
-  /// What is traced pixel by pixel.
+  /// The tile whose pixels are handed out one by one.
   std::optional<OpenTile> open_;
   std::uint64_t own_tiles_, unassigned_;
   RayStore received_, own_;

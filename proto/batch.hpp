@@ -28,11 +28,11 @@ inline constexpr std::uint32_t kFrontalRank = 0xFFFFFFFF;
 
 inline constexpr std::size_t kRayBytes = 102;
 inline constexpr std::size_t kTileCreditBytes = 44;
-/// What a pixel's light takes, alone in its run and very bright.
+/// Bytes that a pixel's light takes at most: alone in its run, and very bright.
 inline constexpr std::size_t kMostPixelBytes = 30;
 inline constexpr std::size_t kTokenBytes = 25;
 
-/// Largest message, header included: contributions, and every other type.
+/// Bytes of the largest message, header included: of contributions, and of every other type.
 inline constexpr std::size_t kMaxContributionBatchBytes = std::size_t{8} << 20;
 inline constexpr std::size_t kMaxBatchBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxRaysPerBatch = (kMaxBatchBytes - kBatchHeaderBytes) / kRayBytes;
@@ -51,22 +51,22 @@ enum class BatchType : std::uint8_t {
   kAssignment = 5,
   kGreeting = 6,
   kGreetingAck = 7,
-  /// Neither sent nor answered yet: for nodes that are replaced while a job is on.
+  /// Neither is sent or answered yet: they are for nodes that are replaced while a job is on.
   kGoodbye = 8,
   kGoodbyeAck = 9,
-  /// The sender has nothing to do; and it holds a copy of the receiver's slice.
+  /// The sender has nothing to do; kIdleWithCopy: and it holds a copy of the receiver's slice.
   kIdle = 10,
   kIdleWithCopy = 11,
-  /// Rays on the credit of their classes, and that credit given back (docs/design/flow.md).
+  /// Rays on the credit of their classes, and such credit given back (docs/design/flow.md).
   kClassRays = 12,
   kClassCredit = 13,
 };
 
-/// Who sent a batch, and to what it belongs.
+/// The sender of a batch, and what the batch belongs to.
 struct BatchStamp {
   std::uint32_t job = 0;
   std::uint32_t epoch = 0;
-  /// Rank, or kFrontalRank.
+  /// The sender's rank, or kFrontalRank.
   std::uint32_t sender = 0;
   /// The sender's start number: a restarted node has another one.
   std::uint32_t incarnation = 0;
@@ -79,10 +79,10 @@ struct BatchStamp {
 struct BatchHeader {
   BatchStamp stamp;
   BatchType type = BatchType::kRays;
-  /// Records: rays, tile credits, assigned tiles, classes; 1 for a grant or a token, 0 for
-  /// greetings and goodbyes.
+  /// Number of records: rays, tile credits, assigned tiles or classes; 1 for a grant or a token, 0
+  /// for greetings and goodbyes.
   std::uint32_t count = 0;
-  /// Contributions: pixels. 0 otherwise.
+  /// Number of pixels in a batch of contributions; 0 in any other.
   std::uint32_t second_count = 0;
   std::uint32_t payload_bytes = 0;
 
@@ -103,7 +103,7 @@ std::string_view to_string(BatchType type);
 
 using BatchResult = std::variant<BatchHeader, BatchError>;
 
-/// What indices and counts must stay below: from the job that a batch belongs to.
+/// The limits below which indices and counts must stay, from the job that a batch belongs to.
 struct BatchLimits {
   std::uint64_t pixel_count = 0;
   std::uint32_t tile_count = 0;
@@ -111,37 +111,37 @@ struct BatchLimits {
   /// A ray of a scene without lights still has the number 0.
   std::uint32_t lights = kMaxCreditLights;
   std::uint32_t max_exponent = 255;
-  /// Links that a ray may have crossed, those before it included.
+  /// The most links that a ray may have crossed, those of the rays before it in its tree included.
   std::uint32_t max_hops = kMaxHops;
   /// The grid of macro-regions, scattered ones included: a receiver sets its job's.
   std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;
-  /// Senders are ranks below it, or the frontal.
+  /// A sender's rank must be below this, unless it is the frontal.
   std::uint32_t nodes = 0;
 };
 
-/// At most kMaxRaysPerBatch rays; of type kRays or kClassRays.
+/// Takes at most kMaxRaysPerBatch rays; the type is kRays or kClassRays.
 std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayTask> rays,
                                    BatchType type = BatchType::kRays);
-/// At most kMaxClassesPerGrant classes.
+/// Takes at most kMaxClassesPerGrant classes.
 std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
                                            std::span<const std::uint16_t> classes);
-/// Both together at most kMaxContributionBatchBytes, see most_contribution_bytes.
+/// The batch may have at most kMaxContributionBatchBytes, see most_contribution_bytes.
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
                                             std::span<const Contribution> contributions);
 std::vector<std::byte> encode_link_credit(const BatchStamp& stamp, std::uint64_t bytes);
 std::vector<std::byte> encode_token(const BatchStamp& stamp, const Token& token);
-/// At most kMaxTilesPerAssignment tiles.
+/// Takes at most kMaxTilesPerAssignment tiles.
 std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
                                          std::span<const std::uint32_t> tiles);
-/// Of type kIdle or kIdleWithCopy: what the sender has done so far in this epoch, in tests of a
-/// primitive (trace/work_cost.hpp).
+/// An offer to help, of type kIdle or kIdleWithCopy. `work`: what the sender has done so far in
+/// this epoch, in tests of a primitive (trace/work_cost.hpp).
 std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work);
-/// The types without payload: greeting, goodbye and their acknowledgements. peek_header() checks
-/// all that there is of them.
+/// A batch of a type without payload: a greeting, a goodbye or an acknowledgement of one.
+/// peek_header() checks all that there is of these.
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type);
 
-/// Size of a message with so many records, header included; of contributions at most.
+/// Bytes of a message with so many records, header included; for contributions the most bytes.
 constexpr std::size_t ray_batch_bytes(std::size_t rays) {
   return kBatchHeaderBytes + rays * kRayBytes;
 }
@@ -158,8 +158,8 @@ constexpr std::size_t most_contribution_bytes(std::size_t tiles, std::size_t pix
 bool looks_like_batch(std::span<const std::byte> message);
 
 /// Each decodes a whole message of its type. The vectors are replaced; after an error they are
-/// empty (other outputs untouched).
-/// Of type kRays or kClassRays.
+/// empty (other outputs untouched). decode_rays() is for type kRays or kClassRays, as `type`
+/// says.
 [[nodiscard]] BatchResult decode_rays(std::span<const std::byte> message, const BatchLimits& limits,
                                       std::vector<RayTask>& rays,
                                       BatchType type = BatchType::kRays);
@@ -169,7 +169,7 @@ bool looks_like_batch(std::span<const std::byte> message);
                                                std::vector<Contribution>& contributions);
 [[nodiscard]] BatchResult decode_link_credit(std::span<const std::byte> message,
                                              const BatchLimits& limits, std::uint64_t& bytes);
-/// Of either type.
+/// Takes offers of type kIdle and kIdleWithCopy.
 [[nodiscard]] BatchResult decode_offer(std::span<const std::byte> message,
                                        const BatchLimits& limits, std::uint64_t& work);
 [[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message,

@@ -11,12 +11,12 @@ namespace {
 
 using namespace batch_layout;
 
-/// A tile's credit never exceeds its number of primary rays, nor that the whole picture's.
+/// A tile's credit never exceeds its number of primary rays, and so not that of any picture.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 
 bool is_known(std::uint8_t type) { return type >= 1 && type <= 13; }
 
-/// The framing and the sender checked, and the type; `payload` is the bytes behind the header.
+/// Checks the framing, the sender and the type; `payload` becomes the bytes behind the header.
 BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,
                  const std::byte*& payload) {
   const BatchResult result = peek_header(message);
@@ -74,7 +74,7 @@ bool load_credit(const std::byte* at, const BatchLimits& limits, TileCredit& cre
 
 bool is_light(std::int64_t v) { return v >= 0 && v <= kMaxMergedLight; }
 
-/// A run's light into `pixels`, the first of which is pixel number `first`. False unless the
+/// Reads a run's light into `pixels`, the first of which is pixel number `first`. False unless the
 /// components take no more bytes than they need, and none is too large.
 template <std::size_t kBytes>
 bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> pixels) {
@@ -86,7 +86,7 @@ bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> 
       const std::uint64_t value = load_low_bytes<kBytes>(at);
       *component = static_cast<std::int64_t>(value);
       bits |= value;
-      // Below 8 bytes they all are.
+      // Components of fewer than 8 bytes are always small enough.
       if constexpr (kBytes == 8) is_bounded = is_bounded && is_light(*component);
       at += kBytes;
     }
@@ -94,7 +94,7 @@ bool load_run(const std::byte* at, std::uint32_t first, std::span<Contribution> 
   return is_bounded && component_bytes(bits) == kBytes;
 }
 
-/// All runs of `bytes`, into as many contributions as there are. Runs are as long as they can be.
+/// Reads all runs of `bytes`, which must fill `all` exactly. Runs must be as long as they can be.
 bool load_light(std::span<const std::byte> bytes, const BatchLimits& limits,
                 std::span<Contribution> all) {
   ByteReader r(bytes);
@@ -204,7 +204,7 @@ BatchResult decode_contributions(std::span<const std::byte> message, const Batch
     return result;
   }
   const std::size_t credit_bytes = h->count * kTileCreditBytes;
-  // Of the batch before: all are overwritten, so that none need be made anew.
+  // Contributions of the last batch remain: all are overwritten, so that none need be made anew.
   contributions.resize(h->second_count);
   if (!load_all(at, h->count, kTileCreditBytes, limits, load_credit, credits) ||
       !load_light({at + credit_bytes, h->payload_bytes - credit_bytes}, limits, contributions)) {

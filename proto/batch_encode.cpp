@@ -11,8 +11,8 @@ namespace {
 
 using namespace batch_layout;
 
-/// A writer that already holds the header; `count` and `second` decide the payload's size, but for
-/// `more` bytes.
+/// A writer that already holds the header. `count` and `second` decide the payload's size, except
+/// for `more` bytes.
 ByteWriter begin(const BatchStamp& stamp, BatchType type, std::size_t count, std::size_t second,
                  std::size_t more = 0) {
   BatchHeader h{stamp, type, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(second),
@@ -62,7 +62,7 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_little(at + 100, task.hops);
 }
 
-/// Light of pixels side by side.
+/// Light of pixels side by side, each component in `component_bytes` bytes.
 struct LightRun {
   std::span<const Contribution> pixels;
   std::size_t component_bytes = 1;
@@ -74,7 +74,7 @@ std::uint64_t bits_of(const FixedRgb& light) {
   return static_cast<std::uint64_t>(light.r | light.g | light.b);
 }
 
-/// The longest runs, one behind the other.
+/// Splits light into the longest runs possible, in order.
 std::vector<LightRun> runs_of(std::span<const Contribution> all) {
   std::vector<LightRun> runs;
   while (!all.empty()) {

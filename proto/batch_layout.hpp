@@ -1,4 +1,4 @@
-// What the writer and the reader of batches share: how counts decide a message's size.
+// How counts decide a message's size, for the writer and the reader of batches.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@ namespace graycube::batch_layout {
 struct PayloadRule {
   /// False when no batch of the type may have these counts.
   bool counts_fit;
-  /// What the payload must measure; multiplied in 64 bits, so nothing wraps.
+  /// Bytes that the payload must have; multiplied in 64 bits, so nothing wraps.
   std::uint64_t bytes;
-  /// How much more it may measure, depending on the records.
+  /// Bytes that it may have beyond that, depending on the records.
   std::uint64_t more = 0;
 };
 
-/// Light comes in runs: of pixels side by side, each component in as many bytes as the largest
-/// needs.
+/// Light comes in runs of pixels side by side, with each component in as many bytes as the largest
+/// component needs.
 inline constexpr std::size_t kRunHeaderBytes = 6, kMaxRunPixels = 255;
 inline constexpr std::size_t kLeastPixelBytes = 3;
 static_assert(kMostPixelBytes == kRunHeaderBytes + 3 * sizeof(std::uint64_t));
@@ -31,7 +31,7 @@ constexpr std::size_t component_bytes(std::uint64_t bits) {
   return std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(bits)) + 7) / 8);
 }
 
-/// Calls visit with 1 to 8 as a constant.
+/// Calls visit with `bytes`, which is 1 to 8, as a constant.
 template <class Visit>
 void with_component_bytes(std::size_t bytes, Visit&& visit) {
   switch (bytes) {
@@ -69,7 +69,7 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
   return {false, 0};
 }
 
-/// Beside a ray's kind: RayTask::ends_at_horizon.
+/// A bit beside the ray's kind that says RayTask::ends_at_horizon.
 inline constexpr std::uint8_t kHorizonFlag = 4;
 
 constexpr std::size_t max_message_bytes(BatchType type) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kSides = 6;
 constexpr std::size_t kBranchBytes = kSides * sizeof(float) + sizeof(std::uint32_t);
 
-/// The used places come first.
+/// The number of branches that are used, which come first.
 std::size_t branches_of(const WideNode& node) {
   std::size_t count = 0;
   while (count < WideNode::kWidth && node.planes[0][0][count] <= node.planes[1][0][count]) ++count;
@@ -22,13 +22,13 @@ float& side_of(WideNode& node, std::size_t side, std::size_t place) {
   return node.planes[side / 3][side % 3][place];
 }
 
-/// False where it is no box, or leads back or too deep; `levels`: how deep nodes are, 0 until their
-/// parent came.
+/// Reads a branch. False if it is no box, or leads back or too deep. `levels`: the depth of each
+/// node, 0 until its parent came.
 bool take_branch(ByteReader& r, std::size_t number, std::size_t place, WideNode& node,
                  std::vector<std::uint8_t>& levels) {
   for (std::size_t side = 0; side < kSides; ++side) side_of(node, side, place) = r.get<float>();
   for (std::size_t a = 0; a < 3; ++a) {
-    // Also false for what is no number.
+    // This is false for NaN, too.
     if (!(node.planes[0][a][place] <= node.planes[1][a][place])) return false;
   }
   const auto child = r.get<std::uint32_t>();
@@ -68,7 +68,7 @@ bool begins_with_bounds(std::span<const std::byte> bytes) {
 std::optional<ForeignBounds> take_bounds(std::span<const std::byte>& bytes) {
   ByteReader r(bytes);
   const auto magic = r.get<std::uint32_t>(), count = r.get<std::uint32_t>();
-  // A node takes a byte at least.
+  // Each node takes at least a byte.
   if (!r.ok() || magic != kBoundsMagic || count > kMaxBoundsNodes || count > r.remaining())
     return std::nullopt;
   std::vector<WideNode> nodes(count);

@@ -1,4 +1,4 @@
-// Foreign bounds as bytes: what follows the model of a slice. FORMAT.md, "Foreign bounds", is
+// Foreign bounds as bytes, which follow the model of a slice. FORMAT.md, "Foreign bounds", is
 // normative.
 #pragma once
 

@@ -81,7 +81,7 @@ class ByteWriter {
   void put(T value) {
     store_little(room(sizeof(T)), value);
   }
-  /// The next `count` bytes, to be filled by the caller.
+  /// Skips `count` bytes, which the caller must fill.
   std::byte* room(std::size_t count) {
     GRAYCUBE_CHECK(count <= bytes_.size() - used_, "%zu bytes into %zu of %zu", count, used_,
                    bytes_.size());
@@ -89,7 +89,7 @@ class ByteWriter {
     used_ += count;
     return at;
   }
-  /// The message; exactly full.
+  /// The message, which must be exactly full.
   std::vector<std::byte> take() && {
     GRAYCUBE_CHECK(used_ == bytes_.size(), "%zu of %zu bytes written", used_, bytes_.size());
     return std::move(bytes_);

@@ -1,4 +1,4 @@
-// What `graycube compare` makes of statistics: figures of each way to render a scene, side by side.
+// The figures that `graycube compare` takes from statistics, for each way to render a scene.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Figures {
   double wall_s = 0, cpu_s = 0, frontal_cpu_s = 0, render_s = 0, efficiency = 1,
          blocked_fraction = 0, endgame_s = 0;
   std::uint64_t forwarded = 0, messages = 0, message_bytes = 0, light_bytes = 0;
-  /// Of the node that holds most; model and subdivision.
+  /// Bytes of model and subdivision on the node that holds most.
   std::uint64_t largest_memory_bytes = 0;
   std::uint64_t rounds = 0, queue_peak = 0;
   std::vector<NodeTimes> nodes;
@@ -32,12 +32,12 @@ std::string to_string(RowOutcome outcome);
 
 struct ComparedRow {
   std::string name;
-  /// Of `graycube render`.
+  /// The arguments of `graycube render` for this row.
   std::string arguments;
   RowOutcome outcome = RowOutcome::kSame;
-  /// What went wrong; empty when nothing did.
+  /// Why it failed; empty if it didn't.
   std::string why;
-  /// As of statistics_json; empty without a picture.
+  /// A text of statistics_json; empty without a picture.
   std::string statistics;
 };
 
@@ -48,7 +48,7 @@ struct SimulatedRow {
   double time_s = 0;
   /// Share of that time in which the frontal's link carried light.
   double host_load = 0;
-  /// CPU seconds as predicted, over those that the same work took here.
+  /// CPU seconds as predicted, divided by those that the same work took here.
   double predicted_over_measured = 0;
   /// CPU seconds of each unit of work, by name.
   std::vector<std::pair<std::string, double>> costs;

@@ -1,6 +1,6 @@
-// Control messages as JSON text and back. Encoding is total: what it gives, decode takes, as long
-// as the values lie in their fields' ranges. Decoding takes anybody's bytes and throws nothing.
-// Fields unknown here are ignored, so that newer senders may add some.
+// Control messages as JSON text and back. Any message can be encoded, and decode accepts the result
+// if the values lie in their fields' ranges. Decoding takes anybody's bytes and throws nothing.
+// Unknown fields are ignored, so that newer senders may add some.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ struct ControlError {
 
 using ControlResult = std::variant<ControlMessage, ControlError>;
 
-/// One line of JSON. Strings are made printable: what is not UTF-8 is replaced, control characters
-/// become spaces, the rest is cut at the field's length.
+/// One line of JSON. Strings are made printable: bytes that are not UTF-8 are replaced, control
+/// characters become spaces, and text beyond the field's length is cut off.
 std::string encode(const ControlMessage& message);
 
 [[nodiscard]] ControlResult decode(std::string_view text);

@@ -25,7 +25,7 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
   }
   const unsigned second = byte(1);
-  // Overlong forms, surrogates, and beyond U+10FFFF.
+  // Refuses overlong forms, surrogates, and code points beyond U+10FFFF.
   if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
       (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90)) {
     return 0;
@@ -33,7 +33,7 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   return length;
 }
 
-/// At most `longest` bytes of UTF-8 without control characters.
+/// The text without control characters, cut to at most `longest` bytes of UTF-8.
 std::string printable(std::string_view text, std::size_t longest) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -59,7 +59,7 @@ class FieldWriter {
   }
   template <class T>
   void operator()(const char* name, const std::optional<T>& value, const FieldLimits& limits = {}) {
-    // An estimate may be infinite: then nothing is known yet.
+    // An estimate is infinite while nothing is known: then the field is left out.
     if constexpr (std::is_same_v<T, double>) {
       if (value && !std::isfinite(*value)) return;
     }

@@ -16,26 +16,26 @@
 namespace graycube {
 
 struct FieldLimits {
-  /// Numbers, also inside arrays; integers have their type's range on top.
+  /// The range of numbers, also inside arrays; integers must fit their type as well.
   double min = -kInf;
   double max = kInf;
   /// Most bytes of a string, or elements of an array.
   std::size_t length = kMaxNameBytes;
-  /// May be missing; the member then keeps its default.
+  /// Whether the field may be missing; the member then keeps its default.
   bool has_default = false;
 };
 
-/// `T`, const for the writer or not for the reader.
+/// The member's type is `T`, const for the writer and not for the reader.
 template <class Member, class T>
 concept Is = std::same_as<std::remove_const_t<Member>, T>;
 
 namespace control {
 
-/// Messages that name a node whose slice it is about.
+/// Messages whose `rank` names the node whose slice is meant.
 template <class M>
 concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
 
-/// Messages that name nothing but an epoch.
+/// Messages that have no field but job and epoch.
 template <class M>
 concept IsAboutEpoch = Is<M, Prepare> || Is<M, AllWhole>;
 

@@ -8,7 +8,7 @@
 
 namespace graycube::control_names {
 
-/// In the order of the enum's values.
+/// The names of an enum's values, in their order.
 template <class E>
 struct Names;
 

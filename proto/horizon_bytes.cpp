@@ -26,7 +26,7 @@ void put_depths(const LightDepths& depths, ByteWriter& w) {
 
 bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
-/// Runs of texels beyond which there is nothing, each with the distances behind it.
+/// Calls f for each run of texels beyond which there is nothing, and the distances that follow it.
 template <typename F>
 void for_each_run(const HorizonMap& map, F&& f) {
   const std::span<const std::uint16_t> units = map.units;
@@ -56,7 +56,7 @@ void put_map(const HorizonMap& map, ByteWriter& w) {
   });
 }
 
-/// False when the bytes are none.
+/// Reads a map; false when the bytes are no map.
 bool take_map(ByteReader& r, HorizonMap& map) {
   map.unit = r.get<double>();
   if (!is_positive(map.unit)) return false;
@@ -74,7 +74,7 @@ bool take_map(ByteReader& r, HorizonMap& map) {
   return true;
 }
 
-/// False when there are not so many distances.
+/// Reads `count` distances; false when fewer bytes are left.
 bool take_distances(ByteReader& r, std::uint64_t count, std::vector<std::uint16_t>& distances) {
   const std::byte* at = r.take(count * sizeof(std::uint16_t));
   if (at == nullptr) return false;
@@ -84,7 +84,7 @@ bool take_distances(ByteReader& r, std::uint64_t count, std::vector<std::uint16_
   return true;
 }
 
-/// At most `most_texels` of the darkness; false when the bytes are none such.
+/// Reads a light's depths; false when they are none, or have more than `most_texels` texels.
 bool take_depths(ByteReader& r, std::uint64_t most_texels, LightDepths& depths) {
   depths.split = r.get<std::uint8_t>();
   if (depths.split == 0) return true;

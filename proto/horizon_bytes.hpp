@@ -1,4 +1,4 @@
-// Light horizons as bytes: what follows the model slice behind `load`. FORMAT.md, "Light horizons",
+// Light horizons as bytes, which follow the model slice behind `load`. FORMAT.md, "Light horizons",
 // is normative.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace graycube {
 /// "GCH3", read as a little-endian integer.
 inline constexpr std::uint32_t kHorizonMagic = 0x33484347;
 inline constexpr std::size_t kHorizonHeaderBytes = 12;
-/// Of a light's depths, before its blocks.
+/// The header of a light's depths, before their blocks.
 inline constexpr std::size_t kDepthHeaderBytes = 20;
 inline constexpr std::size_t kMaxHorizonBytes =
     kHorizonHeaderBytes +
@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxHorizonBytes =
          kDepthHeaderBytes) +
     2 * kMostDepthTexels * sizeof(std::uint16_t);
 
-/// At most kMaxCreditLights lights.
+/// The horizons may have at most kMaxCreditLights lights.
 std::vector<std::byte> encode_horizons(const LightHorizons& horizons);
 /// Nothing when the bytes are no horizons for so many lights.
 [[nodiscard]] std::optional<LightHorizons> decode_horizons(std::span<const std::byte> bytes,

@@ -1,4 +1,4 @@
-// What a job's options come to: the same answer in the command, the frontal and every node.
+// The settings that follow from a job's options: the same in the command, the frontal and nodes.
 #pragma once
 
 #include "proto/messages.hpp"
@@ -7,8 +7,8 @@
 
 namespace graycube {
 
-/// The options' overrides, applied: those that aren't given leave the scene's. AOVs that can't be
-/// read are none.
+/// Applies the options' overrides; where none is given, the scene's value stays. AOVs that can't be
+/// read count as none.
 inline void apply_overrides(const control::JobOptions& options, RenderSettings& settings) {
   ImageSize& image = settings.image;
   image.width = options.width.value_or(image.width);

@@ -15,25 +15,25 @@ inline constexpr std::size_t kSettingsBytes = 188;
 inline constexpr std::size_t kLightBytes = 49;
 inline constexpr std::size_t kMaterialBytes = 81;
 inline constexpr std::size_t kPlaneBytes = 32;
-/// The three counts; at least one point and one triangle follow.
+/// The three counts of a mesh; at least one point and one triangle follow.
 inline constexpr std::size_t kMeshBytes = 12;
 inline constexpr std::size_t kPointBytes = 24;
 inline constexpr std::size_t kTriangleBytes = 12;
-/// A triangle's plane, where a mesh has planes of other solids.
+/// The number of a triangle's plane, written if the mesh lies in planes of other solids.
 inline constexpr std::size_t kPlaneNumberBytes = 4;
 inline constexpr std::size_t kNodeBytes = 5;
 inline constexpr std::size_t kObjectBytes = 60;
-/// Kind, flags and material; what the flags name follows.
+/// Kind, flags and material; the parts that the flags name follow.
 inline constexpr std::size_t kPrimitiveBytes = 7;
 
-/// Bits 0 … 5 of a primitive's flags: v[i] is not +0 and follows.
+/// Bits 0 to 5 of a primitive's flags say that v[i] is not +0 and follows.
 inline constexpr unsigned kHasMap = 1u << 6;
 inline constexpr unsigned kHasBounds = 1u << 7;
 inline constexpr unsigned kHasPlanes = 1u << 8;
 inline constexpr unsigned kHasMesh = 1u << 9;
 inline constexpr unsigned kAllFlags = (1u << 10) - 1;
 
-/// Equality of bits: −0 is not +0.
+/// Whether all bits are equal: −0 is not +0.
 inline bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }

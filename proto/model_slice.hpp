@@ -1,6 +1,6 @@
-// A model, or the slice of it that one macro-region needs, as bytes: what the frontal sends a node
+// A model, or the slice of it that one macro-region needs, as bytes, which the frontal sends a node
 // behind `load`. FORMAT.md, "Model slices", is normative. Every field of Model crosses with all its
-// bits; what is zero or the identity, as in most primitives, takes no room.
+// bits; zeros and identities, as in most primitives, take no room.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ inline constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
 inline constexpr std::uint32_t kMaxModelMaterials = 1u << 20;
 inline constexpr std::uint32_t kMaxModelPrimitives = 1u << 24;
 inline constexpr std::uint32_t kMaxModelPlanes = 1u << 25;
-/// Of all meshes together; no more than 3 a triangle are used.
+/// Points of all meshes together; no more than 3 a triangle are used.
 inline constexpr std::uint32_t kMaxModelPoints = 3 * kMaxMeshTriangles;
 inline constexpr std::uint32_t kMaxModelMeshes = 1u << 20;
 inline constexpr std::uint32_t kMaxModelNodes = 1u << 26;
@@ -37,25 +37,25 @@ struct ModelError {
   std::string why;
 };
 
-/// Size of what encode_model gives.
+/// The size of the bytes that encode_model returns.
 std::size_t encoded_model_bytes(const Model& model);
 
-/// What an object adds to that.
+/// The bytes that an object adds to that size.
 std::size_t encoded_object_bytes(const Model& model, const Object& object);
 
-/// True when encode_model may be called: no count, nor the size, nor the depth of a tree beyond its
-/// limit.
+/// Whether encode_model may be called: no count, nor the size, nor the depth of a tree is beyond
+/// its limit.
 bool fits_model_limits(const Model& model);
 
 /// The model must keep to its own rules (those that decode_model checks) and fit the limits; a
 /// broken one is a bug that the receiver reports.
 std::vector<std::byte> encode_model(const Model& model);
 
-/// Slices of one model, which must outlive it.
+/// Encodes slices of one model, which must outlive the encoder.
 class SliceEncoder {
  public:
   explicit SliceEncoder(const Model& model);
-  /// encode_model(extract(model, contents)), without the copy between, and behind it the tails.
+  /// encode_model(extract(model, contents)), without the copy between, and the tails behind it.
   std::vector<std::byte> encode(const ModelContents& contents,
                                 std::span<const std::span<const std::byte>> tails) const;
 
@@ -63,7 +63,7 @@ class SliceEncoder {
   struct Kept;
 
   const Model& model_;
-  /// By primitive: what of it is written, its mesh aside.
+  /// For each primitive of the model, the flags of the parts that are written, its mesh aside.
   std::vector<std::uint16_t> flags_;
 };
 
@@ -74,7 +74,7 @@ bool is_encoded_model(std::span<const std::byte> bytes);
 /// decoded model nest properly, and every material, plane, point, mesh and primitive that
 /// they name exists.
 [[nodiscard]] std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes);
-/// As decode_model where more bytes may follow: `bytes` becomes those.
+/// Like decode_model, but more bytes may follow: `bytes` becomes those.
 [[nodiscard]] std::variant<Model, ModelError> take_model(std::span<const std::byte>& bytes);
 
 }  // namespace graycube

@@ -95,8 +95,8 @@ class ModelReader {
     return c;
   }
 
-  /// `count` records into `out`. Memory is taken only here, after the header has found room for all
-  /// counts.
+  /// Reads `count` records into `out`. Memory is taken only here, after the header has shown that
+  /// the bytes have room for all counts.
   template <class Record>
   void section(const char* name, std::uint32_t count, std::vector<Record>& out,
                const char* (ModelReader::*record)(Record&)) {
@@ -233,7 +233,7 @@ class ModelReader {
     return nullptr;
   }
 
-  /// The planes of other solids in which its triangles lie, if any.
+  /// Reads the planes of other solids in which the mesh's triangles lie; a mesh may have none.
   const char* mesh_planes(std::uint64_t count, TriangleMesh& surface) {
     if (count == 0) return nullptr;
     surface.planes.resize(count);
@@ -300,7 +300,7 @@ class ModelReader {
     o.first_node = r_.get<std::uint32_t>();
     o.node_count = r_.get<std::uint32_t>();
     o.bounds = get_box(r_);
-    // Objects keep file order, and so do their trees: one behind the other, nothing between them.
+    // Objects keep the file's order, and so do their trees: one behind the other, nothing between.
     const bool first = &o == model_.objects.data();
     if (!first && o.id <= (&o)[-1].id) return "ids must increase";
     const std::uint64_t begin =

@@ -101,7 +101,7 @@ void put_mesh(ByteWriter& w, const TriangleMesh& mesh) {
   for (const std::uint32_t plane : mesh.plane_of) w.put(plane);
 }
 
-/// A leaf's size is 1 and an inner node names no primitive, so one number is enough.
+/// One number is written: a leaf's size is 1 anyhow, and an inner node has no primitive.
 void put_node(ByteWriter& w, const TreeNode& n) {
   GRAYCUBE_CHECK(is_inner(n.kind) ? n.primitive == 0 : n.size == 1,
                  "kind %d, primitive %u, size %u", static_cast<int>(n.kind), n.primitive, n.size);
@@ -125,7 +125,7 @@ std::size_t beginning_bytes(const Model& model) {
          model.materials.size() * kMaterialBytes;
 }
 
-/// Header, settings, lights and materials.
+/// Writes the header, settings, lights and materials.
 void put_beginning(ByteWriter& w, const Model& model, const Counts& counts) {
   w.put(kModelMagic);
   w.put(kModelVersion);
@@ -216,7 +216,7 @@ std::vector<std::byte> encode_model(const Model& model) {
   return std::move(w).take();
 }
 
-/// What of a model goes into a slice.
+/// The parts of a model that go into a slice.
 struct SliceEncoder::Kept {
   struct Tree {
     const Object* object;

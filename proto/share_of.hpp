@@ -6,7 +6,7 @@
 
 namespace graycube {
 
-/// As Hypercube::owner_of has it.
+/// The regions of which Hypercube::owner_of says that `rank` owns them.
 inline RegionShare share_of(const Hypercube& cube, Rank rank) {
   return {cube.columns(), cube.rows(), cube.column_of(rank), cube.row_of(rank)};
 }

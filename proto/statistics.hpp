@@ -18,7 +18,7 @@ struct Statistics {
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
   std::array<std::uint32_t, 2> grid{1, 1};
-  /// What was picked, in macro.
+  /// The scatter that was picked, in `macro`.
   std::uint32_t scatter = 1;
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
@@ -33,16 +33,16 @@ struct Statistics {
   double start_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
-  /// By rank; what the nodes sent of themselves. Totals are summed from these.
+  /// The nodes' own reports, indexed by rank. Totals are sums over these.
   std::vector<control::NodeStats> per_node;
 };
 
-/// One line of JSON.
+/// The statistics as one line of JSON.
 std::string statistics_json(const Statistics& statistics);
 
-/// The statistics with the time and CPU that the command itself used: wall_s replaced, cpu_s and
-/// load_s (reading and compiling the scene) added to. `text` must come from statistics_json, or be
-/// empty and stays so.
+/// The statistics with the time and CPU that the command itself used: wall_s is replaced, cpu_s and
+/// load_s (reading and compiling the scene) are added. `text` must come from statistics_json; an
+/// empty text stays empty.
 std::string with_command_times(const std::string& text, double wall_s, double cpu_s,
                                double load_s = 0);
 

@@ -24,7 +24,7 @@
 namespace graycube::simulation {
 namespace {
 
-/// What evaluators do to the caches between messages.
+/// Sweeps the caches, as evaluators do between messages.
 class Sweep {
  public:
   void operator()() {
@@ -39,8 +39,8 @@ class Sweep {
 constexpr std::size_t kSmall = 128, kLarge = std::size_t{64} << 10;
 constexpr int kRounds = 200, kTries = 3;
 
-/// The other process: sends back whatever comes, a message of 8 bytes with its CPU seconds so far,
-/// until one of 1 byte comes.
+/// The other process: sends each message back, answers one of 8 bytes with its CPU seconds so far,
+/// and ends when one of 1 byte comes.
 void echo(const std::string& endpoint) {
   ZmqContext context;
   Inbox inbox(context, endpoint);
@@ -75,8 +75,8 @@ double all_cpu_seconds(Connection& connection) {
   return there_s + process_cpu_seconds();
 }
 
-/// CPU seconds of both sides together for each message of that size, sweeps included: the least of
-/// a few tries, since others use the machine too.
+/// CPU seconds of both sides together for each message of that size, sweeps included. The least of
+/// a few tries counts, since other processes use the machine too.
 double seconds_per_message(Connection& connection, std::size_t bytes) {
   Sweep sweep;
   double least_s = 1;
@@ -99,7 +99,7 @@ double seconds_per_sweep() {
   return (process_cpu_seconds() - began_s) / kRounds;
 }
 
-/// CPU seconds for each time that one of two threads wakes the other and sleeps.
+/// CPU seconds of one wakeup: one of two threads wakes the other and sleeps.
 double seconds_per_wakeup(int rounds) {
   std::mutex mutex;
   std::condition_variable changed;
@@ -119,7 +119,7 @@ double seconds_per_wakeup(int rounds) {
   return (process_cpu_seconds() - began_s) / (2.0 * rounds);
 }
 
-/// A process of its own that echoes, ended and reaped with this.
+/// A process of its own that echoes messages; the destructor ends and reaps it.
 class EchoProcess {
  public:
   explicit EchoProcess(const std::string& endpoint) : pid_(::fork()) {
@@ -174,7 +174,7 @@ PerUnit measured_costs(const std::string& scene_text, control::JobOptions option
   options.queue = kMaxQueue;
   options.timeout_s = 0;
   MachineFigures figures;
-  // Any costs of about the right size do: they only decide which messages meet.
+  // Costs of about the right size suffice: they only decide which messages meet.
   for (double& cost : figures.costs.value) cost = 1e-7;
   ModelledMachine machine(figures);
   Farm farm({.nodes = nodes, .threads = 1, .stalled_s = 1e6}, machine);

@@ -1,4 +1,4 @@
-// What work costs on the processor at hand.
+// Measures the costs of work on the processor at hand.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ double measuring_overhead_s();
 PerUnit transport_costs();
 
 /// Renders the scene on a few simulated nodes and measures every piece of work: all costs but the
-/// transport's. Where flow is blocking, queues are as long as they can be, so that nothing ends
+/// transport's. If flow is blocking, queues are as long as they can be, so that no job ends
 /// early.
 PerUnit measured_costs(const std::string& scene_text, control::JobOptions options,
                        std::uint32_t nodes);

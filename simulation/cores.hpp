@@ -1,5 +1,5 @@
-// Processor cores and who runs on them: as an operating system does it, but that a task is never
-// interrupted.
+// Processor cores and the tasks that run on them, as in an operating system, except that a task is
+// never interrupted.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +12,23 @@
 
 namespace graycube::simulation {
 
-/// What a process may use of a core before others that wait get their turn; then it is the one who
-/// waits longest.
+/// Seconds that a process may use a core before others that wait get their turn; from then on, the
+/// process that has waited longest is next.
 inline constexpr double kTimeSlice_s = 3e-3;
 
 class Cores {
  public:
   struct Task {
-    /// The process that it belongs to.
+    /// The process that the task belongs to.
     std::uint32_t process = 0;
     /// Called when a core is free; returns the seconds that the task takes from then on.
     std::function<double()> begin;
     std::function<void()> end;
-    /// Short, of a thread that mostly sleeps: such tasks go first.
+    /// The task is short, of a thread that mostly sleeps: such tasks go first.
     bool is_short = false;
   };
 
-  /// `count` 0: as many as are asked for.
+  /// `count` 0: as many cores as tasks ask for.
   Cores(Timeline& timeline, unsigned count) : timeline_(timeline), count_(count) {}
 
   void ask(Task task) {
@@ -40,7 +40,7 @@ class Cores {
   }
 
  private:
-  /// `used_s`: how long the core has worked for the process before.
+  /// `used_s`: seconds that the core has worked for the process before this task.
   void start(Task task, double used_s) {
     ++busy_;
     const double seconds = task.begin();
@@ -48,8 +48,8 @@ class Cores {
     used_s += seconds;
     timeline_.after(seconds, [this, used_s, task = std::move(task)] { finish(task, used_s); });
   }
-  /// The core is free only when what follows from the task has been asked for: that waits behind
-  /// the others.
+  /// The core becomes free only after the tasks that follow from this one have been asked for: they
+  /// queue behind the others.
   void finish(const Task& task, double used_s) {
     task.end();
     --busy_;
@@ -72,7 +72,7 @@ class Cores {
   std::deque<Task> waiting_;
 };
 
-/// A thread that mostly sleeps, as a mailroom: its tasks take a core one after the other, and
+/// A thread that mostly sleeps, such as a mailroom: its tasks get a core one after the other, and
 /// before long ones.
 class Thread {
  public:

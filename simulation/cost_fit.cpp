@@ -7,7 +7,7 @@
 namespace graycube::simulation {
 namespace {
 
-/// Rounds of coordinate descent; the costs have long settled by then.
+/// Rounds of coordinate descent; the costs settle long before.
 constexpr int kRounds = 2000;
 
 /// Units that are measured together: evaluators, building, nodes' brains, the frontal's.

@@ -1,4 +1,4 @@
-// What each unit of work costs, from measurements of work made of many units.
+// Finds the cost of each unit of work from measurements of work made of many units.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace graycube::simulation {
 
-/// Least squares over all measurements, each cost at least 0; then scaled, for evaluators,
-/// building, nodes' brains and the frontal's each, so that the sum of what was measured is met.
+/// Least squares over all measurements, each cost at least 0. Then the costs of evaluators,
+/// building, nodes' brains and the frontal's are scaled, so that each group's measured sum is met.
 class CostFit {
  public:
-  /// `overhead_s`: what measuring itself adds to each measurement.
+  /// `overhead_s`: seconds that measuring itself adds to each measurement.
   explicit CostFit(double overhead_s) : overhead_s_(overhead_s) {}
 
   void add(const PerUnit& counts, double seconds);
@@ -20,7 +20,7 @@ class CostFit {
   /// CPU seconds for each unit; 0 for units that never occurred.
   PerUnit costs() const;
 
-  /// All that was counted and measured together.
+  /// The sum of all counts, and the sum of all measured seconds.
   const PerUnit& counts() const { return counts_; }
   double seconds() const;
 

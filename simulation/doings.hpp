@@ -1,4 +1,4 @@
-// What brains and evaluators do, counted in units, each of which costs some CPU.
+// The work that brains and evaluators do, counted in units, each of which costs some CPU.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct PerUnit {
   }
 };
 
-/// CPU seconds of so many doings at such costs.
+/// CPU seconds of the counted work at these costs.
 inline double cost_of(const PerUnit& counts, const PerUnit& costs) {
   double sum = 0;
   for (std::size_t i = 0; i < kUnits; ++i) sum += counts.value[i] * costs.value[i];

@@ -49,7 +49,7 @@ Cores& Farm::cores_of(Place place) {
   return *cores_[place ? place->value : processes_.size()];
 }
 
-/// The core seconds of what a place does, which are put to its account.
+/// The core seconds of a place's work, which are added to its account.
 double Farm::take(Place place, const PerUnit& doings) {
   const double seconds = machine_.cpu_s(place, doings);
   (place ? processes_[place->value].cpu_s : frontal_cpu_s_) += seconds;
@@ -63,7 +63,7 @@ bool Farm::is_alive(Rank rank, std::uint32_t incarnation) const {
 
 // ---- the frontal
 
-/// Calls the frontal's brain and sends what it has made; this takes a core as long as it should.
+/// Calls the frontal's brain and sends its messages, which takes a core as long as it should.
 template <typename Call>
 void Farm::in_frontal(PerUnit doings, Call&& call) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
@@ -105,7 +105,7 @@ void Farm::start(const Frontal::Process& started) {
                [this, peer, hello] { frontal_receives(peer, hello); });
 }
 
-/// Time passes for the frontal also when no message comes.
+/// Tells the frontal the time, also when no message comes.
 void Farm::tick(unsigned render) {
   if (render != renders_) return;
   in_frontal({}, [this] { frontal_->on_time({timeline_.now_s(), timeline_.now_s()}); });
@@ -170,8 +170,8 @@ void Farm::on_client_message(const Message& message) {
 
 // ---- the nodes
 
-/// Calls a node's brain, has the mailroom send what it has made, and lets its evaluators look for
-/// work.
+/// Calls a node's brain, has the mailroom send the brain's messages, and lets its evaluators look
+/// for work.
 template <typename Call>
 void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   Process& p = processes_[rank.value];
@@ -224,7 +224,7 @@ void Farm::deliver(Rank rank, const Node::Outgoing& o) {
 
 // ---- evaluators
 
-/// What an evaluator does with a core: look for a piece of work and do it.
+/// An evaluator's turn on a core: it looks for a piece of work and does it.
 struct Farm::Turn {
   Rank rank;
   std::uint32_t incarnation = 0;
@@ -233,7 +233,7 @@ struct Farm::Turn {
   double seconds = 0;
 };
 
-/// All evaluators that wait are told that there may be work, as those of a process are.
+/// Tells all evaluators that wait that there may be work, as the threads of a process are told.
 void Farm::wake(Rank rank) {
   Process& p = processes_[rank.value];
   if (!p.node->may_have_work()) return;
@@ -263,7 +263,7 @@ double Farm::begin(Turn& turn) {
     if (!work) --p.active;
   });
   if (!work) return waking_s;
-  // Copies are for rays to come; where none do, a copy may still be at work when the job is over.
+  // Copies are for rays to come. If none come, a copy may still be at work when the job is over.
   turn.is_copying = std::holds_alternative<CopyWork>(work->what);
   if (!turn.is_copying) ++p.working;
   PerUnit doings;
@@ -314,7 +314,7 @@ void Farm::kill(Rank rank) {
   in_frontal({}, [&] { frontal_->on_node_exit({rank, incarnation}, "killed by signal 9"); });
 }
 
-/// The nodes of a job that failed report what they did, those that still can.
+/// Collects reports of what they did from the nodes of a failed job that can still answer.
 void Farm::collect_reports() {
   constexpr double kPatience = 100;
   const double until_s = timeline_.now_s() + kPatience * options_.heartbeat_s;

@@ -1,5 +1,5 @@
-// A farm in one process: the real brains of frontal and nodes, wired on a simulated machine. The
-// machine alone says how long anything takes, so that a run replays exactly: from a seed in the
+// A farm in one process: the real brains of frontal and nodes, wired on a simulated machine. Only
+// the machine says how long anything takes, so that a run replays exactly: from a seed in the
 // tests, from costs per unit in `graycube simulate`.
 #pragma once
 
@@ -29,11 +29,11 @@ struct FarmOptions {
   /// A job that takes longer than this in simulated time has stalled.
   double stalled_s = 600;
   FlowLimits limits{};
-  /// Larger models are not replicated.
+  /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
 };
 
-/// What a job came to, and what was seen on the way.
+/// The result of a job, and what was seen on the way.
 struct Outcome {
   bool ended = false;
   std::optional<control::Done> done;
@@ -41,12 +41,12 @@ struct Outcome {
   std::uint32_t rounds = 0;
   /// Broken promises, in words; empty when all held.
   std::vector<std::string> violations;
-  /// By rank, also of a job that failed; empty when the nodes were not asked.
+  /// The nodes' reports, indexed by rank, also of a job that failed; empty if none were asked for.
   std::vector<control::NodeStats> reports;
   /// Rays that were sent on the credit of their classes.
   std::uint64_t class_rays = 0;
-  /// Simulated seconds from the barrier to the end, or to the last thing that anybody did before a
-  /// failure.
+  /// Simulated seconds from the barrier to the end, or to the last thing that any process did
+  /// before a failure.
   double render_s = 0;
   /// CPU seconds that reading and cutting the scene took here; it takes no simulated time.
   double preparation_cpu_s = 0;
@@ -60,12 +60,12 @@ class Farm {
   /// Renders a scene; the picture is then in store().
   Outcome render(const std::string& scene_text, const control::JobOptions& options);
   JobStore& store() { return *store_; }
-  /// The node stops answering and its links go dead at that simulated time after the next render
-  /// begins.
+  /// The node stops answering, and its links go dead, `after_s` simulated seconds after the next
+  /// render begins.
   void kill_node_at(Rank rank, double after_s) { kill_ = {rank, after_s}; }
 
-  /// Called with what a brain or evaluator did and the CPU seconds that it took here. Without it
-  /// nothing is measured.
+  /// Called with the work that a brain or evaluator did, and the CPU seconds that it took on this
+  /// machine. If it isn't set, nothing is measured.
   std::function<void(const PerUnit&, double)> observe;
   /// Called with each message between nodes, or between a node and the frontal, when it is sent.
   std::function<void(Place from, Place to, double sent_s, const Message&)> on_sent;
@@ -75,16 +75,16 @@ class Farm {
     std::unique_ptr<Node> node;
     std::unique_ptr<Workbench> bench = std::make_unique<Workbench>();
     std::uint32_t incarnation = 0;
-    /// Evaluators that wait for a core or work, and pieces of work under way.
+    /// Evaluators that wait for a core or work, and pieces of work that are under way.
     unsigned active = 0, working = 0;
     double cpu_s = 0, busy_s = 0, last_primary_s = 0;
     WaitClock clock;
     WaitReason reason = WaitReason::kIdle;
     unsigned waiting = 0;
     bool is_rendering = false;
-    /// By bit: bytes of rays sent across that link for which no credit has come back.
+    /// For each bit, bytes of rays sent across that link for which no credit has come back.
     std::vector<std::uint64_t> unreturned;
-    /// By bit.
+    /// For each bit, the class places that rays sent across that link have taken.
     std::vector<ClassPlaces> places_out;
   };
 
@@ -116,7 +116,7 @@ class Farm {
   void kill(Rank rank);
   void collect_reports();
 
-  // What is watched
+  // The watch over promises and time
   void watch_time(Process& p);
   void fill_in(Process& p, control::NodeStats& stats);
   void watch_to_node(const Message& message);
@@ -137,13 +137,13 @@ class Farm {
   double frontal_cpu_s_ = 0;
   std::vector<Process> processes_;
   std::map<PeerId, Rank> peers_;
-  /// Batches of rays, and of light between nodes.
+  /// Numbers of batches under way: of rays, and of light between nodes.
   std::int64_t rays_under_way_ = 0, sums_under_way_ = 0;
-  /// The token has found the end; the nodes were told to report without that.
+  /// Whether the token has found the end; and whether nodes were told to report without that.
   bool is_over_ = false, has_failed_ = false;
   std::optional<std::pair<Rank, double>> kill_;
   double render_began_s_ = 0, last_change_s_ = 0;
-  /// What the running job was loaded with.
+  /// The message that loaded the running job.
   control::Load load_;
   unsigned renders_ = 0;
   std::uint32_t reports_ = 0;

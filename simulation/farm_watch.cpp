@@ -1,4 +1,4 @@
-// What a simulated farm sees of its brains' doings: their time, and promises that they break.
+// The watch of a simulated farm over its brains: their time, and promises that they break.
 #include <algorithm>
 #include <utility>
 
@@ -19,8 +19,8 @@ std::uint32_t bit_between(const Hypercube& cube, Rank a, Rank b) {
 
 }  // namespace
 
-/// Only changes are told to the clock: after a deadlock there are none, and its time counts for
-/// nobody.
+/// Only changes are told to the clock: after a deadlock there are none, so that the time afterwards
+/// counts for nobody.
 void Farm::watch_time(Process& p) {
   const WaitReason reason = p.node->wait_reason();
   const bool is_rendering = p.node->is_rendering();
@@ -110,8 +110,8 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   }
 }
 
-/// So many rays of each class may be on their way on a link, or wait behind it, as it has places
-/// for them.
+/// Checks that no more rays of a class are on their way on a link, or wait behind it, than the link
+/// has places for them.
 void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent) {
   BatchLimits limits{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = cube_.nodes()};
   if (type == BatchType::kClassRays && is_sent) {
@@ -136,7 +136,7 @@ void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type,
   }
 }
 
-/// The token has spoken: nothing may be left anywhere.
+/// Called when the token has found the end: nothing may be left anywhere.
 void Farm::check_quiet() {
   if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
   if (sums_under_way_ != 0)

@@ -1,5 +1,5 @@
-// What a simulated farm runs on: how long its links and processors take. The brains and what they
-// compute are real; only time is not.
+// The machine that a simulated farm runs on: it says how long links and processors take. The brains
+// and their results are real; only time is not.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ using Place = std::optional<Rank>;
 class Machine {
  public:
   virtual ~Machine() = default;
-  /// A node's process has started (again).
+  /// Told that a node's process has started, perhaps again.
   virtual void on_start(Rank) {}
-  /// When a message that is handed to the link at `now_s` arrives. Messages of a link keep their
-  /// order: a later call gives no earlier moment.
+  /// The moment at which a message arrives that is handed to the link at `now_s`. Messages of a
+  /// link keep their order: a later call gives no earlier moment.
   virtual double arrival_s(Place from, Place to, std::size_t bytes, double now_s) = 0;
-  /// The seconds of a core that these doings take.
+  /// The core seconds that this work takes.
   virtual double cpu_s(Place at, const PerUnit& doings) = 0;
-  /// Cores that each node and the frontal have for themselves; 0: no limit.
+  /// Cores that each node, and the frontal, has for itself; 0 for no limit.
   virtual unsigned own_cores() const { return 0; }
-  /// Cores that all of them share instead; 0: none.
+  /// Cores that all of them share instead; 0 if they share none.
   virtual unsigned shared_cores() const { return 0; }
 };
 

@@ -1,4 +1,4 @@
-// What messages give a place to do.
+// The work that messages cause, in units.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace graycube::simulation {
 
 inline std::size_t bytes_of(const Message& m) { return m.frame.size() + m.payload.size(); }
 
-/// One side's part in passing a message on.
+/// One side's part of passing on a message of so many bytes.
 inline PerUnit handling(std::size_t bytes) {
   PerUnit doings;
   doings[Unit::kMessage] = 1;
@@ -21,7 +21,7 @@ inline PerUnit handling(std::size_t bytes) {
   return doings;
 }
 
-/// What receiving a message gives a node's brain to do.
+/// A node's brain's work when it receives a message.
 inline PerUnit receiving(const Message& message) {
   PerUnit doings;
   doings[Unit::kNodeCall] = 1;
@@ -35,7 +35,7 @@ inline PerUnit receiving(const Message& message) {
   return doings;
 }
 
-/// What making these messages gave it to do.
+/// Adds the work of making these messages to `doings`.
 inline void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& doings) {
   for (const Node::Outgoing& o : messages) {
     const auto header = peek_header(o.message.frame);

@@ -1,5 +1,5 @@
-// A machine known by a few figures: what a unit of work costs, how fast links are, how many cores
-// there are.
+// A machine described by a few figures: the cost of each unit of work, the speed of links, the
+// number of cores.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 namespace graycube::simulation {
 
 struct MachineFigures {
-  /// Bandwidth of each link in each direction, and of the frontal's one link to all nodes; 10⁹ bits
-  /// a second.
+  /// Bandwidth of each link in each direction, and of the frontal's one link to all nodes, in 10⁹
+  /// bits a second.
   double link_gbps = 10, host_gbps = 10;
-  /// From one end of a link to the other, in microseconds, beyond the time that the bytes take.
+  /// Microseconds from one end of a link to the other, beyond the time that the bytes take.
   double link_us = 50;
-  /// Cores that all processes share; 0: one for each process.
+  /// Cores that all processes share; 0 gives each process one of its own.
   unsigned cores = 0;
-  /// How much longer than here evaluators take; what brains do with messages is not scaled.
+  /// Factor by which evaluators are slower than here; the brains' work on messages is not scaled.
   double cpu_scale = 1;
-  /// CPU seconds a unit, here.
+  /// CPU seconds of each unit of work here.
   PerUnit costs;
 };
 
@@ -33,7 +33,7 @@ class ModelledMachine : public Machine {
     }
   }
 
-  /// A link carries one message after another; all of the frontal's come by one link.
+  /// A link carries one message after another; all the frontal's messages share one link.
   double arrival_s(Place from, Place to, std::size_t bytes, double now_s) override {
     const bool is_host = !from || !to;
     double& free_at_s = !from ? from_host_s_ : !to ? to_host_s_ : links_[{from->value, to->value}];

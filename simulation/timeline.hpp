@@ -1,4 +1,4 @@
-// Simulated time: events in the order of their moments, those of one moment in the order in which
+// Simulated time: events in the order of their moments; those of one moment in the order in which
 // they were planned.
 #pragma once
 
@@ -21,7 +21,7 @@ class Timeline {
     events_.push({std::max(at_s, now_s_), order_++, std::make_shared<Event>(std::move(event))});
   }
   void after(double seconds, Event event) { at(now_s_ + seconds, std::move(event)); }
-  /// False when there was no event.
+  /// Runs the next event; false when there is none.
   bool run_one() {
     if (events_.empty()) return false;
     const Planned next = events_.top();

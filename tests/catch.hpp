@@ -1,6 +1,6 @@
 // Catch2, version 3 where the system has it (Debian 13, Ubuntu 24.04), else version 2 (Debian 12).
-// The tests are written in the words that both know; what version 3 has moved or renamed gets its
-// old name here.
+// The tests use the words that both versions have; anything that version 3 has moved or renamed
+// gets its old name here.
 #pragma once
 
 #if __has_include(<catch2/catch_test_macros.hpp>)

@@ -1,4 +1,4 @@
-// graycube cancel: stops a job that waits or runs.
+// graycube cancel: stops a job that waits or is running.
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"

@@ -1,4 +1,4 @@
-// graycube check: every error of a scene file, or what is in it.
+// graycube check: prints every error of a scene file, or what is in it.
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"

@@ -1,4 +1,4 @@
-// graycube compare: one scene rendered in every way, in one table.
+// graycube compare: renders one scene in every way, and prints one table.
 #include <chrono>
 #include <cstdio>
 
@@ -16,7 +16,7 @@
 namespace graycube {
 namespace {
 
-/// A way to render: what `graycube render` calls it, and what it asks for.
+/// A way to render: its name, its arguments for `graycube render`, and its options.
 struct Way {
   std::string name, arguments;
   control::JobOptions options;
@@ -40,7 +40,7 @@ std::vector<Way> ways_of(const control::JobOptions& common) {
     ShadowMode shadows = ShadowMode::kForward;
     std::uint32_t scatter = 1;
     PartitionMode partition = PartitionMode::kRegular;
-    /// Places of a blocking queue; 0: credits.
+    /// Places of a blocking queue; 0 for flow by credit.
     std::uint32_t queue = 0;
   };
   const auto macro = [&](std::string name, const Macro& m) {
@@ -139,7 +139,7 @@ TimedRender render_serially(const CompareCommand& command, const SceneInput& sce
   return timed;
 }
 
-/// Serial's row comes first, but it is rendered again at the end, and has the mean of both times:
+/// Serial's row comes first, but it is rendered again at the end, and gets the mean of both times:
 /// machines get slower and quicker, and all rows are compared with this one.
 std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneInput& scene,
                                      ProgressDisplay& display) {

@@ -1,4 +1,4 @@
-// graycube render: a picture, and nothing else left behind.
+// graycube render: writes a picture, and leaves nothing else behind.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -24,12 +24,12 @@ std::vector<std::string> frontal_arguments(const RenderCommand& command) {
           std::to_string(command.threads)};
 }
 
-/// A compiled scene may be so many times as long as its text, which holds a shape once however
-/// often it is used.
+/// A compiled scene may be at most so many times as long as its text, which holds a shape only once
+/// however often it is used.
 constexpr std::size_t kMostExpansion = 4;
 
-/// What goes to the farm: the scene compiled, which saves the frontal from reading it again, or its
-/// text.
+/// The bytes that go to the farm: the scene compiled, which saves the frontal from reading it
+/// again, or its text.
 SharedBytes bytes_to_send(SceneInput scene) {
   const Model model = compile_scene(scene.scene);
   scene.scene = {};
@@ -45,8 +45,8 @@ ImageSize size_of(const Scene& scene, const control::JobOptions& options) {
   return size;
 }
 
-/// Renders on a farm of its own, which writes the pictures, too, if it can: there are no pixels
-/// then. Interrupts must be held: the farm has to be put away.
+/// Renders on a farm of its own, which also writes the pictures if it can: then there are no pixels
+/// here. Interrupts must be held, as the farm has to be put away.
 Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
                         const std::string& name, SharedBytes scene, const ImageSize& size,
                         FrontalProcess& frontal) {
@@ -62,7 +62,7 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
   const std::uint32_t job = submit_scene(farm, name, std::move(scene), options);
   Rendered rendered;
   rendered.stats = follow_job(farm, job, display);
-  // As when the command writes them: from here on an interrupt changes nothing any more.
+  // From here on, as when the command writes the files, an interrupt changes nothing any more.
   throw_if_interrupted();
   ends_on_interrupt = false;
   if (const auto written = have_picture_written(farm, job, outputs, size)) {
@@ -77,8 +77,8 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
   return rendered;
 }
 
-/// With what the whole command took, which it returns, what reading took of that, and what the
-/// frontal took to write pictures.
+/// Writes statistics with the time of the whole command, which it returns, with the part that
+/// reading took, and with the CPU time in which the frontal wrote pictures.
 double write_timed_stats(const Outputs& outputs, const std::string& stats,
                          Clock::time_point started, double load_s, double written_cpu_s = 0) {
   const double wall_s = seconds_since(started);
@@ -95,7 +95,7 @@ void write_outputs(const RenderCommand& command, const Outputs& outputs, const s
   if (command.is_quiet) return;
   std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
               rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
-  // The files are what counts; who no longer reads along may leave.
+  // The files are what counts: a reader of this output that has gone is no failure.
   std::fflush(stdout);
   std::clearerr(stdout);
 }

@@ -1,4 +1,4 @@
-// graycube simulate: a scene rendered by the real brains on a machine that isn't there.
+// graycube simulate: renders a scene by the real brains on a machine that is only simulated.
 #include <algorithm>
 #include <cstdio>
 
@@ -25,9 +25,9 @@ using simulation::PerUnit;
 using simulation::Unit;
 
 /// Costs are measured on at most so many nodes, with a picture whose sides are at most so long:
-/// shorter where each ray is a message.
+/// shorter when each ray is a message.
 constexpr std::uint32_t kCalibrationNodes = 256, kCalibrationSide = 256, kBlockingSide = 128;
-/// Simulated seconds after which a job is taken for stalled.
+/// Simulated seconds after which a job counts as stalled.
 constexpr double kStalled_s = 1e9;
 
 constexpr std::pair<Unit, const char*> kUnitNames[] = {{Unit::kPiece, "piece_of_work"},
@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
   return list;
 }
 
-/// The job as it is measured: its picture made small.
+/// The job that is measured: the same with a small picture.
 control::JobOptions small_job(const SimulateCommand& command, const RenderSettings& settings) {
   control::JobOptions options = command.options;
   const std::uint32_t longest = std::max(settings.image.width, settings.image.height);
@@ -100,7 +100,7 @@ MachineFigures machine_of(const SimulateCommand& command, const PerUnit& costs) 
   return figures;
 }
 
-/// What the nodes of a job that failed did until then.
+/// The statistics of what the nodes of a job that failed had done until then.
 std::string statistics_until_failure(const simulation::Outcome& outcome, const SceneInput& scene,
                                      const SimulateCommand& command, const RenderSettings& settings,
                                      std::uint32_t nodes) {
@@ -148,7 +148,7 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
   simulation::ModelledMachine machine(figures);
   simulation::Farm farm({.nodes = nodes,
                          .threads = 1,
-                         // Slow machines are asked less often how they are.
+                         // Slow machines are pinged less often.
                          .heartbeat_s = std::max(1.0, command.cpu_scale / 1000),
                          .stalled_s = kStalled_s},
                         machine);

@@ -1,4 +1,4 @@
-// graycube submit: a scene for a running farm.
+// graycube submit: sends a scene to a running farm.
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"

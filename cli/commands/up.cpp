@@ -27,7 +27,7 @@ fs::path folder_of(const std::string& ipc_endpoint) {
   return fs::path(ipc_endpoint.substr(std::string("ipc://").size())).parent_path();
 }
 
-/// The default endpoint's folder: the user's alone.
+/// Makes the default endpoint's folder, which only the user may enter.
 void make_private_folder(const std::string& endpoint) {
   const fs::path folder = folder_of(endpoint);
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
@@ -42,7 +42,7 @@ void make_private_folder(const std::string& endpoint) {
   }
 }
 
-/// What a farm leaves at its endpoint, once it has ended: nothing.
+/// Removes what an ended farm may leave at its endpoint.
 class EndpointCleanup {
  public:
   EndpointCleanup(const std::string& endpoint, bool is_default)
@@ -53,7 +53,7 @@ class EndpointCleanup {
       std::error_code ignored;  // not empty, perhaps
       if (is_default_) fs::remove(folder_of(endpoint_), ignored);
     } catch (const Failure&) {
-      // The path is somebody else's by now.
+      // Another process has taken the path by now.
     }
   }
   EndpointCleanup(const EndpointCleanup&) = delete;

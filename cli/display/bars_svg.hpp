@@ -1,4 +1,4 @@
-// A picture of what the nodes of each compared render did with their time.
+// A picture of how the nodes of each compared render spent their time.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What clients print about jobs and nodes.
+// The texts that clients print about jobs and nodes.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace graycube {
 /// A table with a line for each job; times are local.
 std::string jobs_text(const std::vector<control::JobInfo>& jobs);
 
-/// A few lines, "name: value".
+/// A few lines of the form "name: value".
 std::string job_text(const control::JobInfo& job);
 
 /// A table with a line for each node.

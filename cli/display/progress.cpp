@@ -17,7 +17,7 @@ constexpr std::size_t kDefaultColumns = 80;
 constexpr std::size_t kMinBar = 5, kMaxBar = 30;
 
 std::string percent(double fraction) {
-  // Rounded down: 100 % is only what is complete.
+  // Rounded down, so that 100 % is shown only when all is complete.
   const double p = std::floor(100 * std::clamp(fraction, 0.0, 1.0) + 1e-9);
   return std::to_string(static_cast<int>(p)) + " %";
 }
@@ -28,7 +28,7 @@ std::string time_left(const control::Progress& p) {
   return p.eta_s && p.fraction < 1 ? ", " + duration_text(*p.eta_s) + " left" : "";
 }
 
-/// What follows the percentage on a line of its own.
+/// The text behind the percentage on a line of its own.
 std::string details(const control::Progress& p) {
   std::string text = time_left(p);
   if (p.tiles > 0) text += ", " + final_parts_text(p.tiles_whole, p.tiles);
@@ -36,7 +36,7 @@ std::string details(const control::Progress& p) {
   return text;
 }
 
-/// The same behind a bar, in words so few that a terminal of 80 columns has room for them.
+/// Nearly the same for the text behind a bar, short enough for a terminal of 80 columns.
 std::string short_details(const control::Progress& p) {
   std::string text = time_left(p);
   if (p.tiles > 0) {
@@ -91,7 +91,7 @@ std::string progress_bar(const control::Progress& p, std::size_t columns) {
   const double fraction = is_rendering(p) ? std::clamp(p.fraction, 0.0, 1.0) : 0.0;
   const std::string tail =
       is_rendering(p) ? percent(fraction) + short_details(p) : std::string(to_string(p.state));
-  // Of fixed length, lest it jump about as the text behind it grows.
+  // The bar's length is fixed, lest it jump about as the text behind it grows.
   const std::size_t length = std::clamp(columns / 4, kMinBar, kMaxBar);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(length));
   std::string line =

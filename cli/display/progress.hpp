@@ -1,4 +1,4 @@
-// How a render is getting on, for people: one line redrawn on a terminal, plain lines elsewhere.
+// A render's progress for people: one line redrawn on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,17 @@ namespace graycube {
 /// "30 of 64 parts of the picture are final": parts are tiles, final when no ray of theirs is left.
 std::string final_parts_text(std::uint32_t final_parts, std::uint32_t parts);
 
-/// "2 checks whether all is done": rounds of the token.
+/// "2 checks whether all is done": these are the rounds of the token.
 std::string end_checks_text(std::uint32_t rounds);
 
 /// "rendering 47 %, 3 s left, 30 of 64 parts of the picture are final, 2 checks whether all is
-/// done": what is known of it.
+/// done": as much of it as is known.
 std::string progress_text(const control::Progress& progress);
 
 /// Nearly the same behind a bar, for a terminal of so many columns.
 std::string progress_bar(const control::Progress& progress, std::size_t columns);
 
-/// "850 ms", "3.4 s", "12 s", "3 min 20 s", "2 h 5 min".
+/// A duration such as "850 ms", "3.4 s", "12 s", "3 min 20 s" or "2 h 5 min".
 std::string duration_text(double seconds);
 
 class ProgressDisplay {
@@ -34,7 +34,7 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Shows it if it is time to, or the state or the token's rounds have changed.
+  /// Shows progress if it is time to, or if the state or the number of token rounds has changed.
   void show(const control::Progress& progress);
   /// Removes the terminal's line, so that something else may be printed.
   void clear();

@@ -7,7 +7,7 @@
 namespace graycube {
 namespace {
 
-/// Characters of UTF-8: all bytes but continuations.
+/// The number of characters in UTF-8: all bytes but continuations.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

@@ -1,4 +1,4 @@
-// Columns for people.
+// Tables of text for people.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace graycube {
 
-/// The rows, each as many cells as the first, which is the header; columns as wide as they need,
-/// two spaces apart, no space at the end of a line.
+/// The rows as text. All have as many cells as the first, which is the header; columns are as wide
+/// as they need, two spaces apart, with no space at the end of a line.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace graycube

@@ -46,7 +46,7 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
     check_();
     if (auto message = connection_.receive()) {
       auto decoded = decode(message->text());
-      // What can't be read, from a newer frontal perhaps, is nothing we asked for.
+      // A message that can't be read, perhaps from a newer frontal, answers none of our questions.
       if (auto* control = std::get_if<ControlMessage>(&decoded)) {
         has_answered_ = true;
         return Received{std::move(*control), std::move(message->payload)};
@@ -66,7 +66,7 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
 Received FarmClient::answer() {
   if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer))
     return *std::move(received);
-  // A farm under load is slow to answer; where somebody listens it gets more time.
+  // A farm under load is slow to answer; if a process listens there, it gets more time.
   if (!has_answered_ && find_listener(endpoint_).is_there) {
     if (auto received = receive(kLaterAnswer)) return *std::move(received);
   }

@@ -14,7 +14,7 @@
 
 namespace graycube {
 
-/// How long a frontal may take to answer at all, and to answer somebody it has answered before.
+/// How long a frontal may take to answer for the first time, and how long for later answers.
 inline constexpr std::chrono::seconds kFirstAnswer{2};
 inline constexpr std::chrono::seconds kLaterAnswer{30};
 
@@ -23,24 +23,24 @@ struct Received {
   SharedBytes payload;
 };
 
-/// What a `failed` message is for the user: `what: where: why` for each of its errors.
+/// The failure that a `failed` message reports to the user: `what: where: why` for each error.
 Failure failure_of(const control::Failed& failed, const std::string& what);
 
 class FarmClient {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `check` is called every now and then while waiting, and may throw to end that.
+  /// `check` is called every now and then during a wait, and may throw to end that.
   explicit FarmClient(
       std::string endpoint, std::function<void()> check = [] {});
 
   const std::string& endpoint() const { return endpoint_; }
   void send(const ControlMessage& message, SharedBytes payload = {});
-  /// The next message that is one; nothing when the time is up.
+  /// The next control message; nothing when the time is up.
   std::optional<Received> receive(Clock::duration timeout);
 
-  /// The answer to a message, other messages dropped. Throws the Failure that a `failed` answer is,
-  /// or the one of a farm that doesn't answer. `what` begins the line of the former.
+  /// The answer to a message; other messages are dropped. Throws the Failure that a `failed` answer
+  /// reports, whose lines begin with `what`, or that of a farm that doesn't answer.
   template <typename Reply>
   std::pair<Reply, SharedBytes> ask(const ControlMessage& message, const std::string& what,
                                     SharedBytes payload = {}) {
@@ -59,7 +59,7 @@ class FarmClient {
   Failure silence() const;
 
  private:
-  /// The next message; throws silence().
+  /// The next message; throws silence() when none comes in time.
   Received answer();
 
   std::string endpoint_;

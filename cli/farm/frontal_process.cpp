@@ -40,7 +40,7 @@ fs::path frontal_program() {
   return program;
 }
 
-/// The folder of a private frontal's sockets, which one that had to be killed leaves behind.
+/// Removes the folder of a private frontal's sockets, which one that was killed leaves behind.
 void remove_socket_folder(const std::string& endpoint) {
   constexpr std::string_view ipc = "ipc://";
   if (!endpoint.starts_with(ipc)) return;
@@ -94,7 +94,7 @@ const std::string& FrontalProcess::wait_until_listening() {
     if (waits[0].revents == 0) continue;
     char c = 0;
     if (::read(output_, &c, 1) != 1) {
-      // Its output is at its end, so it is about to be; its own message tells why.
+      // Its output has ended, so it is about to end, too; its own message tells why.
       while (!has_ended() && std::chrono::steady_clock::now() < until) {
         std::this_thread::sleep_for(kPollInterval);
       }
@@ -148,7 +148,7 @@ void FrontalProcess::stop() noexcept {
     std::this_thread::sleep_for(kPollInterval);
   }
   if (has_ended_ && !WIFSIGNALED(wait_status_)) return;
-  // Its nodes are in its group; what it could not put away is put away here.
+  // Its nodes are in its process group; what it could not remove itself is removed here.
   ::kill(-pid_, SIGKILL);
   while (!has_ended_ && ::waitpid(pid_, &wait_status_, 0) == -1 && errno == EINTR) {
   }

@@ -1,4 +1,4 @@
-// A graycube-frontal that this command has started, and ends.
+// A graycube-frontal that this command starts, and stops.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace graycube {
 
-/// A frontal that has not ended so long after it was asked to is ended by force, with its nodes.
+/// If a frontal has not ended so long after it was asked to, it is killed with its nodes.
 inline constexpr std::chrono::milliseconds kStopGrace{3000};
 
 class FrontalProcess {
@@ -25,20 +25,20 @@ class FrontalProcess {
   FrontalProcess(const FrontalProcess&) = delete;
   FrontalProcess& operator=(const FrontalProcess&) = delete;
 
-  /// Waits for it to say where it listens. Throws a Failure when it ends instead, or an
-  /// interrupt's.
+  /// Waits until it tells its endpoint, and returns that. Throws a Failure when it ends instead, or
+  /// when an interrupt comes.
   const std::string& wait_until_listening();
-  /// Where its web page is, once it listens; empty when there is none.
+  /// The address of its web page, once it listens; empty when there is none.
   const std::string& page() const { return page_; }
   /// Throws a Failure when it has ended.
   void check_running();
   bool has_ended();
-  /// Its exit status, 128 + the signal's number if that ended it; once it has ended.
+  /// Its exit status, or 128 + the number of the signal that ended it; it must have ended.
   int exit_status() const;
 
   /// Asks it to stop, without waiting.
   void request_stop() noexcept;
-  /// Stops it and waits for it to have gone, by force after the grace.
+  /// Stops it and waits until it has ended; after the grace it is killed.
   void stop() noexcept;
 
  private:

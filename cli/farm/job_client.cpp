@@ -11,7 +11,7 @@
 namespace graycube {
 namespace {
 
-/// After so long without news the frontal is asked whether it is still there.
+/// After so long without a message, the frontal is asked whether it is still there.
 constexpr std::chrono::seconds kQuiet{2};
 
 Failure nonsense(std::uint32_t job) {
@@ -30,8 +30,8 @@ bool is_sound(const control::Picture& rows, const Picture& picture, std::uint32_
          rows.rows >= 1 && rows.rows <= rows.height - first;
 }
 
-/// All rows of light (plane 0) or of a plane of AOVs, each put where it belongs. The picture's size
-/// and AOVs come with the light.
+/// Fetches all rows of light (plane 0) or of a plane of AOVs, and puts each in its place. The
+/// picture's size and AOVs come with the light.
 template <typename Value>
 void fetch_plane(FarmClient& farm, std::uint32_t job, std::uint32_t plane, Picture& picture,
                  std::vector<Value>& all) {
@@ -110,7 +110,7 @@ std::optional<control::Written> have_picture_written(FarmClient& farm, std::uint
     return path.empty() ? std::string() : std::filesystem::absolute(path).string();
   };
   const control::Write request{job, absolute(outputs.exr), absolute(outputs.png)};
-  // Text in messages is cut and mended where it is too long or no UTF-8.
+  // Texts in messages are cut if they are too long, and mended if they aren't UTF-8.
   const auto arriving = decode(encode(request));
   const auto* message = std::get_if<ControlMessage>(&arriving);
   if (message == nullptr || *message != ControlMessage(request)) return std::nullopt;

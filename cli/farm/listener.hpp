@@ -1,5 +1,5 @@
-// Whether somebody listens at an endpoint, asked of the system itself: ZeroMQ connects to anything,
-// in hope.
+// Asks the system whether a process listens at an endpoint: ZeroMQ itself connects to anything, in
+// hope.
 #pragma once
 
 #include <sys/types.h>
@@ -10,14 +10,14 @@ namespace graycube {
 
 struct Listener {
   bool is_there = false;
-  /// Of a local socket, when this process may know it; else 0.
+  /// The process that listens at a local socket; 0 when this process may not know it.
   pid_t process = 0;
 };
 
 /// `endpoint` must have no endpoint_problem().
 Listener find_listener(const std::string& endpoint);
 
-/// Removes the socket file of a process that has gone without doing so. Throws a Failure when the
+/// Removes the socket file of a process that ended without removing it. Throws a Failure when the
 /// path is taken by a file of another kind.
 void remove_stale_socket(const std::string& endpoint);
 

@@ -11,7 +11,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-/// Every name of every option that starts with a dash, `--help` among them.
+/// All names of all options that start with a dash, `--help` among them.
 std::vector<std::string> option_names(const CommandDescription& command) {
   std::vector<std::string> names;
   for (const OptionDescription& option : command.options) {
@@ -30,7 +30,7 @@ const OptionDescription* argument_of(const CommandDescription& command) {
   return nullptr;
 }
 
-/// Within single quotes, for all three shells.
+/// The text in single quotes, which all three shells understand.
 std::string quoted_text(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -39,7 +39,7 @@ std::string quoted_text(const std::string& text) {
 
 // --- bash
 
-/// The statement that offers what a value may be; empty where nobody knows.
+/// The statement that offers an option's possible values; empty if these aren't known.
 std::string bash_offer(const OptionDescription& option) {
   switch (option.kind) {
     case ValueKind::kFile: return "_graycube_paths -f";
@@ -99,7 +99,7 @@ complete -F _graycube graycube
 
 // --- zsh
 
-/// Within an `_arguments` specification some characters divide its parts.
+/// Escapes the characters that divide the parts of an `_arguments` specification.
 std::string zsh_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -109,7 +109,7 @@ std::string zsh_escaped(const std::string& text) {
   return escaped;
 }
 
-/// ":MESSAGE:ACTION" for a value.
+/// ":MESSAGE:ACTION" for an option's value.
 std::string zsh_value(const OptionDescription& option) {
   const std::string name = option.is_positional() ? option.names : option.value;
   const std::string message = ":" + zsh_escaped(name) + ":";
@@ -130,7 +130,7 @@ std::string zsh_command(const CommandDescription& command) {
       continue;
     }
     const std::string value = option.is_flag() ? "" : zsh_value(option);
-    // Whoever has given one name of an option is offered none of it again.
+    // After one name of an option was given, none of its names is offered again.
     const std::string once = option.is_repeatable ? "*" : "(" + joined(names_of(option), " ") + ")";
     for (const std::string& name : names_of(option)) {
       text += "        " + quoted_text(once + name + "[" + zsh_escaped(option.help) + "]" + value) +
@@ -176,7 +176,7 @@ fi
 
 // --- fish
 
-/// " -r -F" or so: what a value may be.
+/// The flags that tell what a value may be, such as " -r -F".
 std::string fish_value(const OptionDescription& option) {
   switch (option.kind) {
     case ValueKind::kFile: return " -r -F";

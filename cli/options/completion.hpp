@@ -1,4 +1,4 @@
-// What makes shells complete the command line.
+// The files that make shells complete the command line.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// One command's options, declared once: to CLI11, which parses them and prints the help, and as a
-// description, of which completion and the man page are made.
+// One command's options, each declared once for two uses: to CLI11, which parses them and prints
+// the help, and as a description, from which completion and the man page are made.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace graycube {
 
 class Declaring {
  public:
-  /// Both must outlive this and what it declares.
+  /// Both arguments must outlive this object and all that it declares.
   Declaring(CLI::App& app, CommandDescription& described) : app_(app), described_(described) {}
 
   /// An option with a value, or a positional argument; given at most once. `take` turns its text

@@ -1,4 +1,4 @@
-// What the command line takes, as values: what `--help` says, for completion and the man page.
+// The command line as values, from which `--help`, completion and the man page are made.
 #pragma once
 
 #include <deque>
@@ -7,7 +7,7 @@
 
 namespace graycube {
 
-/// What a value is, for who completes it.
+/// The kind of a value, which completion needs to know.
 enum class ValueKind {
   kText,
   kFile,
@@ -17,9 +17,9 @@ enum class ValueKind {
 };
 
 struct OptionDescription {
-  /// As CLI11 takes them, "-o,--output"; a positional argument's one name, without dashes.
+  /// Names in CLI11's form, "-o,--output"; for a positional argument its one name, without dashes.
   std::string names = {};
-  /// The placeholder, "OUT.exr"; empty: a flag, or a positional argument, whose name says it.
+  /// The value's placeholder, "OUT.exr"; empty for a flag, and for a positional argument.
   std::string value = {};
   std::string help = {};
   ValueKind kind = ValueKind::kText;
@@ -38,10 +38,10 @@ struct CommandDescription {
 /// All commands, in the help's order. References to them stay good while others are added.
 using CommandLineDescription = std::deque<CommandDescription>;
 
-/// The parts of "-o,--output".
+/// The single names in "-o,--output".
 std::vector<std::string> names_of(const OptionDescription& option);
 
-/// "-o, --output OUT.exr", or a positional argument's name.
+/// The names as help shows them: "-o, --output OUT.exr", or a positional argument's name.
 std::string spelled(const OptionDescription& option);
 
 }  // namespace graycube

@@ -5,7 +5,7 @@
 namespace graycube {
 namespace {
 
-/// Text as roff takes it: dashes are those of options, and no line starts a request.
+/// Text for roff: dashes are those of options, and no line starts a request.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -23,7 +23,7 @@ std::string roff(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR"; }
 
-/// ".TP" with what is explained, and its explanation.
+/// An entry of a list: ".TP", the thing that is explained, and its explanation.
 std::string entry(const std::string& head, const std::string& text) {
   return ".TP\n" + head + "\n" + roff(text) + "\n";
 }

@@ -123,7 +123,7 @@ void add_common_options(Declaring& options, control::JobOptions& o) {
 
 namespace {
 
-/// An option whose values are the names of an enum's.
+/// Declares an option whose values are the names of an enum's values.
 void add_named(Declaring& options, const char* name, const char* help,
                std::vector<std::string> names, std::function<void(const std::string&)> take) {
   options.option({.names = name,

@@ -15,7 +15,7 @@ void add_scene(Declaring& options, std::string& scene);
 
 void add_facets(Declaring& options, ModelChoice& choice);
 
-/// What to show of a model that says nothing of that itself.
+/// Options that choose what to show of a model that doesn't tell that itself.
 void add_model_choice(Declaring& options, ModelChoice& choice);
 
 void add_job(Declaring& options, std::uint32_t& job);
@@ -29,16 +29,16 @@ void add_threads(Declaring& options, std::uint32_t& threads, const char* help);
 
 void add_nodes(Declaring& options, std::uint32_t& nodes, const char* help);
 
-/// The same with the help for those who start nodes.
+/// The same with the help for commands that start nodes.
 void add_nodes(Declaring& options, std::uint32_t& nodes);
 
-/// What every way to compute the picture takes.
+/// Options that all ways to compute the picture have.
 void add_common_options(Declaring& options, control::JobOptions& o);
 
-/// What decides how the picture is computed.
+/// Options that decide how the picture is computed.
 void add_job_options(Declaring& options, control::JobOptions& o);
 
-/// A table as JSON, nothing but the table, or also as a picture.
+/// Options to print a table as JSON, or nothing but the table, or to draw a picture of it, too.
 void add_table_options(Declaring& options, bool& as_json, bool& is_quiet,
                        std::filesystem::path& plot);
 

@@ -13,9 +13,9 @@ namespace graycube {
 namespace {
 
 constexpr unsigned kMagicStart = 0x76, kMagicEnd = 0x35;
-/// Largest body after decompression.
+/// Most bytes of a body after decompression.
 constexpr std::size_t kMaxBody = std::size_t{1} << 30;
-/// Most that a compressed body may grow by: what deflate can reach, rounded up.
+/// The most that a compressed body may grow: the factor that deflate can reach, rounded up.
 constexpr std::size_t kMaxExpansion = 1100;
 
 /// A length-prefixed part of an object: attributes or body.
@@ -26,7 +26,7 @@ struct Part {
   bool is_good = true;
 };
 
-/// zlib's or gzip's format, whichever it is.
+/// Unpacks zlib's or gzip's format, whichever it is.
 bool inflate_into(std::string_view packed, std::string& out) {
   z_stream stream{};
   constexpr int kDetectHeader = 15 + 32;

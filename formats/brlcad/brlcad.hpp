@@ -14,7 +14,7 @@
 namespace graycube {
 
 inline constexpr std::size_t kMaxBrlcadLeaves = std::size_t{1} << 21;
-/// Combinations nested in each other, and levels of one region's whole tree.
+/// Most combinations nested in each other, and most levels of one region's whole tree.
 inline constexpr std::size_t kMaxBrlcadNesting = 100;
 inline constexpr std::size_t kMaxBrlcadLevels = 240;
 inline constexpr std::size_t kMaxBrlcadViewBytes = std::size_t{1} << 20;
@@ -22,9 +22,9 @@ inline constexpr std::size_t kMaxBrlcadViewBytes = std::size_t{1} << 20;
 struct BrlcadOptions {
   ImageSize image{512, 512, 1};
   std::uint32_t max_depth = 5;
-  /// What to render; all that nothing refers to when empty.
+  /// The names of the objects to render; if empty, all that nothing refers to.
   std::vector<std::string> objects;
-  /// The text of a view script as rt reads it; azimuth and elevation count without one.
+  /// The text of a view script as rt reads it; without one, azimuth and elevation count.
   std::optional<std::string> view;
   double azimuth_degrees = 35, elevation_degrees = 25;
 };
@@ -35,7 +35,7 @@ struct BrlcadResult {
   std::vector<BrlcadMessage> errors, warnings;
 };
 
-/// Never throws for what `bytes` or the view hold.
+/// Never throws, whatever `bytes` or the view hold.
 BrlcadResult read_brlcad(std::string_view bytes, const BrlcadOptions& options = {});
 
 /// An object that nothing refers to, and how often solids occur below it.

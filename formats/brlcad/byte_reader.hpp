@@ -9,7 +9,7 @@
 
 namespace graycube {
 
-/// Reads big-endian values; after the first that doesn't fit everything is 0 and ok() false.
+/// Reads big-endian values; after the first that doesn't fit, everything is 0 and ok() is false.
 class BrlcadByteReader {
  public:
   explicit BrlcadByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -38,7 +38,7 @@ class BrlcadByteReader {
     bytes_.remove_prefix(static_cast<std::size_t>(count));
     return field;
   }
-  /// Up to a zero byte, which is taken too.
+  /// The text up to a zero byte, which is taken too.
   std::string_view text() {
     const std::size_t end = bytes_.find('\0');
     if (end == std::string_view::npos) {
@@ -55,7 +55,7 @@ class BrlcadByteReader {
   bool ok_ = true;
 };
 
-/// The bytes of a number whose width has this code.
+/// The number of bytes of a number with this width code.
 inline unsigned width_of(unsigned code) { return 1u << (code & 3u); }
 
 }  // namespace graycube

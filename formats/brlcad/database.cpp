@@ -97,7 +97,7 @@ void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_v
 
 namespace {
 
-/// {low high r g b}, any number of them.
+/// Reads any number of {low high r g b}.
 void add_color_ranges(std::string_view table, std::vector<BrlcadColorRange>& colors) {
   constexpr std::size_t kMostDigits = 9;
   std::array<long, 5> entry{};

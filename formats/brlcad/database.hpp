@@ -21,7 +21,7 @@ namespace graycube {
 
 inline constexpr std::size_t kMaxBrlcadBytes = std::size_t{1} << 30;
 inline constexpr std::size_t kMaxBrlcadObjects = std::size_t{1} << 22;
-/// Numbers of one arbn or pipe; vertices, and faces, of one mesh.
+/// Most numbers of one arbn or pipe; most vertices, and most faces, of one mesh.
 inline constexpr std::size_t kMaxBrlcadNumbers = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxBrlcadVertices = std::size_t{1} << 24;
 
@@ -56,7 +56,7 @@ struct BrlcadSolid {
   BrlcadMesh mesh;
 };
 
-/// A kind that isn't read, by its name.
+/// A solid of a kind that isn't read; `kind` is its name.
 struct BrlcadForeign {
   std::string kind;
 };
@@ -67,18 +67,18 @@ struct BrlcadComb {
   long region_id = 0, air = 0;
   bool inherits = false;
   std::optional<std::array<int, 3>> rgb;
-  /// Its name and its parameters, as written.
+  /// The shader's name and its parameters, as written.
   std::string shader;
 };
 
 struct BrlcadObject {
   std::string name;
-  /// "line 7" or "byte 4096".
+  /// The object's place in the file: "line 7" or "byte 4096".
   std::string where;
   std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> value;
 };
 
-/// Regions low … high have this colour.
+/// Regions whose ids are low … high have this colour.
 struct BrlcadColorRange {
   long low = 0, high = 0;
   std::array<int, 3> rgb{};
@@ -101,7 +101,7 @@ struct BrlcadDatabase {
   void add(BrlcadObject object);
 };
 
-/// Numbers that a solid's record holds; 0 for kinds whose number varies.
+/// The count of numbers in a solid's record; 0 for kinds of which it varies.
 std::size_t brlcad_value_count(BrlcadKind kind);
 
 /// A 4 × 4 matrix by rows, its last element dividing; nothing when it is no invertible affine map.
@@ -112,17 +112,17 @@ std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m);
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
                            std::size_t per_curve);
 
-/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. What is wrong goes to the
+/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. Errors and warnings go to the
 /// report.
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report);
 
-// Their parts, by format.
+// The readers of the single formats.
 BrlcadDatabase read_brlcad_v4_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_v5_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
 
-/// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones mean
-/// nothing here.
+/// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones are
+/// ignored.
 void set_brlcad_attribute(BrlcadComb& comb, std::string_view name, std::string_view value);
 /// The same for the attributes of the database itself, `_GLOBAL`: `title` and
 /// `regionid_colortable`.

@@ -10,11 +10,11 @@
 namespace graycube {
 namespace {
 
-/// How far a vertex may move, in parts of the growth: where faces meet in a spike its tip would run
+/// The farthest that a vertex may move, in units of the growth: the tip of a spike would run
 /// away.
 constexpr double kMostShift = 8;
-/// Keeps the equations of a vertex between nearly parallel faces solvable, at the price of that
-/// share of the growth.
+/// Keeps the equations of a vertex between nearly parallel faces solvable; this share of the growth
+/// is lost by it.
 constexpr double kRegular = 1e-6;
 
 /// A symmetric 3 × 3 system, summed up face by face: the shift d with n · d = 1 for each normal, as
@@ -49,7 +49,7 @@ void move_outwards(TriangleMesh& mesh, double grow) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
     const Vec3 n = normalized(cross(q - p, r - p));
-    // By the angle at the corner, so that how a face is cut doesn't count.
+    // A face weighs by the angle at the corner, so that how it is cut into triangles doesn't count.
     const auto weight = [](const Vec3& u, const Vec3& v) {
       return length(cross(normalized(u), normalized(v)));
     };
@@ -79,7 +79,7 @@ BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, doub
   auto& solid = std::get<TriangleMesh>(closed);
   if (grow != 0) {
     move_outwards(solid, grow);
-    // Points that met are one now.
+    // Points that have met are joined.
     closed = closed_mesh(std::move(solid));
     if (auto* fault = std::get_if<MeshFault>(&closed))
       return {std::nullopt, "its mesh: " + fault->why, false};

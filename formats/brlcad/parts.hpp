@@ -11,13 +11,13 @@
 
 namespace graycube::brlcad {
 
-/// Part of a region's tree: nothing (an empty set) without a node.
+/// A part of a region's tree; without a node it is the empty set.
 struct Part {
   std::optional<CsgNode> node;
   std::size_t levels = 0;
 };
 
-/// The part has a node.
+/// The part's complement; the part must have a node.
 inline Part inverted(Part part) {
   CsgNode node;
   OperationNode inner{Operation::kComplement, {}};
@@ -26,7 +26,7 @@ inline Part inverted(Part part) {
   return {std::move(node), part.levels + 1};
 }
 
-/// One node for a chain of one operation.
+/// Joins two parts; a chain of one operation becomes one node.
 inline Part join(Operation op, Part a, Part b) {
   if (!a.node || !b.node) {
     if (op == Operation::kUnion) return a.node ? std::move(a) : std::move(b);

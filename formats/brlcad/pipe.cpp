@@ -1,4 +1,4 @@
-// Pipes: tubes along a bent line; and particles, which are straight ones with balls at their ends.
+// Pipes are tubes along a bent line; particles are straight ones with balls at their ends.
 #include <cmath>
 #include <utility>
 
@@ -14,7 +14,7 @@ BrlcadNode particle(const Values& p, double grow) {
   if (!(std::fabs(rv - rh) < l * (1 - kTiny))) {
     return built(node_of(rv >= rh ? SphereShape{v, rv} : SphereShape{v + h, rh}));
   }
-  // The cone that touches both spheres.
+  // The part between the balls is the cone that touches both.
   const double sine = (rv - rh) / l;
   const double cosine = std::sqrt(1 - sine * sine);
   const Vec3 along = (1 / l) * h;
@@ -99,7 +99,7 @@ BrlcadNode pipe(const Values& p, double grow) {
   std::vector<CsgNode> outside, inside;
   std::string why;
   if (!sweep(points, false, grow, outside, why)) return problem(why);
-  // What the bore takes away ends flush with the tube: grown where the tube is not.
+  // The bore that is subtracted ends flush with the tube: it is grown when the tube is not.
   if (is_hollow && !sweep(points, true, kBrlcadSkin - grow, inside, why)) return problem(why);
   if (outside.empty()) return problem("it has no length");
   std::vector<CsgNode> parts;

@@ -1,4 +1,4 @@
-// Where the parts of the BRL-CAD reader leave their errors and warnings.
+// Collects the errors and warnings of the parts of the BRL-CAD reader.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace graycube {
 
-/// Further ones are only counted.
+/// Messages beyond so many are only counted.
 inline constexpr std::size_t kMaxBrlcadMessages = 100;
 
 /// `where` is "line 7", "byte 4096", an object's name, or empty for the whole file.

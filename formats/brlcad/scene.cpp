@@ -1,4 +1,4 @@
-// From a BRL-CAD database to a scene: what to show is chosen, the eye and the lights are placed.
+// Turns a BRL-CAD database into a scene: chooses the objects, places the eye and the lights.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -66,7 +66,7 @@ class PrimitiveCounter {
   std::size_t depth_ = 0;
 };
 
-/// The finite bounds of each object: where a half-space makes them infinite, those of its finite
+/// The finite bounds of each object: if a half-space makes them infinite, those of its finite
 /// primitives.
 std::vector<Aabb> finite_bounds(const Model& model) {
   std::vector<Aabb> all;
@@ -88,7 +88,7 @@ std::vector<Aabb> finite_bounds(const Model& model) {
 }
 
 constexpr double kLampDistance = 1.0001;
-/// Without lamps in the model: over the eye's left and right shoulder, in sizes of the model.
+/// Lights for a model without lamps: over the eye's left and right shoulder, in sizes of the model.
 constexpr Vec3 kKeyDirection{-0.8, 0.9, 1.2}, kFillDirection{1.0, 0.2, 0.7};
 constexpr double kKeyBrightness = 1.0, kFillBrightness = 0.4, kLightDistance = 4;
 
@@ -104,7 +104,7 @@ void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps,
     }
     const Aabb& box = bounds[object];
     if (box.is_empty()) continue;
-    // Just outside of the lamp, so that it doesn't shade its own light.
+    // The light is just outside of the lamp, so that the lamp doesn't shade it.
     const Vec3 towards = normalized(whole.center() - box.center());
     const double radius = 0.5 * length(box.hi - box.lo);
     const Rgb color = scene.materials[scene.objects[object].material].material.color;

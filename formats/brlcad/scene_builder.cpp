@@ -9,7 +9,7 @@ namespace {
 
 using Op = BrlcadTree::Op;
 
-/// Visits of names, so that combinations of nothing can't take for ever.
+/// Most visits of names, so that combinations of nothing can't take for ever.
 constexpr std::size_t kMaxVisits = std::size_t{1} << 23;
 constexpr std::array<int, 3> kWhite{255, 255, 255};
 
@@ -55,7 +55,7 @@ void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut
   if (const auto* comb = std::get_if<BrlcadComb>(&object->value)) {
     inherit(*comb, state);
     if (!comb->tree) {
-      // A combination of nothing.
+      // A combination of nothing is left out.
     } else if (comb->is_region) {
       region(*object, *comb, state, cuts);
     } else {

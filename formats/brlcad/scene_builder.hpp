@@ -15,16 +15,16 @@
 
 namespace graycube::brlcad {
 
-/// What a name inherits from the combinations above it.
+/// The state that a name inherits from the combinations above it.
 struct State {
   Affine to_world;
   std::optional<std::array<int, 3>> rgb;
   std::string shader;
-  /// A combination above has the last word.
+  /// Whether a combination above has set it so that it holds for all below.
   bool rgb_is_set = false, shader_is_set = false;
 };
 
-/// What applies to every region found further down: minus, or within, another solid.
+/// A solid that every region found further down is cut by: it is subtracted, or intersected.
 struct Cut {
   bool is_minus = false;
   CsgNode node;
@@ -47,7 +47,7 @@ class SceneBuilder {
 
   static State within(State state, const BrlcadTree& leaf);
 
-  /// Above regions: finds them.
+  /// Finds the regions below a name that is above regions.
   void collect(const std::string& name, State state, std::vector<Cut>& cuts);
 
   void collect_tree(const BrlcadTree& tree, const State& state, std::vector<Cut>& cuts);
@@ -67,12 +67,12 @@ class SceneBuilder {
   void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
                   const std::vector<Cut>& cuts);
 
-  /// A scene's text is UTF-8; names in databases are any bytes.
+  /// The name as UTF-8, which a scene's text must be; names in databases may be any bytes.
   static std::string printable(std::string name);
 
   bool check_limits(const std::string& name, const Part& part);
 
-  /// Within a region. `is_cut`: what is built gets subtracted, and so is grown.
+  /// Builds a part of a region. `is_cut`: the part gets subtracted, and so is grown.
   Part build(const std::string& name, const Affine& to_world, bool is_cut);
 
   Part build(const BrlcadTree& tree, const Affine& to_world, bool is_cut);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAmbient = 0.4;
 constexpr std::size_t kMostWords = 256;
 
-/// What rt's plastic, glass and mirror start from.
+/// The values that rt's plastic, glass and mirror have unless parameters set others.
 struct Look {
   double shine, specular, diffuse, transmit, reflect, index;
 };

@@ -12,7 +12,7 @@ namespace graycube {
 struct BrlcadSurface {
   Material material;
   bool is_light = false;
-  /// Lights: part of full brightness.
+  /// For lights: the part of full brightness.
   double brightness = 1;
 };
 

@@ -12,7 +12,7 @@ bool is_fair(double v) { return std::fabs(v) <= kMostBrlcadSize; }
 bool is_fair(const Vec3& v) { return is_fair(v.x) && is_fair(v.y) && is_fair(v.z); }
 bool is_direction(const Vec3& v) { return is_fair(v) && length(v) > 0; }
 
-/// What read_scene asks of each shape.
+/// Checks the rules that read_scene has for each shape.
 struct IsSound {
   bool operator()(const SphereShape& s) const {
     return is_fair(s.center) && is_fair(s.radius) && s.radius > 0;

@@ -1,5 +1,5 @@
-// What the solids of BRL-CAD are made into nodes with: their numbers under a map, and shapes that
-// are sound.
+// Tools that turn the solids of BRL-CAD into nodes: their numbers under a map, and checks that
+// shapes are sound.
 #pragma once
 
 #include <array>
@@ -21,14 +21,14 @@ inline constexpr double kTiny = 1e-9;
 inline constexpr double kEqualRatio = 1e-6;
 
 CsgNode node_of(decltype(CsgNode::value) value, std::optional<Affine> transform = std::nullopt);
-/// One child stands for itself.
+/// Joins the children; a single child stands for itself.
 CsgNode operation(Operation op, std::vector<CsgNode> children);
 
-/// A solid that rt leaves out, too.
+/// The result for a solid that rt leaves out, too.
 BrlcadNode problem(std::string why);
-/// A solid that is an error.
+/// The result for a solid that is an error.
 BrlcadNode refusal(std::string why);
-/// The node, unless the scene reader would refuse what is in it.
+/// The result for a node, unless the scene reader would refuse a value in it.
 BrlcadNode built(CsgNode node);
 
 /// The map whose columns are x, y, z and the origin.
@@ -37,13 +37,13 @@ Affine frame(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin);
 /// v made longer by `grow` at its end; zero stays zero.
 Vec3 longer(const Vec3& v, double grow);
 
-/// Beside a solid of this size.
+/// Whether a vector is as good as zero beside a solid of this size.
 inline bool is_zero(const Vec3& v, double size) { return !(length(v) > kTiny * size); }
 inline bool are_parallel(const Vec3& a, const Vec3& b) {
   return length(cross(a, b)) <= 1e-5 * length(a) * length(b);
 }
 
-/// Reads a solid's numbers, points and vectors going through the map.
+/// Reads a solid's numbers; points and vectors go through the map.
 struct Values {
   const std::vector<double>& v;
   const Affine& map;
@@ -52,7 +52,7 @@ struct Values {
   Vec3 point(std::size_t i) const { return map.point(raw(i)); }
   Vec3 vector(std::size_t i) const { return map.vector(raw(i)); }
   double number(std::size_t i) const { return v[i]; }
-  /// By how much the map makes lengths grow, as the cube root of volumes.
+  /// The factor by which the map makes lengths grow, as the cube root of that of volumes.
   double scale() const { return std::cbrt(std::fabs(map.determinant())); }
 };
 
@@ -61,7 +61,7 @@ CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double
 
 // Solids that take more than one shape (formats/brlcad/pipe.cpp).
 
-/// `part`: two balls and the cone that touches both.
+/// Two balls and the cone that touches both.
 BrlcadNode particle(const Values& p, double grow);
 BrlcadNode pipe(const Values& p, double grow);
 

@@ -27,9 +27,9 @@ BrlcadNode ellipsoid(const Vec3& center, std::array<Vec3, 3> axes, double grow) 
   return built(node_of(EllipsoidShape{center, axes}));
 }
 
-/// (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1: only what is an ellipsoid. rt itself never looks
-/// at the exponents when it shoots rays (superell.c: a quadric of its own), so there is nothing
-/// that others could be held against.
+/// (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1: built only if it is an ellipsoid. rt itself
+/// never looks at the exponents when it shoots rays (superell.c: a quadric of its own), so there is
+/// nothing that other shapes could be compared with.
 BrlcadNode superell(const Values& p, double grow) {
   if (p.number(12) == 1 && p.number(13) == 1) {
     return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
@@ -37,11 +37,11 @@ BrlcadNode superell(const Values& p, double grow) {
   return refusal("superell with other exponents than n = e = 1 is not supported");
 }
 
-/// One end of a cone: semi-axes' lengths.
+/// The lengths of a semi-axis at a cone's two ends.
 struct Ends {
   double base, top;
 };
-/// The lengths at both ends when the cone is made longer by the share e at each and wider by
+/// The lengths at both ends when the cone is made longer by the share e at each end, and wider by
 /// `grow`.
 Ends grown(Ends ends, double e, double grow) {
   const double slope = ends.top - ends.base;
@@ -162,7 +162,7 @@ BrlcadNode arb(const Values& p, double grow) {
 }
 
 /// A quadric's box in a frame whose axes are made longer by `grow` on both sides; the surface
-/// itself moves outwards by a shift of its constant.
+/// itself moves outwards because its constant is shifted.
 BrlcadNode quadric(std::array<double, 4> q, Vec3 lo, Vec3 hi, const Affine& map, double grow) {
   if (!map.inverse()) return problem("it has no volume");
   double shift = 0;
@@ -179,14 +179,14 @@ BrlcadNode quadric(std::array<double, 4> q, Vec3 lo, Vec3 hi, const Affine& map,
   return built(node_of(QuadricShape{q, lo, hi}, map));
 }
 
-/// The depth of the hyperbola's asymptotes' crossing behind its tip, in heights, gives 1, z and z²
-/// their factors.
+/// The factors of 1, z and z². `c`: how far behind the tip the asymptotes cross, in
+/// heights.
 std::array<double, 4> hyperbola(double second, double c) {
   const double k = 2 * c + 1;
   return {second, -1 / k, 2 * (c + 1) / k, -1};
 }
 
-/// rpc and rhc: over a parabola or hyperbola of depth B and half width r, along H.
+/// rpc and rhc: a parabola or hyperbola of depth B and half width r, extended along H.
 BrlcadNode trough(const Values& p, bool is_hyperbolic, double grow) {
   const Vec3 h = p.vector(1), b = p.vector(2);
   const double r = p.number(9) * p.scale();
@@ -198,7 +198,7 @@ BrlcadNode trough(const Values& p, bool is_hyperbolic, double grow) {
                  grow);
 }
 
-/// epa and ehy.
+/// epa and ehy: a paraboloid or hyperboloid with an elliptic rim.
 BrlcadNode bowl(const Values& p, bool is_hyperbolic, double grow) {
   const Vec3 h = p.vector(1), a = normalized(p.vector(2));
   const double r1 = p.number(9) * p.scale(), r2 = p.number(10) * p.scale();
@@ -229,7 +229,7 @@ BrlcadNode eto(const Values& p, double grow) {
   if (!(r > 0 && p.number(10) > 0 && length(n) > 0 && length(c) > 0)) {
     return problem("a radius or its axis is zero");
   }
-  // The side that its semi-axis leans to doesn't count.
+  // It doesn't matter to which side of the plane the semi-axis leans.
   const double up = std::fmin(1.0, std::fabs(dot(c, n)) / (length(c) * length(n)));
   const double out = std::sqrt(1 - up * up);
   const double reach = std::sqrt(major * out * major * out + across * up * across * up);

@@ -10,11 +10,11 @@
 namespace graycube {
 
 /// rt takes surfaces of one region that are nearer to each other than this, in mm, for one: so a
-/// cut flush with a face leaves no skin. Here what is cut off is that much larger.
+/// cut flush with a face leaves no skin. Here solids that are cut off are that much larger.
 inline constexpr double kBrlcadSkin = 0.0005;
-/// Coordinates further off than this, in mm, mean nothing; their products might overflow.
+/// Coordinates further off than this, in mm, are meaningless; their products might overflow.
 inline constexpr double kMostBrlcadSize = 1e12;
-/// Corners of an arb may lie so far off their face's plane, in parts of the arb's size, or in
+/// The corners of an arb may be so far off their face's plane: this part of the arb's size, or
 /// kBrlcadSkin.
 inline constexpr double kBrlcadPlanar = 1e-3;
 
@@ -27,7 +27,7 @@ struct BrlcadNode {
 
 /// The solid in world coordinates under `to_world`, every face moved outwards by `grow` mm.
 BrlcadNode brlcad_node(const BrlcadSolid& solid, const Affine& to_world, double grow);
-/// Of an ars or a bot: a closed mesh, or why there is none.
+/// The closed mesh of an ars or a bot, with `grow` as above; or why there is none.
 BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, double grow);
 
 }  // namespace graycube

@@ -38,7 +38,7 @@ BrlcadTreeBuilder::Operand BrlcadTreeBuilder::alone_under(Op op, Operand operand
   return above;
 }
 
-/// The shorter chain is moved into the longer one.
+/// Joins two chains; the shorter one is moved into the longer one.
 BrlcadTreeBuilder::Operand BrlcadTreeBuilder::joined(Operand left, Operand right) {
   const std::size_t depth = std::max(left.depth, right.depth);
   Operand& longer = right.children() > left.children() ? right : left;
@@ -58,7 +58,7 @@ BrlcadTreeBuilder::Operand BrlcadTreeBuilder::joined(Operand left, Operand right
 bool BrlcadTreeBuilder::operation(Op op) {
   if (op == Op::kLeaf || stack_.size() < (op == Op::kNot ? 1u : 2u)) return false;
   Operand last = take();
-  // What is on the right of a chain may only be merged where brackets don't matter.
+  // A chain may only be merged into the one on its left if brackets don't matter.
   const bool is_associative = op == Op::kUnion || op == Op::kIntersection;
   if (last.tree.op != op || !is_associative) last = alone_under(op, std::move(last));
   if (op != Op::kNot) {

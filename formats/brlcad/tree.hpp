@@ -12,13 +12,13 @@
 
 namespace graycube {
 
-/// Members of one combination, and levels of its tree once chains of one operation are flat.
+/// Most members of one combination, and most levels of its tree with chains flattened.
 inline constexpr std::size_t kMaxBrlcadMembers = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxBrlcadTreeDepth = 100;
 
 struct BrlcadTree {
-  /// Unions and intersections of two or more, a difference of the first and the others, either and
-  /// not both, the complement of one.
+  /// Unions and intersections of two or more; a difference, the first without the others; xor,
+  /// either and not both; the complement of one.
   enum class Op : std::uint8_t { kLeaf, kUnion, kIntersection, kDifference, kXor, kNot };
   Op op = Op::kLeaf;
   std::string name;
@@ -32,14 +32,14 @@ struct BrlcadTree {
 class BrlcadTreeBuilder {
  public:
   void leaf(std::string name, std::optional<Affine> matrix);
-  /// Two operands, or one for kNot. False when there aren't as many, or the tree gets too deep.
+  /// Joins the last two operands, or inverts the last. False if too few, or the tree gets too deep.
   [[nodiscard]] bool operation(BrlcadTree::Op op);
   /// The tree, when exactly one operand is left.
   std::optional<BrlcadTree> finish();
   std::size_t leaves() const { return leaves_; }
 
  private:
-  /// A tree whose root has more children before its first: `front`, the foremost last.
+  /// An operand; `front` holds more children of its root, before its first, the foremost last.
   struct Operand {
     BrlcadTree tree;
     std::vector<BrlcadTree> front;

@@ -9,20 +9,20 @@ namespace {
 
 constexpr std::size_t kMatrixBytes = 128;
 
-/// A member of the combination: a name, and where it is.
+/// A member of the combination: its name, and the map that places it.
 struct Leaf {
   std::string_view name;
   std::optional<Affine> matrix;
 };
 
-/// How many of each there are, and how many bytes their numbers have.
+/// The numbers of all parts of the tree, and the bytes that its numbers take.
 struct Layout {
   unsigned width = 0;
   std::uint64_t matrices = 0, leaves = 0, operations = 0;
 };
 
-/// A width code; the numbers of matrices, leaves, bytes of leaves, operations and levels. Nothing
-/// where there is no room for so many.
+/// Reads a width code and the numbers of matrices, leaves, bytes of leaves, operations and levels.
+/// Nothing when the bytes have no room for so many.
 std::optional<Layout> read_layout(BrlcadByteReader& r) {
   Layout layout;
   layout.width = width_of(static_cast<unsigned>(r.integer(1)));
@@ -38,8 +38,8 @@ std::optional<Layout> read_layout(BrlcadByteReader& r) {
   return layout;
 }
 
-/// Matrices, then leaves, each a name and the number of its matrix, if it has one. Nothing where a
-/// leaf's matrix isn't there or is no map.
+/// Reads matrices, then leaves, each a name and the number of its matrix, if it has one. Nothing
+/// when a leaf's matrix isn't there or is no map.
 std::optional<std::vector<Leaf>> read_leaves(BrlcadByteReader& r, const Layout& layout) {
   std::vector<std::optional<Affine>> maps;
   for (std::uint64_t i = 0; i < layout.matrices; ++i) {
@@ -68,7 +68,7 @@ class Members {
   Members(const std::vector<Leaf>& leaves, BrlcadTreeBuilder& builder)
       : leaves_(leaves), builder_(builder) {}
 
-  /// False when there is none left.
+  /// Hands on the next leaf; false when there is none left.
   bool push() {
     if (used_ >= leaves_.size()) return false;
     const Leaf& leaf = leaves_[used_++];
@@ -82,7 +82,7 @@ class Members {
   std::size_t used_ = 0;
 };
 
-/// All members united.
+/// The tree of all members united.
 std::optional<BrlcadTree> united(const std::vector<Leaf>& leaves) {
   BrlcadTreeBuilder builder;
   Members members(leaves, builder);
@@ -93,7 +93,7 @@ std::optional<BrlcadTree> united(const std::vector<Leaf>& leaves) {
   return builder.finish();
 }
 
-/// By operations in postfix order, of which 1 stands for the next member.
+/// The tree that operations in postfix order make; operation 1 stands for the next member.
 std::optional<BrlcadTree> tree_of(const std::vector<Leaf>& leaves, std::string_view postfix) {
   constexpr BrlcadTree::Op kOps[] = {BrlcadTree::Op::kUnion, BrlcadTree::Op::kIntersection,
                                      BrlcadTree::Op::kDifference, BrlcadTree::Op::kXor,

@@ -9,8 +9,8 @@
 
 namespace graycube {
 
-/// Reads a combination's body into its tree, none where it is a combination of nothing. What is
-/// wrong with it, if anything is.
+/// Reads a combination's body into its tree; a combination of nothing gets none. Returns what is
+/// wrong with the body, if anything is.
 std::optional<std::string> read_binary_tree(BrlcadByteReader& r, BrlcadComb& comb);
 
 }  // namespace graycube

@@ -50,22 +50,22 @@ class TreeTextReader {
     return false;
   }
 
-  /// A node's first word and, of a leaf, the others; then up to the next node's first word.
+  /// Reads a node's first word and, of a leaf, the others; then up to the next node's first word.
   bool head() {
     std::string word;
     if (!words_.next(word)) return wrong_tree();
     if (word == "l") return leaf() && tail();
     const auto op = operation_of(word);
     if (!op) return wrong_tree();
-    // An operation of two operands has a member of its own.
+    // The level of an operation of two operands has a member of its own.
     if (levels_.size() >= kMaxBrlcadMembers) return too_many();
     levels_.push_back({*op, 0});
     return operand() && (is_in_braces_ || tail());
   }
 
-  /// Goes into the operand that comes where it is in braces, as BRL-CAD writes them; reads it whole
-  /// where it is quoted in another of Tcl's ways. Few of those stand in each other: each takes
-  /// twice the backslashes of the one around it.
+  /// Goes into the next operand if it is in braces, as BRL-CAD writes them, or reads it whole if it
+  /// is quoted in another of Tcl's ways. Few of those can be nested: each takes twice the
+  /// backslashes of the one around it.
   bool operand() {
     is_in_braces_ = words_.open_list();
     if (is_in_braces_) return true;
@@ -92,7 +92,7 @@ class TreeTextReader {
     return builder_.leaves() <= kMaxBrlcadMembers || too_many();
   }
 
-  /// Behind an operand: ends what ends with it.
+  /// Called behind an operand: ends the operations of which it was the last.
   bool tail() {
     while (!levels_.empty()) {
       Level& level = levels_.back();
@@ -114,7 +114,7 @@ class TreeTextReader {
   BrlcadTreeBuilder& builder_;
   std::string& problem_;
   std::vector<Level> levels_;
-  /// Of the operand under way.
+  /// Whether the operand under way is in braces.
   bool is_in_braces_ = true;
   bool is_whole_ = false;
 };

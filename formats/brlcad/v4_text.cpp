@@ -1,4 +1,4 @@
-// BRL-CAD's text of version 4: records of one line, the first letter saying which kind.
+// BRL-CAD's text of version 4: records of one line each; the first letter is the record's kind.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace graycube {
 namespace {
 
-/// Types of solid records.
+/// The numbers by which records name the types of solids.
 enum SolidType : long {
   kTorus = 16,
   kGeneralCone = 18,
@@ -85,7 +85,7 @@ class V4TextReader {
     }
   }
 
-  /// A kind that isn't read: known by name in case somebody uses it.
+  /// Keeps a solid of a kind that isn't read under its name, in case that is used.
   void foreign() {
     const auto words = blank_separated(line_, 3);
     if (words.size() < 2 || words.front().size() != 1) {
@@ -115,7 +115,7 @@ class V4TextReader {
     return true;
   }
 
-  /// S TYPE NAME CLASS and 24 numbers.
+  /// Reads S TYPE NAME CLASS and 24 numbers.
   void solid() {
     const auto words = blank_separated(line_, 28);
     Values v;
@@ -125,7 +125,7 @@ class V4TextReader {
     BrlcadSolid out;
     switch (*type) {
       case kTorus: {
-        // V, the tube's radius along the axis, a vector as long as the ring's radius.
+        // The numbers: V, the tube's radius along the axis, a vector as long as the ring's radius.
         out.kind = BrlcadKind::kTor;
         const double tube = length_at(v, 3), ring = length_at(v, 6);
         v[6] = ring;
@@ -154,8 +154,8 @@ class V4TextReader {
     add(words[2], std::move(out));
   }
 
-  /// C FLAG NAME region air members reference material los override r g b [shader? parameters?
-  /// inherit], then lines for shader and parameters, then its members.
+  /// Reads C FLAG NAME region air members reference material los override r g b [shader?
+  /// parameters? inherit], then lines for shader and parameters, then its members.
   void comb() {
     const auto words = blank_separated(line_, 17);
     const std::string name(words.size() > 2 ? words[2] : "");
@@ -181,7 +181,7 @@ class V4TextReader {
     database_.add({name, at, std::move(out)});
   }
 
-  /// u, + and − in the order of their binding: products of intersections and subtractions, then
+  /// Reads members with u, + and − as they bind: products of intersections and subtractions, then
   /// their union.
   bool members(const std::string& name, BrlcadComb& out) {
     using Op = BrlcadTree::Op;
@@ -228,7 +228,7 @@ class V4TextReader {
     return false;
   }
 
-  /// A NAME … curves points, then B records of up to 8 points each.
+  /// Reads A NAME … curves points, then B records of up to 8 points each.
   void ars() {
     const auto words = blank_separated(line_, 5);
     const auto curves =
@@ -265,7 +265,7 @@ class V4TextReader {
     database_.add({name, at, std::move(out)});
   }
 
-  /// m FLAGS LOW HIGH R G B.
+  /// Reads m FLAGS LOW HIGH R G B.
   void color() {
     const auto words = blank_separated(line_, 7);
     if (words.size() < 7) return fail("a colour wants flags, two region numbers and r, g, b");
@@ -292,7 +292,7 @@ class V4TextReader {
       if (!next_line()) return fail("the pipe " + name + " has no END_PIPE");
       if (line_.starts_with("END_PIPE")) break;
       Values v;
-      // Inner and outer diameter, bend radius, position.
+      // The numbers: inner and outer diameter, bend radius, position.
       if (!numbers(blank_separated(line_, 6), 0, 6, v)) return;
       for (const std::size_t i : {3u, 4u, 5u, 0u, 1u, 2u}) out.values.push_back(v[i]);
       if (out.values.size() > kMaxBrlcadNumbers) return fail("the pipe " + name + " is too long");
@@ -315,7 +315,7 @@ class V4TextReader {
     database_.add({name, at, std::move(out)});
   }
 
-  /// t NAME mode orientation error vertices faces, then lines of "N: x y z", then of "N: a b c".
+  /// Reads t NAME mode orientation error vertices faces, lines of "N: x y z", and of "N: a b c".
   void bot() {
     const auto words = blank_separated(line_, 7);
     const auto integer = [&](std::size_t i) {

@@ -150,7 +150,7 @@ class V5TextReader {
     database_.add(std::move(object));
   }
 
-  /// The value of a key; null without it.
+  /// The value of a key; null when the command doesn't have it.
   static const std::string* value_of(const Words& words, std::string_view key) {
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
       if (words[i] == key) return &words[i + 1];
@@ -214,7 +214,7 @@ class V5TextReader {
   BrlcadSolid pipe(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kPipe, {}, {}};
     std::vector<double> all;
-    // V0 {…} O0 o I0 i R0 r, V1 …: in any order within a point.
+    // Each point has V0 {…} O0 o I0 i R0 r, in any order within the point; then V1 … follows.
     for (std::size_t at = 3; at + 7 < words.size() && all.size() < kMaxBrlcadNumbers; at += 8) {
       const std::string number = std::to_string((at - 3) / 8);
       std::array<double, 6> point{};
@@ -239,7 +239,7 @@ class V5TextReader {
     return solid;
   }
 
-  /// A list of points, or of triples of indices: {{x y z} {x y z} …}.
+  /// Reads a list of points, or of triples of indices: {{x y z} {x y z} …}.
   bool triples(const std::string& name, const std::string& text, std::vector<double>& out) {
     TclWords words(text);
     for (std::string word; words.next(word);) {

@@ -9,19 +9,19 @@
 namespace graycube {
 namespace {
 
-/// rt puts the eye so far in front of the model's middle, in halves of the view's size.
+/// rt puts the eye this far in front of the model's middle, in halves of the view's size.
 const double kEyeBackoff = std::sqrt(2.0);
 constexpr double kMaxPerspective = 179;
 constexpr double kMostNumber = 1e12;
 constexpr double kLeastViewSize = 1e-12;
 
-/// rt's rays go through the lower-left corners of its cells.
+/// A camera that looks like rt's, whose rays go through the lower-left corners of its cells.
 Camera looking(const Vec3& eye, const Vec3& up, const Vec3& backward, double view_size) {
   Camera camera;
   camera.projection = Projection::kOrthographic;
   camera.eye = eye;
-  // As far as the picture is wide, or as the eye from the origin: subtracting the eye must leave
-  // digits.
+  // The point is as far off as the picture is wide, or as the eye is from the origin if that is
+  // more: enough digits must be left when the eye is subtracted.
   camera.look_at = eye - std::fmax(view_size, max_abs(eye)) * backward;
   camera.up = up;
   camera.width = view_size;
@@ -30,7 +30,7 @@ Camera looking(const Vec3& eye, const Vec3& up, const Vec3& backward, double vie
   return camera;
 }
 
-/// A script's commands: words up to a semicolon, over line ends.
+/// The commands of a script: words up to a semicolon, also across line ends.
 std::vector<std::vector<std::string_view>> commands_of(std::string_view script) {
   std::vector<std::vector<std::string_view>> commands;
   constexpr std::size_t kMostWords = 32;
@@ -82,7 +82,7 @@ class ViewReader {
     return false;
   }
 
-  /// `count` numbers behind the first `from` words.
+  /// Reads `count` numbers behind the first `from` words.
   bool numbers(const std::vector<std::string_view>& words, std::size_t from, std::size_t count,
                std::array<double, 16>& out) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -139,7 +139,7 @@ class ViewReader {
     const double l = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(l > 0) || !std::isfinite(l)) return fail(verb, "no rotation");
     const double x = q[0] / l, y = q[1] / l, z = q[2] / l, w = q[3] / l;
-    // Its inverse turns model axes into the picture's.
+    // The inverse of the rotation turns model axes into the picture's.
     return set_axes(verb, {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
                     {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)});
   }

@@ -1,4 +1,4 @@
-// rt's ways to say where the eye is.
+// rt's ways to tell where the eye is.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 namespace graycube {
 
 /// The first view of a script: viewsize, eye_pt, viewrot or orientation or lookat_pt, perspective.
-/// What is missing is an error. `size` is the picture's.
+/// A command that is missing is an error.
 std::optional<Camera> read_brlcad_view(std::string_view script, BrlcadReport& report);
 
-/// What rt -a AZIMUTH -e ELEVATION shows of a model with these (finite) bounds: parallel rays, the
-/// box's diagonal as wide as the picture.
+/// The camera of rt -a AZIMUTH -e ELEVATION for a model with these (finite) bounds: parallel rays,
+/// the box's diagonal as wide as the picture.
 Camera brlcad_camera(double azimuth_degrees, double elevation_degrees, const Aabb& bounds);
 
 /// The axes of the picture: right, up, and towards the eye.

@@ -13,7 +13,7 @@ std::optional<Number> parse_number(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // Too small for a double is as good as zero.
+  // A number too small for a double is as good as zero.
   if (error == std::errc::result_out_of_range && word.find("e-") != std::string_view::npos) {
     return Number{};
   }

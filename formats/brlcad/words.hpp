@@ -20,10 +20,10 @@ class TclWords {
 
   explicit TclWords(std::string_view text, Ends ends = Ends::kAtText) : text_(text), ends_(ends) {}
 
-  /// False when there is none any more (in a script: on this line), or when one has no end
-  /// (is_broken).
+  /// Takes the next word. False when there is none any more (in a script: on this line), or when
+  /// one has no end (is_broken).
   bool next(std::string& word);
-  /// A script's next line with words on it; false at the text's end.
+  /// Goes to a script's next line that has words; false at the text's end.
   bool next_line();
   bool is_broken() const { return is_broken_; }
   /// Goes into the list that is the next word, or out of the list whose words are done; false when
@@ -31,7 +31,7 @@ class TclWords {
   bool open_list() { return take_brace('{'); }
   bool close_list() { return take_brace('}'); }
   bool at_end_of_list();
-  /// From 1.
+  /// The line that was reached, from 1.
   std::size_t line() const { return line_; }
 
  private:

@@ -52,7 +52,7 @@ class ShapeOrder {
       const ShapeUse use = uses[step.next_use];
       if (state_[use.shape] == State::kOnPath) {
         report_cycle(use);
-        // Forgotten, so that what follows sees no cycle.
+        // The use is forgotten, so that the steps that follow see no cycle.
         uses.erase(uses.begin() + static_cast<std::ptrdiff_t>(step.next_use));
         continue;
       }
@@ -115,8 +115,8 @@ class Expander {
     JsonIndex bare_leaf = 0;
   };
 
-  /// The tree with its refs expanded; `on_bare` is told of uses that leave a leaf without a
-  /// material.
+  /// The tree's counts with its refs expanded; `on_bare` is told of uses that leave a leaf without
+  /// a material.
   template <typename OnBare>
   Expanded expand(const TreeSummary& summary, const OnBare& on_bare) {
     Expanded e{summary.leaves, summary.nodes, summary.triangles, summary.depth, summary.bare_leaf};

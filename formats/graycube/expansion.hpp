@@ -1,4 +1,4 @@
-// What a scene becomes when its refs are expanded: how many leaves, how deep, and whether every
+// Finds how a scene grows when its refs are expanded: how many leaves, how deep, and whether every
 // leaf gets a material. Computed from summaries, without expanding anything: a file of a few lines
 // can name 2^100 leaves.
 #pragma once
@@ -12,11 +12,11 @@
 
 namespace graycube {
 
-/// A ref as found in a tree.
+/// A ref in a tree.
 struct ShapeUse {
   JsonIndex at = 0;
   std::uint32_t shape = 0;
-  /// Levels above it in its own tree, itself included.
+  /// Levels from the root of its own tree down to it, both included.
   std::uint32_t depth = 1;
   /// Whether it or something above it names a material.
   bool has_material = false;
@@ -35,8 +35,8 @@ struct TreeSummary {
 
 /// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves, nodes or triangles of
 /// meshes than kMaxLeaves, kMaxExpandedNodes and kMaxMeshTriangles, and uses of shapes whose leaves
-/// stay without a material. Bare leaves of the objects' own trees are the caller's to report.
-/// `objects_at` is where the number of leaves is complained of.
+/// stay without a material. The caller reports bare leaves of the objects' own trees. Too many
+/// leaves are reported at `objects_at`.
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,
                      std::vector<TreeSummary>& shapes, const std::vector<TreeSummary>& objects,
                      JsonIndex objects_at);

@@ -13,7 +13,7 @@
 namespace graycube {
 namespace {
 
-/// The rules of the node's type; null after reporting when it names none.
+/// The rules of the node's type; null, after reporting, when the node names none.
 const NodeRules* rules_for(JsonAccess& json, JsonIndex at) {
   if (!json.is_object(at)) return nullptr;
   JsonIndex type = 0;
@@ -45,7 +45,7 @@ Operation operation_of(NodeType type) {
   }
 }
 
-/// The index behind a name; nothing after reporting when there is none.
+/// The index of a name; nothing, after reporting, when the table doesn't have it.
 std::optional<std::uint32_t> look_up(JsonAccess& json, JsonIndex at, const NameTable& table,
                                      const char* what) {
   std::string_view name;
@@ -120,7 +120,7 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     default:
       read_leaf(at, has_material, rules->owner, context);
       read_leaf_value(json_, rules->type, member, out);
-      // A prism is cut into fewer pieces than it has corners.
+      // A prism counts one leaf per corner, as it is cut into fewer pieces than it has corners.
       if (const auto* prism = std::get_if<PrismShape>(&out.value)) {
         for (const auto& path : prism->paths) context.summary.leaves += path.size();
         if (prism->paths.empty()) context.summary.leaves += prism->points.size();

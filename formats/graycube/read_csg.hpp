@@ -46,9 +46,9 @@ class CsgReader {
   const NameTable& materials_;
   const NameTable& shapes_;
   const MeshLoader& load_mesh_;
-  /// Nodes written in the file so far, all trees together; bounds the memory taken.
+  /// Nodes written in the file so far, in all trees together; this bounds the memory taken.
   std::uint64_t nodes_read_ = 0;
-  /// The same of the points and triangles of meshes.
+  /// Points and triangles of meshes in the file so far, for the same reason.
   std::uint64_t mesh_points_read_ = 0, triangles_read_ = 0;
 };
 

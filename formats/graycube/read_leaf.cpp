@@ -66,7 +66,7 @@ constexpr std::array kRules{
                 {"digits"}}}},
 };
 
-/// Reads a leaf's members one after the other; absent ones fail without another word.
+/// Reads a leaf's members one after the other; absent ones fail without another report.
 class LeafMembers {
  public:
   LeafMembers(JsonAccess& json, const Members& members) : json_(json), members_(members) {}

@@ -33,7 +33,7 @@ enum class NodeType : std::uint8_t {
   kMesh,
 };
 
-/// Every node's first keys; those of its type follow.
+/// The first keys of every node; those of its type follow.
 enum CommonKey : std::size_t { kTypeKey, kTransformKey, kMaterialKey, kCommonKeys };
 inline constexpr std::size_t kMaxNodeKeys = 9;
 
@@ -47,7 +47,7 @@ struct NodeRules {
   std::span<const KeyRule> rules() const { return {keys.data(), key_count}; }
 };
 
-/// All node types.
+/// The rules of all node types.
 std::span<const NodeRules> node_rules();
 
 /// Reads a leaf's own members (0 where absent, reported already) into `out`.

@@ -1,4 +1,4 @@
-// The mesh leaf: points and faces, or a file.
+// Reads the mesh leaf: points and faces, or a file.
 #include "formats/graycube/read_leaf.hpp"
 #include "mesh/close_mesh.hpp"
 #include "written_digits.hpp"
@@ -97,7 +97,7 @@ void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxN
   } else {
     read_polygons(json, points, faces, out.mesh);
   }
-  // What is said in the scene counts more than how the file's numbers look.
+  // Digits given in the scene count more than those that the file's numbers have.
   json.read_optional(members[kDigits], out.digits, 1u, kMaxDigits);
 }
 

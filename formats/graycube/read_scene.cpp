@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t kFormatVersion = 1;
 static_assert(kMaxSceneBytes <= kMaxJsonBytes);
-/// Of {"csg": {"type": …}} in CBOR.
+/// Bytes of the shortest object, {"csg": {"type": …}}, in CBOR.
 constexpr std::size_t kLeastObjectBytes = 12;
 
 /// The keys of the file's root.
@@ -60,15 +60,15 @@ class SceneReader {
       : text_(text.view()), tree_(text), errors_(tree_), json_(tree_, errors_) {
     set_loader(load);
   }
-  /// For read_in_pieces().
+  /// A reader that only read_in_pieces() may use.
   SceneReader(std::string_view cbor, const MeshLoader& load)
       : text_(cbor), tree_(cbor, JsonTree::Unread{}), errors_(tree_), json_(tree_, errors_) {
     set_loader(load);
     pieces_.emplace(tree_);
   }
 
-  /// Without the whole tree, which is more than half of the work; nothing when anything is wrong or
-  /// unusual, for which the whole tree is needed.
+  /// Reads without the whole tree, which is more than half of the work. Nothing when anything is
+  /// wrong or unusual, for which the whole tree is needed.
   std::optional<ReadResult> read_in_pieces() {
     if (!pieces_->read_up_to(kRootRules[kObjects].name)) return std::nullopt;
     json_.members(0, "a scene", kRootRules, root_);
@@ -124,7 +124,7 @@ class SceneReader {
     read_trees(shapes_at);
   }
 
-  /// Enters the members' names; gives where each new one stands.
+  /// Enters the members' names; returns the place of each new one.
   std::vector<JsonIndex> read_names(JsonIndex at, std::uint32_t limit, const char* what,
                                     NameTable& names) {
     std::vector<JsonIndex> places;
@@ -166,7 +166,7 @@ class SceneReader {
       json_.wrong(list, "at most " + std::to_string(kMaxObjects) + " objects");
       return;
     }
-    // In pieces the number is only a claim.
+    // When read in pieces, the array's size is only a claim that may be too large.
     if (pieces_ && tree_.size(list) > text_.size() / kLeastObjectBytes) return give_up(list);
     scene_.objects.reserve(tree_.size(list));
     // Objects without refs need no expansion of their own: one summary holds them all.
@@ -235,7 +235,7 @@ ReadResult read_scene_text(std::string_view json) {
 }
 
 ReadResult read_scene_file(const std::filesystem::path& path) {
-  // In pieces, since pipes have no size; a regular file's size is checked before memory is taken.
+  // In pieces, as pipes have no size; a regular file's size is checked before memory is taken.
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   static_assert(kPiece >= kTextPadding);
   std::error_code error;

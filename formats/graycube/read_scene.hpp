@@ -22,20 +22,20 @@ struct ReadResult {
   /// Set exactly when there is no error.
   std::optional<Scene> scene;
   std::vector<SceneError> errors;
-  /// A mesh came from a file of its own: the text alone isn't the scene.
+  /// Whether a mesh came from a file of its own: then the text alone isn't the scene.
   bool used_files = false;
-  /// An object at a time, without the tree of the whole text: CBOR as our writer writes it, without
-  /// errors.
+  /// Whether one object at a time was read, without the tree of the whole text: this is done for
+  /// CBOR as our writer writes it, without errors.
   bool was_read_in_pieces = false;
 };
 
 /// Reads a scene file's text (docs/scene.md). Never throws for what the text holds. `load`
 /// opens the files that meshes name; without one such a mesh is an error.
 ReadResult read_scene_text(const PaddedText& json, const MeshLoader& load = nullptr);
-/// As above, copying the text. Large ones are best padded where they are read.
+/// The same for a text without padding, which is copied. Large ones are best padded when read.
 ReadResult read_scene_text(std::string_view json);
-/// As the first, with mesh files relative to the scene file's folder; that the file can't be read
-/// is an error with an empty pointer.
+/// The same for a file; mesh files are relative to its folder. If the file can't be read, there is
+/// one error with an empty pointer.
 ReadResult read_scene_file(const std::filesystem::path& path);
 
 }  // namespace graycube

@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// Below this sine of the angle between them, up counts as lying along the view.
+/// If the sine of the angle between them is less, `up` counts as lying along the view.
 constexpr double kLeastUpSine = 1e-9;
 
 constexpr NumberRule kFieldOfView{

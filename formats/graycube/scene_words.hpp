@@ -1,4 +1,4 @@
-// The words of the scene format that stand for enumerators; shared by reader and writer.
+// The words of the scene format that stand for enumerators, shared by reader and writer.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the scene format has and this version can't compute.
+// Finds the parts of a scene that the format has but this version can't compute.
 #pragma once
 
 #include <vector>

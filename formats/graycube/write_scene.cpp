@@ -15,7 +15,7 @@
 namespace graycube {
 namespace {
 
-/// Appends JSON to a text. Members and elements put their own commas.
+/// Appends JSON to a text. Members and elements write the commas before them.
 class SceneWriter {
  public:
   explicit SceneWriter(const Scene& scene) : scene_(scene) {}
@@ -71,7 +71,7 @@ class SceneWriter {
     string(name);
     text_ += ": ";
   }
-  /// A member that is not its object's first.
+  /// Writes the key of a member that is not its object's first.
   void next_key(std::string_view name) {
     text_ += ", ";
     key(name);
@@ -102,7 +102,7 @@ class SceneWriter {
     write(value);
   }
 
-  /// One element to a line.
+  /// Writes a list with one element to a line.
   template <typename T, typename WriteOne>
   void list(char open, char close, const std::vector<T>& elements, const WriteOne& write_one) {
     text_ += open;

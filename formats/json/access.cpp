@@ -9,7 +9,7 @@
 namespace graycube {
 namespace {
 
-/// "a", "b" and "c".
+/// The words as a list for messages: "a", "b" and "c".
 std::string listed(std::span<const std::string_view> words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -19,7 +19,7 @@ std::string listed(std::span<const std::string_view> words) {
   return text;
 }
 
-/// The nearest candidate, else all of them.
+/// Advice for a message: the candidate nearest to what was written, else all of them.
 std::string advice(std::string_view written, std::span<const std::string_view> known) {
   const std::string nearest = did_you_mean(written, known);
   return nearest.empty() ? "; known are " + listed(known) : nearest;

@@ -1,5 +1,5 @@
-// Typed access to a JSON tree. Whatever isn't as expected is reported, with what was expected and
-// what was found, and the caller goes on: so one run finds all errors.
+// Typed access to a JSON tree. Values that aren't as expected are reported, with what was expected
+// and what was found, and the caller goes on: so one run finds all errors.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct KeyRule {
   bool required = false;
 };
 
-/// The numbers that are accepted, and how to call them.
+/// The numbers that are accepted, and a name for them in messages.
 struct NumberRule {
   std::string_view what;
   double min = -std::numeric_limits<double>::max();
@@ -60,18 +60,18 @@ class JsonAccess {
   /// The functions below leave `out` alone when they return false.
   bool read(JsonIndex at, double& out, const NumberRule& rule = kAnyNumber);
   bool read(JsonIndex at, Vec3& out);
-  /// No component negative.
+  /// No component may be negative.
   bool read(JsonIndex at, Rgb& out);
   /// A vector with a length that is neither zero nor beyond a double.
   bool read_direction(JsonIndex at, Vec3& out);
   bool read(JsonIndex at, std::uint32_t& out, std::uint32_t min, std::uint32_t max);
   bool read(JsonIndex at, std::string_view& out);
-  /// As above for a member that may be absent (0): then true, and `out` keeps its default.
+  /// Like read() for a member that may be absent (0): then true, and `out` keeps its default.
   template <typename T, typename... Rule>
   bool read_optional(JsonIndex at, T& out, const Rule&... rule) {
     return at == 0 || read(at, out, rule...);
   }
-  /// One of a closed set of words; absent (0) keeps the default.
+  /// Reads a word of a closed set; absent (0) keeps the default.
   template <typename T, std::size_t N>
   bool read_word(JsonIndex at, T& out, const std::array<Word<T>, N>& words) {
     std::string_view written;

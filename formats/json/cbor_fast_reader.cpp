@@ -58,13 +58,13 @@ bool FastCborReader::read_element(JsonIndex& at) {
   return read_value({}) && dropped_values_ + tree_.values_.size() < kMaxCborValues;
 }
 
-/// One value with all below it.
+/// Reads one value with all below it.
 bool FastCborReader::read_value(Key key) {
   auto& values = tree_.values_;
   const char* at = at_;
   const char* const end = end_;
   levels_.clear();
-  // The value is the only element of an array that isn't there.
+  // The value is treated as the only element of an array that isn't there.
   for (Level level{0, false, 1};;) {
     while (level.left == 0) {
       if (levels_.empty()) {

@@ -1,4 +1,4 @@
-// Reads what our writer writes in CBOR in one plain loop, and gives up at the first thing that is
+// Reads CBOR as our writer writes it in one plain loop, and gives up at the first thing that is
 // wrong or unusual. A scene can be read without ever holding the whole tree: all but its objects
 // first, then these one at a time.
 #pragma once
@@ -20,11 +20,11 @@ class FastCborReader {
   explicit FastCborReader(JsonTree& tree);
 
   bool read_whole();
-  /// Everything up to the elements of the root's last member, which must be an array called `key`:
-  /// it gets its size, but no children. Elements come by read_element().
+  /// Reads everything up to the elements of the root's last member, which must be an array called
+  /// `key`: it gets its size, but no children. read_element() reads the elements.
   bool read_up_to(std::string_view key);
-  /// Reads the next element behind what read_up_to() has read, in the place of the one before; `at`
-  /// is where it is.
+  /// Reads the next element of that array in the place of the one before; `at` becomes its
+  /// number.
   bool read_element(JsonIndex& at);
   bool is_at_end() const { return at_ == end_; }
 
@@ -40,7 +40,7 @@ class FastCborReader {
     /// Elements or members still to come.
     std::uint64_t left;
   };
-  /// Of an object's member; its begin is 0 when there is none.
+  /// The key of an object's member; its begin is 0 when there is none.
   struct Key {
     std::uint32_t begin = 0;
     std::uint16_t length = 0;
@@ -57,7 +57,7 @@ class FastCborReader {
   JsonTree& tree_;
   const char *begin_, *at_, *end_;
   std::vector<Level> levels_;
-  /// Containers around what is read in pieces.
+  /// Number of containers around the values that are read in pieces.
   std::size_t outer_levels_ = 0;
   std::size_t kept_values_ = 0;
   std::uint64_t dropped_values_ = 0;

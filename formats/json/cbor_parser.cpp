@@ -1,5 +1,5 @@
-// Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser: it decides what is CBOR here, and
-// words what is wrong.
+// Fills a JsonTree from CBOR (RFC 8949) by nlohmann's parser, which decides here what is CBOR, and
+// puts errors into words.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 }  // namespace
 
-/// The library calls what has the names of its json_sax.
+/// The library calls its members by the names of its json_sax.
 class CborEvents {
  public:
   CborEvents(std::string_view bytes, JsonTree& tree) : bytes_(bytes), tree_(tree), filling_(tree) {}
@@ -29,7 +29,7 @@ class CborEvents {
     Json::sax_parse(TrackedText(begin, &reached_),
                     TrackedText(bytes_.data() + bytes_.size(), &reached_), this,
                     Json::input_format_t::cbor, true);
-    // Also after a failure, so that pointers to what was read stay right.
+    // Containers are closed after a failure too, so that pointers to what was read stay right.
     filling_.close_all();
   }
 
@@ -61,7 +61,7 @@ class CborEvents {
   bool end_array() { return close(); }
   bool binary(Json::binary_t&) { return filling_.fail(offset(), "byte strings are not accepted"); }
 
-  /// `position` counts the bytes read behind the magic, the end as one.
+  /// `position` counts the bytes read behind the magic, and the end as one more.
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) {
     std::string_view why = error.what();
@@ -73,7 +73,7 @@ class CborEvents {
   }
 
  private:
-  /// Just behind the last byte that the library has read.
+  /// The offset just behind the last byte that the library has read.
   std::size_t offset() const { return static_cast<std::size_t>(reached_ - bytes_.data()); }
 
   bool has_room() {
@@ -120,7 +120,7 @@ class CborEvents {
 };
 
 void JsonTree::read_cbor() {
-  // Values take two bytes and more, mostly; what is reserved in excess is never touched.
+  // Values mostly take two bytes or more; memory reserved in excess is never touched.
   constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
   values_.reserve(std::min(text_.size() / 2 + 1, kMaxReserved));
   was_read_fast_ = FastCborReader(*this).read_whole();

@@ -16,7 +16,7 @@ enum Major : std::uint8_t {
   kSimple = 7
 };
 constexpr std::uint8_t kFalse = 20, kTrue = 21, kNull = 22, kSingle = 26, kDouble = 27;
-/// Integers up to here are written as such; beyond, doubles are as short.
+/// Integers up to here are written as integers; beyond, doubles are as short.
 constexpr double kMaxInteger = 4294967296.0;
 
 class CborWriter {
@@ -33,7 +33,7 @@ class CborWriter {
   void initial(Major major, std::uint8_t info) {
     bytes_ += static_cast<char>(static_cast<unsigned>(major) << 5 | info);
   }
-  /// The lower `count` bytes, the most significant first.
+  /// Appends the lower `count` bytes, the most significant first.
   void big_endian(std::uint64_t bits, int count) {
     for (int i = count - 1; i >= 0; --i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xFF);
   }

@@ -16,13 +16,13 @@ class ErrorReport {
   explicit ErrorReport(const JsonTree& tree) : tree_(tree) {}
 
   void add(JsonIndex where, std::string message);
-  /// Whether another message would be kept; if not, count() spares making it.
+  /// Whether another message would be kept; if not, count() saves making it.
   bool has_room() const { return found_.size() < kMaxReportedErrors; }
   void count() { ++not_kept_; }
   /// Errors so far, kept or not.
   std::uint64_t total() const { return found_.size() + not_kept_; }
   bool empty() const { return found_.empty(); }
-  /// In the order of the text; when some were not kept, a last one tells how many.
+  /// The errors in the order of the text; if some were not kept, a last one tells how many.
   std::vector<SceneError> take(std::string_view text);
 
  private:

@@ -1,6 +1,6 @@
-// Fills a JsonTree by simdjson: the only file that knows the library. It reads what scenes are made
-// of at several times the speed of the careful parser, and gives up at the first thing that is
-// wrong or unusual; the careful parser then reads the text again, and finds the words.
+// Fills a JsonTree by simdjson: the only file that knows the library. It reads usual scenes at
+// several times the speed of the careful parser, and gives up at the first thing that is wrong or
+// unusual; the careful parser then reads the text again, and words the error.
 #include <simdjson.h>
 #include <bit>
 #include <charconv>
@@ -18,10 +18,10 @@ namespace {
 namespace ondemand = simdjson::ondemand;
 
 static_assert(kTextPadding >= simdjson::SIMDJSON_PADDING);
-/// Longer texts take the careful parser. The library reserves 6 bytes of address space for a byte
+/// The careful parser reads longer texts. The library reserves 6 bytes of address space for a byte
 /// of text, and touches 4 bytes for a token.
 constexpr std::size_t kMaxFastBytes = std::size_t{1} << 30;
-/// The library counts a level for the document and one for a scalar.
+/// The library counts one more level for the document, and one for a scalar.
 constexpr std::size_t kLibraryLevels = kMaxJsonNesting + 2;
 
 /// simdjson 3.0.1 wraps around in zero point more than 19 digits (0.77870955597254552026672 becomes
@@ -32,7 +32,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
-/// Each function returns whether all was well. Errors of the library are `true`, as usual with it.
+/// Each function returns whether all was well. For the library's own calls, `true` is an error.
 class FastJsonReader {
  public:
   FastJsonReader(std::string_view text, JsonTree& tree) : text_(text), tree_(tree) {}
@@ -58,7 +58,7 @@ class FastJsonReader {
     } else {
       return false;
     }
-    // Content behind the root?
+    // There must be nothing behind the root.
     return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
   }
 
@@ -161,7 +161,7 @@ class FastJsonReader {
     std::string_view token = value.raw_json_token();
     double number = 0;
     if (value.get_double().get(number)) return false;
-    // With the blanks behind it.
+    // The token includes the blanks behind it.
     if (token.size() > kMaxTrustedNumber) token = token.substr(0, token.find_first_of(" \t\n\r"));
     if (token.size() > kMaxTrustedNumber) {
       const auto read = std::from_chars(token.data(), token.data() + token.size(), number);
@@ -183,8 +183,8 @@ class FastJsonReader {
     return true;
   }
 
-  /// `raw` is behind the opening quote. That the string ends, holds no control characters and is
-  /// UTF-8, the library has seen to; its escapes are checked when decoded.
+  /// `raw` is behind the opening quote. The library has checked that the string ends, holds no
+  /// control characters and is UTF-8; its escapes are checked when decoded.
   template <typename Decode>
   bool read_text(const char* raw, const Decode& decode, Text& out) {
     std::size_t length = 0;

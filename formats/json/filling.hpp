@@ -1,4 +1,4 @@
-// How the events of nlohmann's parsers, of JSON and of CBOR, become a JsonTree.
+// Builds a JsonTree from the events of nlohmann's parsers, of JSON and of CBOR.
 #pragma once
 
 #include <bit>
@@ -33,7 +33,7 @@ class JsonFilling {
     added.payload = std::uint64_t{text.begin} << 32 | text.length;
     added.string_is_decoded = text.decoded;
   }
-  /// Adds an array or object; false where it is nested too deep, and then it isn't open.
+  /// Adds an array or object; false when it is nested too deep, and then it isn't open.
   [[nodiscard]] bool open(JsonKind kind, std::size_t begin) {
     const auto self = static_cast<JsonIndex>(tree_.values_.size());
     append(kind, begin);
@@ -50,8 +50,8 @@ class JsonFilling {
   }
   bool has_open() const { return !open_.empty(); }
 
-  /// A string of at most kMaxJsonString bytes that the text has at `begin` as it is, or else in
-  /// another way.
+  /// Keeps a string of at most kMaxJsonString bytes: as a range of the text when the text has it at
+  /// `begin` as it is, else as a copy.
   Text keep(std::string_view string, bool is_as_it_is, std::size_t begin) {
     if (!is_as_it_is) {
       begin = tree_.decoded_.size();
@@ -60,10 +60,10 @@ class JsonFilling {
     return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(string.size()),
             !is_as_it_is};
   }
-  /// Of the next value.
+  /// Sets the key of the next value.
   void set_key(const Text& key) { key_ = key; }
 
-  /// Always false.
+  /// Keeps the error; always false.
   bool fail(std::size_t at, std::string message) {
     const std::size_t count = tree_.values_.size();
     tree_.syntax_error_ = {at, static_cast<JsonIndex>(count == 0 ? 0 : count - 1),

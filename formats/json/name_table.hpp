@@ -12,7 +12,7 @@ namespace graycube {
 /// The names are views: what they point to must live as long as the table.
 class NameTable {
  public:
-  /// The new name's index; nothing if the name is there already.
+  /// Adds a name and returns its index; nothing if the name is there already.
   std::optional<std::uint32_t> add(std::string_view name) {
     const auto index = static_cast<std::uint32_t>(names_.size());
     if (!indices_.try_emplace(name, index).second) return std::nullopt;
@@ -24,7 +24,7 @@ class NameTable {
     if (found == indices_.end()) return std::nullopt;
     return found->second;
   }
-  /// In the order of their indices.
+  /// The names in the order of their indices.
   const std::vector<std::string_view>& names() const { return names_; }
 
  private:

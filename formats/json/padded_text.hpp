@@ -8,17 +8,17 @@
 
 namespace graycube {
 
-/// Zero bytes behind the text: readable, owned by it, no part of it.
+/// Number of zero bytes behind the text: readable and owned by it, but no part of it.
 inline constexpr std::size_t kTextPadding = 64;
 
-/// Owns a text and its padding. Whoever reads a file into a string should reserve kTextPadding more
-/// than the text's size: then nothing is copied, on the way in or out.
+/// Owns a text and its padding. To read a file into a string, reserve kTextPadding more than its
+/// size: then nothing is copied, on the way in or out.
 class PaddedText {
  public:
   explicit PaddedText(std::string text) : bytes_(std::move(text)) {
     bytes_.append(kTextPadding, '\0');
   }
-  /// Copies.
+  /// Copies the text.
   explicit PaddedText(std::string_view text) {
     bytes_.reserve(text.size() + kTextPadding);
     bytes_.append(text).append(kTextPadding, '\0');

@@ -1,5 +1,5 @@
-// Fills a JsonTree from the events of nlohmann's parser. It decides what is JSON here, and words
-// what is wrong.
+// Fills a JsonTree from the events of nlohmann's parser, which decides here what is JSON, and puts
+// errors into words.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-/// The library's number for a number beyond a double.
+/// The library's error number for a number too large for a double.
 constexpr int kNumberOverflow = 406;
 
-/// What the library says it was parsing, and what would have been right there.
+/// What the library says it was parsing there, and what would have been right there, in our words.
 struct Expectation {
   std::string_view context, expected;
 };
@@ -37,7 +37,7 @@ struct Complaint {
     const std::size_t parsing = what.find(kParsing), dash = what.find(kDash);
     if (dash == std::string_view::npos) {
       reason = what;
-      // Since version 3.11.3 a text without anything has words of its own.
+      // From version 3.11.3 on, the library words the error of an empty text differently.
       if (what.find("attempting to parse an empty input") != std::string_view::npos) {
         context = kValueContext;
         reason = "unexpected end of input";
@@ -48,7 +48,7 @@ struct Complaint {
     reason = what.substr(dash + kDash.size());
     reason = reason.substr(0, reason.find("; last read: "));
   }
-  /// A token that doesn't belong there or is none, not one that is wrong inside.
+  /// Whether a token doesn't belong there or is none, rather than being wrong inside.
   bool is_about_token() const {
     return reason.starts_with("unexpected ") || reason == "invalid literal";
   }
@@ -58,7 +58,7 @@ struct Complaint {
 
 }  // namespace
 
-/// The library calls what has the names of its json_sax.
+/// The library calls its members by the names of its json_sax.
 class JsonEvents {
  public:
   JsonEvents(std::string_view text, JsonTree& tree) : text_(text), tree_(tree), filling_(tree) {}
@@ -71,13 +71,13 @@ class JsonEvents {
     // The library takes a zero byte for the end of the text.
     if (good && next_token() < text_.size())
       filling_.fail(next_token(), "expected the end of the text, found " + found(next_token()));
-    // Also after a failure, so that pointers to what was read stay right.
+    // Containers are closed after a failure too, so that pointers to what was read stay right.
     filling_.close_all();
   }
 
   bool null() { return add_word(JsonKind::kNull); }
   bool boolean(bool value) { return add_word(value ? JsonKind::kTrue : JsonKind::kFalse); }
-  /// Only negative numbers come here, so a zero was written "-0".
+  /// Only negative numbers and zero written "-0" come here.
   bool number_integer(Json::number_integer_t value) {
     return add_number(value == 0 ? -0.0 : static_cast<double>(value));
   }
@@ -104,7 +104,7 @@ class JsonEvents {
   bool start_array(std::size_t) { return open(JsonKind::kArray); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
-  /// JSON text has none.
+  /// Never called for JSON text, which has no binary values.
   bool binary(Json::binary_t&) { return false; }
 
   /// `position` counts the bytes read, the end of the text as one.
@@ -139,8 +139,8 @@ class JsonEvents {
   /// Offset just behind the last byte that the library has read.
   std::size_t read_so_far() const { return static_cast<std::size_t>(reached_ - text_.data()); }
 
-  /// Where the token begins that follows the last event. A separator that doesn't belong there is
-  /// passed over as well.
+  /// The offset of the token that follows the last event. A separator that doesn't belong there is
+  /// skipped as well.
   std::size_t next_token() const {
     std::size_t at = last_end_;
     while (at < text_.size() && is_between_tokens(text_[at])) ++at;
@@ -155,7 +155,7 @@ class JsonEvents {
 
   bool add_number(double number) {
     filling_.add_number(next_token(), number);
-    // The library has read one byte more, unless the number ends the text.
+    // The library has read one byte too many, unless the number ends the text.
     const std::size_t read = read_so_far();
     const char last = text_[read - 1];
     last_end_ = last >= '0' && last <= '9' ? read : read - 1;
@@ -182,13 +182,13 @@ class JsonEvents {
            filling_.fail(next_token(),
                          "a string is longer than " + std::to_string(kMaxJsonString) + " bytes");
   }
-  /// A string without escapes stays in the text; its length tells.
+  /// A string without escapes stays in the text; it is as long decoded as written.
   JsonFilling::Text kept(std::string_view decoded) {
     const std::size_t begin = next_token() + 1, length = read_so_far() - 1 - begin;
     return filling_.keep(decoded, decoded.size() == length, begin);
   }
 
-  /// What stands there, for messages.
+  /// The token or text at the offset, described for messages.
   std::string found(std::size_t offset) const {
     if (offset >= text_.size()) return "the end of the text";
     const auto c = static_cast<unsigned char>(text_[offset]);

@@ -1,4 +1,4 @@
-// JSON pointers (RFC 6901), in which errors say where they are.
+// JSON pointers (RFC 6901), with which errors tell their place.
 #pragma once
 
 #include <string>

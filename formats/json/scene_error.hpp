@@ -7,15 +7,15 @@
 
 namespace graycube {
 
-/// Further errors are only counted.
+/// Errors beyond so many are only counted.
 inline constexpr std::size_t kMaxReportedErrors = 100;
 
 struct SceneError {
-  /// RFC 6901; empty for the whole file.
+  /// A JSON pointer (RFC 6901) to the value; empty for the whole file.
   std::string pointer;
-  /// What was expected and what was found.
+  /// Tells what was expected and what was found.
   std::string message;
-  /// Where that value begins in the text, from 1; 0 when there is no such place.
+  /// The place in the text at which that value begins, from 1; 0 when there is no such place.
   std::uint64_t line = 0, column = 0;
 };
 

@@ -15,7 +15,7 @@ class TrackedText {
   using pointer = const char*;
   using reference = const char&;
 
-  /// `*reached` follows all copies of this iterator.
+  /// All copies of this iterator move `*reached` on.
   TrackedText(const char* at, const char** reached) : at_(at), reached_(reached) {}
   reference operator*() const { return *at_; }
   TrackedText& operator++() {

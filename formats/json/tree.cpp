@@ -11,10 +11,10 @@
 namespace graycube {
 namespace {
 
-/// Longest excerpt of the text in a message.
+/// Most bytes of an excerpt of the text in a message.
 constexpr std::size_t kMaxExcerpt = 40;
 
-/// Scenes have a value every 10 bytes or so; what is reserved in excess is never touched.
+/// Scenes have a value every 10 bytes or so; memory reserved in excess is never touched.
 constexpr std::size_t kBytesPerValue = 7;
 constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
 

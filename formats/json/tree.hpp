@@ -17,21 +17,21 @@ namespace graycube {
 
 /// Largest text: offsets are 32-bit.
 inline constexpr std::uint64_t kMaxJsonBytes = 0xFFFFFFFFull;
-/// Deepest nesting of arrays and objects, and longest string in bytes.
+/// The deepest nesting of arrays and objects, and the most bytes of a string.
 inline constexpr std::uint32_t kMaxJsonNesting = 1024;
 inline constexpr std::uint32_t kMaxJsonString = 65535;
 
-/// What a text begins with that is CBOR instead: the tag that describes itself (RFC 8949, 3.4.6).
+/// CBOR begins with these bytes, the tag that describes itself (RFC 8949, 3.4.6); JSON doesn't.
 inline constexpr std::string_view kCborMagic = "\xD9\xD9\xF7";
-/// Most values in CBOR, 24 bytes each: they may be as short as a byte.
+/// Most values in CBOR, each 24 bytes of memory, since a value may be as short as a byte.
 inline constexpr std::uint32_t kMaxCborValues = 1u << 27;
 
 enum class JsonKind : std::uint8_t { kNull, kFalse, kTrue, kNumber, kString, kArray, kObject };
 
-/// Number of a value in the order of the text. The root is 0, so 0 is never somebody's member.
+/// The number of a value in the order of the text. The root is 0, so 0 is no value's member.
 using JsonIndex = std::uint32_t;
 
-/// Where a character of the text stands, both from 1; columns count bytes.
+/// The place of a character in the text, line and column from 1; columns count bytes.
 struct TextPosition {
   std::uint64_t line = 1, column = 1;
 };
@@ -54,7 +54,7 @@ class JsonTree {
   /// Without padding behind the text only the careful parser can read it, at a third of the
   /// speed. Both give the same tree and the same errors.
   explicit JsonTree(std::string_view text);
-  /// Reads nothing yet: for a FastCborReader, which a text must be for that begins with kCborMagic.
+  /// Reads nothing yet: a FastCborReader will. `text` must begin with kCborMagic.
   struct Unread {};
   JsonTree(std::string_view text, Unread) : text_(text), was_read_fast_(true), is_cbor_(true) {}
   explicit JsonTree(const PaddedText& text);
@@ -70,17 +70,17 @@ class JsonTree {
   std::size_t value_count() const { return values_.size(); }
   JsonKind kind(JsonIndex i) const { return values_[i].kind; }
   double number(JsonIndex i) const { return std::bit_cast<double>(values_[i].payload); }
-  /// Decoded; of a string.
+  /// The decoded text; the value must be a string.
   std::string_view string(JsonIndex i) const {
     const Value& v = values_[i];
     return text_or_decoded(v.string_is_decoded, v.payload >> 32, v.payload & 0xFFFFFFFFu);
   }
-  /// Decoded; of an object's member.
+  /// The decoded key; the value must be an object's member.
   std::string_view key(JsonIndex i) const {
     const Value& v = values_[i];
     return text_or_decoded(v.key_is_decoded, v.key_begin, v.key_length);
   }
-  /// Number of elements or members; of an array or object.
+  /// The number of elements or members; the value must be an array or an object.
   std::uint32_t size(JsonIndex i) const { return static_cast<std::uint32_t>(values_[i].payload); }
   /// Children of i: first_child(i), then next(child), until end(i).
   JsonIndex first_child(JsonIndex i) const { return i + 1; }
@@ -100,7 +100,7 @@ class JsonTree {
   friend class FastCborReader;
 
   JsonTree(std::string_view text, const PaddedText* padded);
-  /// False on whatever it doesn't take; the tree then holds anything.
+  /// False for a text that it doesn't accept; the tree then holds anything.
   bool read_fast(const PaddedText& text);
   void read_carefully();
   void read_cbor();

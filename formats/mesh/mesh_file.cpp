@@ -24,12 +24,12 @@ bool equal_words(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Words of a text, and the line that the last one stands on.
+/// Cuts a text into words, and counts lines.
 class Words {
  public:
   explicit Words(std::string_view text, char comment = '\0') : text_(text), comment_(comment) {}
 
-  /// Empty at the end.
+  /// The next word; empty at the end.
   std::string_view next() {
     skip();
     const std::size_t begin = at_;
@@ -41,7 +41,7 @@ class Words {
   void skip_line() {
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
   }
-  /// The rest of this line holds no word.
+  /// Whether the rest of this line holds no word.
   bool at_line_end() {
     while (at_ < text_.size() && text_[at_] != '\n' && is_space(text_[at_])) ++at_;
     return at_ == text_.size() || text_[at_] == '\n' || text_[at_] == comment_;
@@ -63,7 +63,7 @@ class Words {
     return {"line " + std::to_string(line_) + ": " + why};
   }
   std::size_t left() const { return text_.size() - at_; }
-  /// Of all doubles so far.
+  /// The most significant digits that any double read so far was written with.
   std::uint32_t digits() const { return digits_.most(); }
 
  private:
@@ -99,7 +99,7 @@ void add_triangle(PolygonMesh& mesh) {
   mesh.add_face(std::array{n - 3, n - 2, n - 1});
 }
 
-/// The corners of kMaxMeshPoints / 3 facets, which are welded afterwards, must be held at first.
+/// The most facets of a file, as all their corners must be held until they are welded.
 constexpr std::size_t kMaxFacets = kMaxMeshPoints / 3;
 
 MeshFault too_many_facets(std::size_t found) {
@@ -132,12 +132,12 @@ std::variant<PolygonMesh, MeshFault> read_binary_stl(std::string_view bytes) {
   return mesh;
 }
 
-/// One facet behind the word "facet".
+/// Reads one facet behind the word "facet".
 std::optional<MeshFault> read_facet(Words& words, PolygonMesh& mesh) {
   const auto expect = [&](std::string_view word) { return equal_words(words.next(), word); };
   if (!expect("normal")) return words.fault("expected a facet's normal");
   for (int a = 0; a < 3; ++a) {
-    // Some programs write nan for the normal of a sliver.
+    // The normal's words need not be numbers: some programs write nan for the normal of a sliver.
     if (words.next().empty()) return words.fault("expected a facet's normal");
   }
   if (!expect("outer") || !expect("loop")) return words.fault("expected \"outer loop\"");
@@ -158,7 +158,7 @@ std::variant<PolygonMesh, MeshFault> read_ascii_stl(std::string_view text) {
   Words words(text);
   PolygonMesh mesh;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    // Names may be anything, and there may be several solids.
+    // Names are skipped, as they may be anything, and there may be several solids.
     if (equal_words(word, "solid") || equal_words(word, "endsolid")) {
       words.skip_line();
     } else if (equal_words(word, "facet")) {
@@ -217,7 +217,7 @@ std::string lower_ending(const fs::path& path) {
 }  // namespace
 
 std::variant<PolygonMesh, MeshFault> read_stl(std::string_view bytes) {
-  // Binary files may begin with "solid" too: their size tells.
+  // Binary files may begin with "solid" too: their size tells which they are.
   const bool has_head = bytes.size() >= kStlHeadBytes;
   const auto announced = [&] {
     return kStlHeadBytes + std::uint64_t{little_u32(bytes.substr(80))} * kStlFacetBytes;
@@ -236,7 +236,7 @@ std::variant<PolygonMesh, MeshFault> read_off(std::string_view text) {
     return words.fault("expected the numbers of points, faces and edges");
   if (!words.at_line_end() && !words.read(edges))
     return words.fault("expected the number of edges");
-  // Each takes six characters at least.
+  // Each point and each face takes six characters at least.
   if (points > kMaxMeshPoints || faces > kMaxMeshTriangles ||
       (std::uint64_t{points} + faces) * 6 > words.left() + 6) {
     return words.fault("more points or faces than are accepted or can follow: " +

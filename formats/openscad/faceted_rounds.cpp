@@ -13,7 +13,7 @@
 namespace graycube {
 namespace {
 
-/// Chains of hulls that touch each other's facets are followed so far.
+/// How many passes follow chains of hulls that touch each other's facets.
 constexpr int kMostPasses = 8;
 /// Levels of modules that are looked into.
 constexpr int kMostLevels = 256;
@@ -25,7 +25,7 @@ bool is_looked_into(const std::string& name) {
 
 Vec3 across(const Vec3& v, const Vec3& along) { return v - dot(along, v) * along; }
 
-/// Calls visit(module, to_world) for what isn't looked into.
+/// Calls visit(module, to_world) for each module within that is_looked_into() doesn't name.
 template <typename Visit>
 void for_each_solid(const ScadModule& module, const Affine& to_world, std::uint32_t digits,
                     int levels, const Visit& visit) {
@@ -126,7 +126,7 @@ bool FacetedRounds::ring_of(const ScadModule& module, const Affine& to_world, Ri
   if (!round) return false;
   ring.is_ball = round->is_ball;
   const Vec3 axis = to_world.vector({0, 0, 1});
-  // A ball's ring is its equator's, and where the pole is tells the others.
+  // A ball's ring is its equator; the direction to the pole tells the other rings.
   ring.along = round->is_ball ? round->radius * axis : normalized(axis);
   const auto placed = [&](const Vec3& p) {
     return round->is_ball ? to_world.point(p) : across(to_world.point(p), ring.along);
@@ -145,7 +145,7 @@ bool FacetedRounds::has(const Ring& ring) const {
   return std::any_of(first, last, [&](const auto& known) { return is_one(known.second, ring); });
 }
 
-/// Whichever corner they begin with, and whichever way they go.
+/// Rings are equal whichever corner they begin with, and whichever way they go.
 bool FacetedRounds::is_one(const Ring& a, const Ring& b) const {
   const double off = share_ * (max_abs(a.center) + length(a.corners[0] - a.center));
   const auto are_near = [&](const Vec3& p, const Vec3& q) { return max_abs(p - q) <= off; };

@@ -1,6 +1,6 @@
-// Which spheres and cylinders of a file get OpenSCAD's facets although they could stay round: those
-// that a hull() has by facets, since it has no exact form, wherever else they stand. A bore as wide
-// as the boss around it thus has the boss's sides, and leaves no crescents.
+// Finds the spheres and cylinders of a file that get OpenSCAD's facets although they could stay
+// round: those that a hull() without an exact form has in facets, wherever else they stand. So a
+// bore as wide as the boss around it has the boss's sides, and leaves no crescents.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ namespace graycube {
 class FacetedRounds {
  public:
   FacetedRounds() = default;
-  /// Looks for hulls without an exact form, and for such as touch their facets, in a whole file,
-  /// whose matrices have so many digits. Reports nothing.
+  /// Looks for hulls without an exact form, and for solids that touch their facets, in a whole file
+  /// whose matrices have `digits` digits. Reports nothing.
   FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
                 std::uint32_t digits);
 
-  /// Whether the sphere or straight cylinder is one of them, up to its ends; false for all others.
+  /// Whether the sphere or straight cylinder is one of them, wherever it ends; else false.
   bool contains(const ScadModule& module, const Affine& to_world) const;
-  /// Whether one of them is in a module.
+  /// Whether a module contains one of them.
   bool touch(const ScadModule& module, const Affine& to_world) const;
 
  private:
-  /// What facets are told by: a ring of corners, and for cylinders the direction along which it is
-  /// seen.
+  /// The corners by which facets are told: a ring of them, and for cylinders the direction along
+  /// which it is seen.
   struct Ring {
     bool is_ball = false;
     Vec3 along;
@@ -47,9 +47,9 @@ class FacetedRounds {
                   std::vector<Hull>& hulls) const;
 
   std::uint32_t digits_ = 0;
-  /// Matrices of so many digits differ by this share of the coordinates under them.
+  /// The share of coordinates by which two matrices of so many digits may place points differently.
   double share_ = 0;
-  /// By number of corners.
+  /// The rings of all faceted rounds, by their number of corners.
   std::multimap<std::size_t, Ring> rings_;
 };
 

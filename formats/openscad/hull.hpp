@@ -1,4 +1,4 @@
-// The corners that hull() of solids goes by.
+// The corners of which a hull() of solids is the convex hull.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace graycube {
 
-/// The corners of OpenSCAD's facets of everything in a module; false when it holds something whose
-/// corners aren't known without evaluating it, a difference for one.
+/// The corners of OpenSCAD's facets of everything in a module; false when it holds a module whose
+/// corners aren't known without evaluating it, such as a difference.
 bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
                 std::vector<Vec3>& corners);
 

@@ -1,4 +1,4 @@
-// From the solids of a .csg file to a scene: objects, materials, camera and lights.
+// Turns the solids of a .csg file into a scene: objects, materials, camera and lights.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -28,7 +28,7 @@ void forget_materials(CsgNode& node) {
   }
 }
 
-/// An object; its material is named once when all leaves share it.
+/// The part as an object; its material is named once if all leaves share it.
 SceneObject object_of(Part part, std::string name) {
   SceneObject object{std::move(name), kInheritMaterial, std::move(part.node)};
   std::vector<MaterialIndex> used;
@@ -63,7 +63,7 @@ std::vector<SceneObject> objects_of(std::vector<Part> parts,
 }
 
 /// The first module with `!` in front, outer ones before inner ones and in the order of the file;
-/// null without any.
+/// null if there is none.
 const ScadModule* root_of(const std::vector<ScadModule>& modules) {
   for (const ScadModule& module : modules) {
     if (module.root) return &module;
@@ -72,7 +72,7 @@ const ScadModule* root_of(const std::vector<ScadModule>& modules) {
   return nullptr;
 }
 
-/// Gives the modules' numbers all digits, where they can be had; false where they have six.
+/// Gives the modules' numbers all digits, if these can be had; false if they keep six.
 bool improve_numbers(std::vector<ScadModule>& modules, std::string_view spelled_out) {
   if (spelled_out.empty() || spelled_out.size() > kMaxOpenscadBytes) return false;
   OpenscadReport unread;

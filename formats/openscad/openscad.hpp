@@ -16,17 +16,17 @@
 namespace graycube {
 
 /// `scene` is there exactly when `errors` is empty. Errors are in the order of their lines.
-/// Warnings start with "line N: " unless they are about the whole file; they tell of solids that
-/// OpenSCAD leaves out, too.
+/// Warnings start with "line N: " unless they are about the whole file; they tell, too, of solids
+/// that OpenSCAD leaves out.
 struct OpenscadResult {
   std::optional<Scene> scene;
   std::vector<OpenscadError> errors;
   std::vector<std::string> warnings;
 };
 
-/// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction of
-/// view, framed, with two lights and a grey background. Never throws for what is in `text`,
-/// whatever it is.
+/// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction
+/// of view, framed, with two lights and a grey background. Never throws, whatever `text`
+/// holds.
 ///
 /// Spheres and cylinders are exact, unless $fn asks for 8 sides or fewer: then they are the
 /// polyhedra that OpenSCAD builds. Parts outside any difference and intersection become objects of

@@ -21,7 +21,7 @@
 namespace graycube {
 namespace {
 
-/// The largest difference of levels between a part and its object: a union around all parts.
+/// The most levels of a part: its object may have one more, a union around all parts.
 constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
 
 /// Half the thickness of a flat shape.
@@ -43,7 +43,7 @@ CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   return {OperationNode{kind, std::move(children)}, std::nullopt, kInheritMaterial};
 }
 
-/// Takes the parts from number `from` on away.
+/// Removes the parts from number `from` on, and returns them.
 std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
   const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(from);
   std::vector<Part> taken(std::make_move_iterator(begin), std::make_move_iterator(parts.end()));
@@ -51,13 +51,13 @@ std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
   return taken;
 }
 
-/// Modules that only gather or place what is in them, whatever its dimension.
+/// Whether the module only gathers or places the modules in it, whatever its dimension.
 bool is_gathering(const std::string& name) {
   return name == "group" || name == "union" || name == "render" || name == "multmatrix" ||
          name == "color";
 }
 
-/// What the program `openscad` is asked for; all else is no module of .csg files.
+/// Whether the program `openscad` must evaluate it; other modules don't occur in .csg files.
 bool is_for_program(const std::string& name) {
   return name == "resize" || name == "import" || name == "surface" || name == "hull" ||
          name == "roof" || name == "fill" || name == "intersection_for";
@@ -71,7 +71,7 @@ std::uint32_t levels_of(const CsgNode& node) {
   return most + 1;
 }
 
-/// 2 or 3, of the first that has one.
+/// The dimension, 2 or 3, of the first module that has one.
 int dimension_of(const std::vector<ScadModule>& modules) {
   for (const ScadModule& module : modules) {
     if (!module.left_out && module.dimension != 0) return module.dimension;
@@ -134,7 +134,7 @@ class Importer {
     }
   }
 
-  /// OpenSCAD doesn't mix dimensions: what isn't of the first one is left out.
+  /// OpenSCAD doesn't mix dimensions: modules of another one than the first's are left out.
   bool fits(const ScadModule& module, int dimension) {
     if (module.left_out || module.dimension == 0 || module.dimension == dimension) return true;
     report_.warning(module.line, module.name + "() is left out: flat shapes and solids don't mix");
@@ -169,8 +169,8 @@ class Importer {
     add_all(module.children, inner, parts);
   }
 
-  /// Operands are gathered at the end of `parts`, where those of a difference that takes nothing
-  /// off are already in place: dissolving it costs nothing, however deep such operations nest.
+  /// Operands are gathered at the end of `parts`. If the difference subtracts nothing, its operands
+  /// are in place there already: dissolving it costs nothing, however deep such operations nest.
   void add_difference(const ScadModule& module, const Surroundings& around,
                       std::vector<Part>& parts) {
     const std::size_t first = parts.size();
@@ -246,7 +246,7 @@ class Importer {
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
   }
 
-  /// As in OpenSCAD's preview.
+  /// Adds a flat shape as a slab, as OpenSCAD's preview shows it.
   void add_slab(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     import_.warn_once(module.line, "flat shapes that nothing extrudes are shown one unit thick");
     const auto shape = flat_shape(module, {}, import_);
@@ -255,7 +255,7 @@ class Importer {
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
-  /// False where there is no exact form.
+  /// Adds the module's exact form; false if there is none.
   bool add_exact(const ScadModule& module, ExactSolid exact, const Surroundings& around,
                  std::vector<Part>& parts) {
     if (std::holds_alternative<NoExactForm>(exact)) return false;
@@ -302,7 +302,7 @@ class Importer {
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
-  /// `corners` are those of all polyhedra in it, in the module's coordinates.
+  /// Adds a solid. `corners` are those of all polyhedra in it, in the module's coordinates.
   void add_solid(CsgNode solid, std::span<const Vec3> corners, const ScadModule& module,
                  const Surroundings& around, std::vector<Part>& parts) {
     Reach reach = reach_of(solid, corners, around.to_world, directions_);
@@ -331,7 +331,7 @@ class Importer {
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
   }
 
-  /// Spheres under rotations stay spheres.
+  /// Places a leaf; spheres under rotations stay spheres.
   static void place(CsgNode& leaf, const Surroundings& around) {
     if (!around.transformed) return;
     auto* sphere = std::get_if<SphereShape>(&leaf.value);

@@ -1,5 +1,5 @@
-// The solids of a .csg file in world coordinates: transforms gone down to the leaves, unions and
-// groups dissolved in what is around them, empty operands fallen away as in OpenSCAD.
+// The solids of a .csg file in world coordinates. Transforms are moved down to the leaves, unions
+// and groups dissolve in the operation around them, empty operands are dropped as in OpenSCAD.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace graycube {
 
-/// A solid in world coordinates, one operand of whatever is around it.
+/// A solid in world coordinates, one operand of the operation around it.
 struct Part {
   CsgNode node;
   Reach reach;
@@ -22,8 +22,8 @@ struct Part {
   std::string module;
 };
 
-/// What `openscad_parts` finds: the file is the union of the parts. Every leaf has a material.
-/// Rotations are those of matrices of so many digits.
+/// The result of openscad_parts: the file is the union of the parts. Every leaf has a material.
+/// Rotations were recovered from matrices of `digits` digits.
 struct OpenscadParts {
   std::vector<Part> parts;
   std::vector<NamedMaterial> materials;
@@ -32,7 +32,7 @@ OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const Opens
                              std::uint32_t digits, OpenscadReport& report);
 
 Reach reach_of(const std::vector<Part>& parts);
-/// The union of at least one part, as one.
+/// The union of at least one part, as one part.
 Part united(std::vector<Part> parts);
 
 }  // namespace graycube

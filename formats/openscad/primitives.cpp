@@ -11,7 +11,7 @@
 namespace graycube {
 namespace {
 
-/// Convex meshes of more faces are not looked at whether they are polyhedra.
+/// Meshes of more faces are not tested for being convex.
 constexpr std::size_t kMaxTestedFaces = 4 * kMaxPolyhedronFaces;
 
 bool positive(double v) { return std::isfinite(v) && v > 0; }
@@ -20,7 +20,7 @@ ScadSolid round_solid(decltype(CsgNode::value) shape) {
   return {CsgNode{std::move(shape), std::nullopt, kInheritMaterial}, {}};
 }
 
-/// The sides of something round that is made of facets; 0 where it stays round.
+/// The sides of a round solid that is made of facets; 0 if it stays round.
 int sides_of(ScadArguments& arguments, double radius, bool facets) {
   const ScadFineness fineness = fineness_of(arguments);
   const int asked = asked_sides(fineness);

@@ -11,7 +11,7 @@
 
 namespace graycube {
 
-/// A leaf in its own coordinates, material still to be set; the corners, unless it is
+/// A leaf in its own coordinates, its material still to be set; and its corners, unless it is
 /// round.
 struct ScadSolid {
   CsgNode leaf;
@@ -33,13 +33,13 @@ std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadRe
 struct ScadRound {
   bool is_ball = false;
   double radius = 0;
-  /// OpenSCAD's.
+  /// Number of sides that OpenSCAD gives it.
   int sides = 0;
 };
-/// Nothing, unreported, for all else.
+/// The module as a round solid; nothing, unreported, for any other module.
 std::optional<ScadRound> openscad_round(const ScadModule& module);
 
-/// The colour of a color(); components are clamped to at most 1. Nothing with an error.
+/// The colour of a color(); components are clamped to at most 1. Nothing after an error.
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);
 
 }  // namespace graycube

@@ -23,7 +23,7 @@ struct Ball {
   Vec3 center;
   double radius = 0;
 };
-/// The union of its prisms, or a ball.
+/// An operand of the sum: a union of prisms, or a ball.
 struct Operand {
   std::vector<Prism> prisms;
   std::optional<Ball> ball;
@@ -77,7 +77,7 @@ bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& impo
   return true;
 }
 
-/// False for what is neither prisms nor a ball.
+/// Adds a module to the operand; false if it is neither prisms nor a ball.
 bool add_operand(const ScadModule& module, const Affine& map, ScadImport& import,
                  Operand& operand) {
   if (module.left_out || module.dimension == 2) return true;
@@ -124,7 +124,7 @@ class RoundedPrism {
   RoundedPrism(double low, double high, double distance, ScadImport& import, int line)
       : low_(low), high_(high), distance_(distance), import_(import), line_(line) {}
 
-  /// False where the figure has no exact form.
+  /// Adds the prism of a figure; false if the figure has no exact form.
   bool add(const FlatShape& figure) {
     if (figure.kind == FlatShape::Kind::kUnion) {
       return std::all_of(figure.children.begin(), figure.children.end(),
@@ -146,7 +146,7 @@ class RoundedPrism {
   std::vector<CsgNode> take() { return std::move(parts_); }
 
  private:
-  /// A cylinder along each side, a ball at each corner that points outwards.
+  /// Adds a cylinder along each side, and a ball at each corner that points outwards.
   void add_rims(const FlatLoops& loops) {
     for (const FlatLoop& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -160,7 +160,7 @@ class RoundedPrism {
       }
     }
   }
-  /// A torus, which the axis must not reach.
+  /// Adds a torus, which the axis must not reach.
   bool add_rims(const FlatMap& disk) {
     const auto radius = similarity_scale(disk);
     if (!radius || !(*radius > distance_)) return false;

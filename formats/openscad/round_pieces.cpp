@@ -24,8 +24,8 @@ Affine linear_part(Affine map) {
   return map;
 }
 
-/// `map` as seen from a frame without translation. Maps of one linear part differ by translations
-/// exactly.
+/// `map` as seen from a frame without translation. If its linear part is the frame's, only a
+/// translation is left, exactly.
 Affine seen_from(const Affine& frame, const Affine& inverse, const Affine& map) {
   if (frame == Affine{}) return map;
   if (linear_part(map) == frame) return translation(inverse.vector(map.translation()));
@@ -48,7 +48,7 @@ std::optional<RoundPoint> framed_item(const RoundItem& item, const Affine& map) 
   return RoundPoint{center, *scale * item.round.radius};
 }
 
-/// Whether squares and products can be told from 0 and infinity.
+/// Whether squares and products of its numbers can be told from 0 and infinity.
 bool is_sensible(const RoundPoint& p) {
   return max_abs(p.center) <= kMaxOpenscadCoordinate && p.radius <= kMaxOpenscadCoordinate &&
          (p.radius == 0 || p.radius >= 1 / kMaxOpenscadCoordinate);
@@ -114,7 +114,7 @@ bool add_plain_sweep(const PlainSweep& sweep, const FlatShape& shape, const Affi
   return true;
 }
 
-/// The hull of a figure turned about the axis: its corners are discs there.
+/// Adds the hull of a figure turned about the axis, in which the figure's corners become discs.
 bool add_turned(const FlatShape& figure, const Affine& map, std::vector<RoundPiece>& pieces) {
   std::vector<FlatDisk> disks;
   if (!add_hull_disks(figure, {}, disks)) return false;
@@ -136,7 +136,7 @@ bool add_all(const std::vector<ScadModule>& modules, const Affine& map, PieceUse
   });
 }
 
-/// The hull of everything in the module, as one piece.
+/// Adds the hull of everything in the module, as one piece.
 bool add_hull(const std::vector<ScadModule>& modules, const Affine& map, ScadImport& import,
               std::vector<RoundPiece>& pieces) {
   std::vector<RoundPiece> parts;
@@ -147,7 +147,7 @@ bool add_hull(const std::vector<ScadModule>& modules, const Affine& map, ScadImp
   return true;
 }
 
-/// Sums distribute over unions; the hull of a sum is the sum of the hulls.
+/// Adds a sum: sums distribute over unions, and the hull of a sum is the sum of the hulls.
 bool add_sum(const ScadModule& module, const Affine& map, PieceUse use, ScadImport& import,
              std::vector<RoundPiece>& pieces) {
   std::vector<RoundPiece> sums;

@@ -16,7 +16,7 @@
 namespace graycube {
 namespace {
 
-/// Centres on one axis, relative to the extent of all.
+/// How far centres on one axis may be off it, relative to the extent of all.
 constexpr double kOnAxis = 1e-12;
 
 CsgNode placed(CsgNode node, const Affine& map) {
@@ -25,8 +25,8 @@ CsgNode placed(CsgNode node, const Affine& map) {
   return node;
 }
 
-/// Balls and discs as what a figure right and left of the axis becomes when it is turned; empty
-/// where they have no common vertical axis.
+/// The figure right and left of the axis that becomes these balls and discs when it is turned;
+/// empty if they have no common vertical axis.
 std::vector<FlatDisk> profile_of(const RoundPiece& items, const FramedPiece& piece) {
   const Vec3 origin = piece.points.front().center;
   double extent = 0;
@@ -125,7 +125,7 @@ ExactSolid united(const std::vector<RoundPiece>& pieces, const ScadModule& modul
   return whole;
 }
 
-/// A ball and what has an axis through its centre, or two such: the sum of their profiles, turned.
+/// The sum of a ball and a solid with an axis through its centre, or of two such, turned.
 ExactSolid coaxial_sum(const ScadModule& module, ScadImport& import) {
   std::vector<RoundPiece> operands;
   for (const ScadModule& child : module.children) {
@@ -153,7 +153,7 @@ ExactSolid coaxial_sum(const ScadModule& module, ScadImport& import) {
   return turned_about(sums, begin->center + middle->center, all->frame, import, module.line);
 }
 
-/// Leaves no reports behind where there is no exact form.
+/// Makes an exact form; if there is none, no reports are left behind.
 template <typename Make>
 ExactSolid or_untold(ScadImport& import, const Make& make) {
   const OpenscadReport report = import.report;

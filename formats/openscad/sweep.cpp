@@ -18,7 +18,7 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// How far what is subtracted reaches beyond the ends, in heights.
+/// The length by which subtracted solids reach beyond the ends, in heights.
 constexpr double kReachBeyond = 0.25;
 
 CsgNode leaf(decltype(CsgNode::value) value) {
@@ -36,7 +36,7 @@ Operation operation_of(Kind kind) {
                                        : Operation::kDifference;
 }
 
-/// The operation above figures, done above their solids: `solid_of(child, is_first)`.
+/// Does the operation of figures with their solids: `solid_of(child, is_first)`.
 template <typename SolidOf>
 std::optional<CsgNode> operated(const FlatShape& shape, const SolidOf& solid_of) {
   std::vector<CsgNode> children;
@@ -65,7 +65,7 @@ CsgNode extruded_disk(const FlatMap& map, double low, double high) {
   return node;
 }
 
-/// One prism for each connected part, so that none has more corners than a scene file may give it.
+/// One prism for each connected part, so that none has more corners than a scene file allows.
 std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, double high,
                                         ScadImport& import, int line) {
   std::vector<CsgNode> prisms;
@@ -83,7 +83,7 @@ std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, doub
                           "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
       return std::nullopt;
     }
-    // Slivers that rounding leaves are no loss.
+    // Slivers left by rounding may be lost.
     if (prism_of(part, low, high)) prisms.push_back(leaf(prism_shape(part, low, high)));
   }
   if (prisms.empty()) return std::nullopt;
@@ -107,7 +107,7 @@ Ellipse ellipse_of(const FlatMap& map) {
   return {scale * axis.x, scale * axis.y, least};
 }
 
-/// A disk turned about the y axis, which becomes z; nothing when it is no torus and no sphere.
+/// A disk turned about the y axis, which becomes z; nothing if it is neither torus nor sphere.
 std::optional<CsgNode> turned_disk(const FlatMap& map) {
   const FlatPoint c = center_of(map);
   const auto radius = similarity_scale(map);
@@ -130,7 +130,7 @@ bool has_turned_form(const FlatShape& shape) {
 
 std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, int line) {
   if (shape.kind == Kind::kPolygon) return turned(shape.loops);
-  // Disks that others are tangent to get facets together with these.
+  // Disks to which other parts are tangent get facets together with these.
   if (shape.kind != Kind::kDisk && (shape.facets.empty() || has_turned_form(shape))) {
     return operated(
         shape, [&](const FlatShape& child, bool) { return turned_shape(child, import, line); });
@@ -143,10 +143,10 @@ std::optional<CsgNode> turned_shape(const FlatShape& shape, ScadImport& import, 
   return loops ? turned(*loops) : std::nullopt;
 }
 
-/// What lies from `from` to `to` degrees about z, less than 360 apart.
+/// The wedge from `from` to `to` degrees about z, which are less than 360 apart.
 CsgNode wedge(double from, double to) {
   std::vector<CsgNode> sides;
-  // Left of the half-plane at `from`, right of that at `to`.
+  // The points left of the half-plane at `from` and right of that at `to`.
   sides.push_back(leaf(HalfSpaceShape{{sin_degrees(from), -cos_degrees(from), 0}, 0}));
   sides.push_back(leaf(HalfSpaceShape{{-sin_degrees(to), cos_degrees(to), 0}, 0}));
   return operation(to - from <= 180 ? Operation::kIntersection : Operation::kUnion,
@@ -186,7 +186,7 @@ std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& im
   return sweep;
 }
 
-/// What is convex and shrinks evenly is the hull of its two ends: a cone for a circle.
+/// A convex figure that shrinks evenly sweeps the hull of its two ends: a cone for a circle.
 std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep) {
   if (sweep.scale.x != sweep.scale.y) return std::nullopt;
   std::vector<RoundPoint> ends;
@@ -220,7 +220,7 @@ std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions,
   return operation(Operation::kUnion, std::move(parts));
 }
 
-/// Reports a mesh of too many facets.
+/// False, after reporting, for a mesh of too many facets.
 bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
                    ScadImport& import) {
   std::size_t corners = 0, most = 0;
@@ -277,7 +277,7 @@ std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
   if (!sweep) return std::nullopt;
-  // Few sides, when asked for, are meant.
+  // If few sides were asked for, they are intended.
   if (import.options.facets || asked_sides(sweep->fineness) > 0) {
     if (!is_mesh_small(*loops, steps_of(*loops, *sweep), module, import)) return std::nullopt;
     return mesh_of_regions(turned_mesh(*loops, *sweep), module, import);

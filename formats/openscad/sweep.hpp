@@ -1,5 +1,5 @@
-// linear_extrude() and rotate_extrude(): exact where OpenSCAD's solid is the sweep itself, meshes
-// of OpenSCAD's own facets where it isn't (twist, scale), or where facets are asked for.
+// linear_extrude() and rotate_extrude(): exact if OpenSCAD's solid is the sweep itself; meshes of
+// OpenSCAD's own facets if it isn't (twist, scale), or if facets are asked for.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace graycube {
 
-/// The solid of one of the two modules in its own coordinates; nothing where it is empty or wrong,
+/// The solid of one of the two modules in its own coordinates; nothing if it is empty, or wrong,
 /// which is reported.
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import);
 
@@ -18,7 +18,7 @@ std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& impo
 std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import,
                                 int line);
 
-/// The corners of OpenSCAD's mesh of the solid. False when it is empty or wrong, which is reported.
+/// The corners of OpenSCAD's mesh of the solid. False if it is empty, or wrong, which is reported.
 bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec3>& corners);
 
 /// A linear_extrude() without twist: the figure grows evenly by `scale` from one height to the
@@ -28,7 +28,7 @@ struct PlainSweep {
   double low = 0, high = 0;
   FlatPoint scale{1, 1};
 };
-/// False for one with twist; nothing in `sweep` where the solid is empty or wrong, which is
+/// False for one with twist; nothing in `sweep` if the solid is empty, or wrong, which is
 /// reported.
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep);
 
@@ -36,7 +36,7 @@ bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<Pla
 std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& import);
 
 /// The hull of disks and points, each with its mirror image, turned about the y axis, which becomes
-/// z. Nothing where a disk reaches the axis without being centred on it.
+/// z. Nothing if a disk reaches the axis but isn't centred on it.
 std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,
                                         int line);
 

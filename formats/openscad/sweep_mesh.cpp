@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastRadius = 0.00000095367431640625;
 constexpr double kDegree = 3.14159265358979323846 / 180;
-/// How far holes reach beyond the ends: in heights, and in degrees.
+/// The length by which holes reach beyond the ends: in heights, and in degrees.
 constexpr double kHoleReach = 0.25;
 constexpr double kHoleTurn = 5;
 
@@ -22,8 +22,8 @@ using Ring = std::vector<Vec3>;
 
 double squared(const Vec3& v) { return dot(v, v); }
 
-/// Rings of as many points each, joined by triangles with the shorter diagonal, as OpenSCAD does;
-/// closed by the first and the last, or with one another.
+/// Rings of equally many points, joined by triangles with the shorter diagonal, as in OpenSCAD; the
+/// first and the last ring close the mesh, or are joined with one another.
 PolygonMesh joined(const std::vector<Ring>& rings, bool is_closed) {
   PolygonMesh mesh;
   const auto n = static_cast<std::uint32_t>(rings.front().size());
@@ -78,7 +78,7 @@ PolygonMesh swept_loop(const FlatLoop& loop, const LinearSweep& sweep, bool is_h
   return joined(rings, false);
 }
 
-/// Rings at the given angles.
+/// The loop as rings at the given angles.
 PolygonMesh turned_loop(const FlatLoop& loop, const std::vector<double>& angles, bool is_closed) {
   std::vector<Ring> rings;
   for (const double angle : angles) {
@@ -90,7 +90,7 @@ PolygonMesh turned_loop(const FlatLoop& loop, const std::vector<double>& angles,
   return joined(rings, is_closed);
 }
 
-/// ∫ √(1 + θ²), the length of Archimedes' spiral r = a θ from 0 to `angle`.
+/// The length of Archimedes' spiral r = a θ from 0 to `angle`, which is a ∫ √(1 + θ²).
 double spiral_length(double a, double angle) {
   const double root = std::sqrt(1 + angle * angle);
   return 0.5 * a * (angle * root + std::log(angle + root));
@@ -98,7 +98,7 @@ double spiral_length(double a, double angle) {
 
 }  // namespace
 
-// The figures are those of OpenSCAD 2021.01's Calc.cc, stated anew.
+// The formulas are those of OpenSCAD 2021.01's Calc.cc, stated anew.
 int slices_of(const FlatLoops& loops, const LinearSweep& sweep) {
   if (sweep.slices > 0) return sweep.slices;
   const ScadFineness& f = sweep.fineness;
@@ -165,7 +165,7 @@ std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sw
   const double reach =
       std::min(kHoleTurn, (360 - std::fabs(sweep.angle)) / 3) * (sweep.angle > 0 ? 1 : -1);
   std::vector<double> angles;
-  // A whole turn starts on the negative side in OpenSCAD.
+  // OpenSCAD starts a whole turn on the negative side.
   for (int i = 0; i < steps + (is_closed ? 0 : 1); ++i) {
     angles.push_back((is_closed ? 180 : 0) + sweep.angle * i / steps);
   }

@@ -9,8 +9,8 @@
 
 namespace graycube {
 
-/// Along z from low to high; turned by −twist degrees and scaled at the upper end. No slices: as
-/// many as OpenSCAD takes.
+/// A sweep along z from low to high, turned by −twist degrees and scaled at the upper end. 0 slices
+/// stand for as many as OpenSCAD takes.
 struct LinearSweep {
   double low = 0, high = 0, twist = 0;
   FlatPoint scale{1, 1};
@@ -20,15 +20,15 @@ struct LinearSweep {
   bool is_straight() const { return twist == 0 && scale == FlatPoint{1, 1}; }
 };
 
-/// About z by `angle` degrees, −360 < angle ≤ 360 and not 0; x is the distance from the axis,
-/// negative if `mirrored`.
+/// A turn about z by `angle` degrees, −360 < angle ≤ 360 and not 0; x is the distance from the
+/// axis, negative if `mirrored`.
 struct TurnSweep {
   double angle = 360;
   bool mirrored = false;
   ScadFineness fineness;
 };
 
-/// The outline of one connected part, and its holes, which reach beyond the ends.
+/// The meshes of one connected part's outline and of its holes, which reach beyond the ends.
 struct SweptRegion {
   PolygonMesh whole;
   std::vector<PolygonMesh> holes;
@@ -37,9 +37,9 @@ struct SweptRegion {
 std::vector<SweptRegion> swept(const FlatLoops& loops, const LinearSweep& sweep);
 std::vector<SweptRegion> turned_mesh(const FlatLoops& loops, const TurnSweep& sweep);
 
-/// The slices asked for, or those that OpenSCAD 2021.01 takes where none are.
+/// The slices asked for; if none are, those that OpenSCAD 2021.01 takes.
 int slices_of(const FlatLoops& loops, const LinearSweep& sweep);
-/// The facets round the turn.
+/// The number of facets round the turn.
 int steps_of(const FlatLoops& loops, const TurnSweep& sweep);
 
 }  // namespace graycube

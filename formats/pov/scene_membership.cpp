@@ -64,7 +64,7 @@ bool value_holds(const Scene&, const HalfSpaceShape& h, const Vec3& p) {
   return dot(h.normal, p) <= h.offset;
 }
 bool value_holds(const Scene&, const EllipsoidShape& e, const Vec3& p) {
-  // p = center + A q: q by Cramer's rule, the axes being A's columns.
+  // q of p = center + A q, by Cramer's rule; the axes are A's columns.
   const Vec3 d = p - e.center;
   const auto& [a, b, c] = e.axes;
   const double whole = dot(a, cross(b, c));
@@ -72,7 +72,7 @@ bool value_holds(const Scene&, const EllipsoidShape& e, const Vec3& p) {
                dot(a, cross(b, d)) / whole};
   return length(q) <= 1;
 }
-/// The coordinates of p for three axes, by Cramer's rule.
+/// The coordinates of p on three axes, by Cramer's rule.
 Vec3 coordinates(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const double whole = dot(a, cross(b, c));
   return {dot(p, cross(b, c)) / whole, dot(a, cross(p, c)) / whole, dot(a, cross(b, p)) / whole};

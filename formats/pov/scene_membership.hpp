@@ -1,4 +1,4 @@
-// Where points lie in a scene's solids as written: for exporters, which need no speed.
+// Tells whether points lie in a scene's solids as written, for exporters, which need no speed.
 #pragma once
 
 #include "geometry/vec.hpp"

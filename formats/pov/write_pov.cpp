@@ -16,10 +16,10 @@
 namespace graycube {
 namespace {
 
-/// POV-Ray clamps its own limit to this.
+/// The highest trace level that POV-Ray accepts.
 constexpr std::uint32_t kMaxPovTraceLevel = 256;
-/// POV-Ray's falloff is 2 / (1 + (d / f)²): with a small f this is 2 f² / d² but for f² / d² of
-/// itself.
+/// POV-Ray's falloff is 2 / (1 + (d / f)²): with a small f this is 2 f² / d², with a relative error
+/// of f² / d².
 constexpr double kFadeDistance = 1e-4;
 
 class PovWriter {
@@ -41,8 +41,8 @@ class PovWriter {
   }
 
  private:
-  /// POV-Ray's union keeps the surfaces inside it, its merge does not, but is slower. They can be
-  /// seen through a transparent surface, or by an eye that is inside.
+  /// Whether surfaces inside a union can be seen: through a transparent surface, or by an eye that
+  /// is inside. POV-Ray's union keeps them; its merge does not, but is slower.
   static bool inner_surfaces_show(const Scene& scene) {
     for (const auto& m : scene.materials)
       if (m.material.transmit > 0) return true;
@@ -65,7 +65,7 @@ class PovWriter {
   }
   void vector(const Vec3& v) { numbers({v.x, v.y, v.z}); }
   void color(const Rgb& c) { numbers({c.r, c.g, c.b}); }
-  /// "NAME VALUE", the name with its own spaces.
+  /// Writes "NAME VALUE"; the name brings its own spaces.
   void item(std::string_view name, double value) {
     text_ += name;
     number(value);
@@ -115,7 +115,7 @@ class PovWriter {
     const double width = perspective ? 2 * tan_degrees(0.5 * c.fov_degrees) : c.width;
     if (c.inside == InsideView::kEntry)
       warnings_.push_back("POV-Ray doesn't show entries behind the camera");
-    // Rays off the pixels' middles: the whole picture is shifted against them.
+    // Rays may miss the pixels' middles: then the whole picture is shifted against them.
     const double cell = width / image.width / image.samples;
     const Vec3 shift =
         (c.pixel_offset[0] - 0.5) * cell * right + (c.pixel_offset[1] - 0.5) * cell * up;
@@ -161,14 +161,14 @@ class PovWriter {
     }
   }
 
-  /// Names may hold anything; a comment ends with its line.
+  /// The name as a comment of one line; names may hold anything, a comment ends with its line.
   static std::string one_line(std::string_view name) {
     std::string line;
     for (const char c : name) line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     return line;
   }
 
-  /// After the shapes that it uses; refs nest at most kMaxTreeDepth deep.
+  /// Writes a shape after the shapes that it uses; refs nest at most kMaxTreeDepth deep.
   void declare_shape(std::uint32_t shape) {
     if (declared_[shape]) return;
     declared_[shape] = true;
@@ -185,7 +185,7 @@ class PovWriter {
       for (const auto& child : operation->children) declare_used(child);
   }
 
-  /// A node as one POV-Ray object; `outer` is a material for it if it has none of its own.
+  /// Writes a node as one POV-Ray object; `outer` is its material if it has none of its own.
   void write_node(const CsgNode& node, MaterialIndex outer) {
     std::visit([&](const auto& value) { write_value(value); }, node.value);
     if (node.transform) write_matrix(*node.transform);
@@ -198,8 +198,8 @@ class PovWriter {
     text_ += " }";
   }
 
-  /// Whether POV-Ray's object for the node comes with a texture from below. Another would be laid
-  /// over it, where the format says that the nearest material wins.
+  /// Whether POV-Ray's object for the node has a texture of its own already. Another would be laid
+  /// over it, but the format says that the nearest material wins.
   bool is_covered(const CsgNode& node) const {
     const auto* ref = std::get_if<ReferenceNode>(&node.value);
     const auto* operation = std::get_if<OperationNode>(&node.value);
@@ -226,7 +226,7 @@ class PovWriter {
 
   void write_value(const OperationNode& o) {
     if (o.children.size() == 1) {
-      // POV-Ray's operations want two children; with one, all but the complement are that child.
+      // POV-Ray's operations need two children; with one, all but the complement are that child.
       text_ += "object { ";
       write_node(o.children.front(), kInheritMaterial);
       if (o.operation == Operation::kComplement) text_ += " inverse";
@@ -262,7 +262,7 @@ class PovWriter {
     item(", ", c.top_radius);
   }
   void write_value(const TorusShape& t) {
-    // POV-Ray's torus lies about y: any frame with the axis for y will do.
+    // POV-Ray's torus lies about y: any frame that has the axis for y will do.
     const Vec3 y = normalized(t.axis);
     const Vec3 other = std::fabs(y.x) <= std::fabs(y.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 z = normalized(cross(other, y));
@@ -271,7 +271,7 @@ class PovWriter {
     write_matrix(cross(y, z), y, z, t.center);
   }
   void write_value(const HalfSpaceShape& h) {
-    // POV-Ray makes the normal unit but leaves the distance.
+    // POV-Ray normalizes the normal but leaves the distance as it is.
     const double l = length(h.normal);
     item("plane { ", Vec3{h.normal.x / l, h.normal.y / l, h.normal.z / l});
     item(", ", h.offset / l);
@@ -283,7 +283,7 @@ class PovWriter {
   void write_value(const EllipticConeShape&) { refuse("elliptic_cone"); }
   void write_value(const EllipticTorusShape&) { refuse("elliptic_torus"); }
   void write_value(const QuadricShape&) { refuse("quadric"); }
-  /// Nothing, in the place of a kind that POV-Ray has no exact twin of.
+  /// Writes nothing in the place of a kind of which POV-Ray has no exact twin, and warns once.
   void refuse(const std::string& kind) {
     if (refused_.insert(kind).second) {
       errors_.push_back("a " + kind + " can't be written for POV-Ray");
@@ -295,8 +295,8 @@ class PovWriter {
       std::visit([&](const auto& value) { write_value(value); }, solid->value);
     }
   }
-  /// POV-Ray counts crossings along inside_vector: an odd number is inside. Where shells overlap
-  /// that differs.
+  /// POV-Ray counts crossings along inside_vector: an odd number is inside. That differs where
+  /// shells overlap.
   void write_value(const MeshShape& m) {
     text_ += "mesh2 { vertex_vectors { " + std::to_string(m.mesh.points.size());
     for (const Vec3& p : m.mesh.points) {

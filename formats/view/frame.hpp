@@ -1,4 +1,4 @@
-// The picture that a model without a view is framed for.
+// The picture for which a model without a view is framed.
 #pragma once
 
 #include <cstdint>

@@ -13,16 +13,16 @@ namespace {
 constexpr double kTiltDegrees = 55;
 constexpr double kTurnDegrees = 25;
 
-/// Linear; the light grey #f0f0f0.
+/// In linear RGB, the light grey #f0f0f0.
 constexpr Rgb kBackground{0.87, 0.87, 0.87};
 constexpr Rgb kKeyLight{0.8, 0.8, 0.8};
 constexpr Rgb kFillLight{0.35, 0.35, 0.35};
-/// Where the lights are, in radii of the bounding sphere, and in which directions: right, up,
+/// Distance of the lights, in radii of the bounding sphere, and their directions: right, up,
 /// towards the eye.
 constexpr double kLightDistance = 6;
 constexpr Vec3 kKeyDirection{-0.7, 0.8, 0.9};
 constexpr Vec3 kFillDirection{1.0, 0.25, 0.6};
-/// The eye stays outside the bounding sphere, in radii.
+/// Least distance of the eye from the bounding sphere's centre, in radii: it stays outside.
 constexpr double kLeastEyeDistance = 1.05;
 
 /// Tangents of half the angles of view, less the margin, across and up the picture.
@@ -103,8 +103,8 @@ Reach reach_of_operation(const OperationNode& operation, const Affine& to_world,
 }
 
 /// The nearest eye on this view from which the four sides of the pyramid enclose the solid,
-/// symmetrically. A side's plane through the eye e lets the points with n · p ≤ n · e through, and
-/// n is, say, right − k forward.
+/// symmetrically. A side's plane through the eye e lets points with n · p ≤ n · e through; n is,
+/// for example, right − k forward.
 Vec3 nearest_eye(const ViewAxes& view, const Opening& k, const Reach& reach) {
   const double right = reach.along[6], left = reach.along[7];
   const double upper = reach.along[8], lower = reach.along[9];
@@ -129,8 +129,8 @@ Reach reach_of_unit_cube(const ReachDirections& directions) {
 ViewAxes ViewAxes::standard() {
   const double tilt = sin_degrees(kTiltDegrees), lift = cos_degrees(kTiltDegrees);
   const double s = sin_degrees(kTurnDegrees), c = cos_degrees(kTurnDegrees);
-  // From the eye, which the rotations take from +z to there; right is forward × z: not mirrored in
-  // right-handed axes.
+  // The direction from the eye, which the rotations turn to there from +z; right is forward × z:
+  // not mirrored in right-handed axes.
   const Vec3 forward{-s * tilt, c * tilt, -lift};
   const Vec3 right{c, s, 0};
   return {right, cross(right, forward), forward};
@@ -192,7 +192,7 @@ RenderSettings framed_settings(const Reach& reach, const Frame& frame) {
   const double radius = 0.5 * length(box.hi - box.lo);
   const ViewAxes view = ViewAxes::standard();
 
-  // What reaches are kept of intersections only bounds them, and might place the eye inside.
+  // The reach kept of an intersection is only an upper bound, and might place the eye inside.
   Vec3 eye = nearest_eye(view, opening(frame), framed);
   const double inside = dot(eye - center, view.forward) + kLeastEyeDistance * radius;
   if (inside > 0) eye = eye - inside * view.forward;

@@ -1,5 +1,5 @@
-// The camera and lights of a file that names none: how far a solid reaches in the few directions
-// that matter for that, and the view that takes it all in.
+// The camera and lights for a file that names none: how far a solid reaches in the few directions
+// that matter for that, and the view that shows all of it.
 #pragma once
 
 #include <array>
@@ -37,13 +37,13 @@ struct Reach {
 };
 Reach union_of(const Reach& a, const Reach& b);
 Reach intersection_of(const Reach& a, const Reach& b);
-/// Of a solid under `to_world`; `corners` are those of a solid that is one polyhedron. Of a leaf
-/// exact up to rounding.
+/// The reach of a leaf under `to_world`; `corners` are those of a solid that is one polyhedron. It
+/// is exact up to rounding.
 Reach reach_of(const CsgNode& leaf, std::span<const Vec3> corners, const Affine& to_world,
                const ReachDirections& directions);
 
-/// Camera, lights, background and the rest for what reaches that far. An empty solid is framed like
-/// the cube [−1, 1]³.
+/// Camera, lights, background and all other settings for a solid with this reach. An empty solid is
+/// framed like the cube [−1, 1]³.
 RenderSettings framed_settings(const Reach& reach, const Frame& frame);
 
 }  // namespace graycube

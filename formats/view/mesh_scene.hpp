@@ -6,8 +6,8 @@
 
 namespace graycube {
 
-/// One object of the default material, framed and lit like an OpenSCAD model; its digits are the
-/// mesh's. The mesh must be closed.
+/// A scene with the mesh as its one object, in the default material, framed and lit like an
+/// OpenSCAD model; its digits are the mesh's. The mesh must be closed.
 Scene scene_of_mesh(MeshShape mesh, const Frame& frame = {});
 
 }  // namespace graycube

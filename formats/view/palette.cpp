@@ -8,7 +8,7 @@
 namespace graycube {
 namespace {
 
-/// OpenSCAD's yellow of its preview, sRGB.
+/// The yellow of OpenSCAD's preview, sRGB.
 constexpr std::array<double, 3> kDefaultColor{249 / 255.0, 215 / 255.0, 44 / 255.0};
 constexpr double kAmbient = 0.2;
 constexpr double kDiffuse = 0.8;

@@ -19,11 +19,11 @@ class EndedJobs {
   /// listed; valid until the next call.
   const EndedJob& keep(EndedJob job, Picture picture);
 
-  /// Null where there is none. Valid until keep().
+  /// Null if no such job is listed. Valid until keep().
   const EndedJob* find(std::uint32_t job) const;
   /// Null when it isn't kept (any longer). Valid until the next call of anything here.
   const Picture* picture(std::uint32_t job) { return store_.picture(job); }
-  /// Those listed, the oldest first.
+  /// The listed jobs, the oldest first.
   const std::deque<EndedJob>& all() const { return jobs_; }
 
  private:

@@ -1,4 +1,4 @@
-// What a frontal is started with, and the moments and costs that it is told.
+// The options that a frontal is started with, and the times and CPU costs that it is told.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct FrontalOptions {
   /// Evaluator threads per node.
   std::uint32_t threads = 1;
   double heartbeat_s = 1;
-  /// A node that answers nothing for so long is taken for dead.
+  /// A node that answers nothing for so many seconds is taken for dead.
   double silence_s = 10;
   std::string version;
-  /// Larger models are not replicated.
+  /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
   FlowLimits limits{};
-  /// Clients may send scenes that they have compiled. Only for a client that is trusted: that a
-  /// camera has a direction, and whatever else readers of scenes check, is not checked again.
+  /// Clients may send scenes that they have compiled. Only for a client that is trusted: what
+  /// readers of scenes check, such as that a camera has a direction, is not checked again.
   bool is_private = false;
 };
 

@@ -1,4 +1,4 @@
-// When the frontal pings its nodes, and whether it was itself held up.
+// Decides when the frontal pings its nodes, and notices when it was itself held up.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ class Heartbeat {
  public:
   explicit Heartbeat(double interval_s) : interval_s_(interval_s) {}
 
-  /// Seconds since this was last asked, where they are more than an interval; else 0. Answers
-  /// waited unread meanwhile, so that this time is not the nodes' silence.
+  /// Seconds since the last call if they are more than an interval, else 0. Answers lay unread in
+  /// that time, so it must not count as the nodes' silence.
   double held_up_s(double now_s) {
     const double passed_s = last_asked_s_ > 0 ? now_s - last_asked_s_ : 0;
     last_asked_s_ = now_s;

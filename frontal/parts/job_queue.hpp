@@ -17,13 +17,13 @@ inline constexpr std::size_t kMaxQueuedJobs = 1000;
 struct QueuedJob {
   control::JobInfo info;
   PreparationWork work;
-  /// On the clock of the frontal.
+  /// Seconds on the frontal's clock.
   double submitted_at_s = 0;
 };
 
 class JobQueue {
  public:
-  /// That number has been used.
+  /// Tells that number `job` has been used: later jobs get larger ones.
   void number_beyond(std::uint32_t job) { next_job_ = std::max(next_job_, job + 1); }
 
   bool is_full() const { return jobs_.size() >= kMaxQueuedJobs; }
@@ -34,7 +34,7 @@ class JobQueue {
     jobs_.push_back(std::move(job));
     return jobs_.back().info.job;
   }
-  /// The first that was added. The queue must not be empty.
+  /// Takes the job that was added first. The queue must not be empty.
   QueuedJob take_first() {
     QueuedJob first = std::move(jobs_.front());
     jobs_.pop_front();
@@ -48,7 +48,7 @@ class JobQueue {
     return removed;
   }
 
-  /// Null where it isn't here. Valid until the queue changes.
+  /// Null if no such job waits. Valid until the queue changes.
   const control::JobInfo* find(std::uint32_t job) const {
     const auto at = std::ranges::find(jobs_, job, number_of);
     return at == jobs_.end() ? nullptr : &at->info;

@@ -29,7 +29,7 @@ class MemoryStore : public JobStore {
   Picture picture_;
 };
 
-/// Beyond this a job's record is not one of ours.
+/// A larger file is no record that a frontal wrote.
 constexpr std::uintmax_t kMaxRecordBytes = 2 * kMaxControlBytes;
 
 class FolderStore : public JobStore {

@@ -17,10 +17,10 @@ namespace graycube {
 /// A job that has ended: done, failed or cancelled.
 struct EndedJob {
   control::JobInfo info;
-  /// "{}": nothing is known.
+  /// The statistics file; "{}" when nothing is known.
   std::string stats_json = "{}";
   bool has_stats() const { return stats_json != "{}"; }
-  /// Not known of what an earlier frontal left.
+  /// Not known, and false, for jobs that an earlier frontal left.
   bool is_deadlocked = false;
 };
 
@@ -33,7 +33,7 @@ class JobStore {
   /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next
   /// call.
   virtual const Picture* picture(std::uint32_t job) = 0;
-  /// What an earlier frontal left, oldest first.
+  /// The jobs that an earlier frontal left, oldest first.
   virtual std::vector<EndedJob> recover() = 0;
 };
 

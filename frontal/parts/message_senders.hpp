@@ -1,4 +1,4 @@
-// Who sends which control message: the compiler says which one nobody has been thought of for.
+// Who sends which control message: the compiler finds a message that no sender was given.
 #pragma once
 
 #include <concepts>

@@ -50,7 +50,7 @@ std::vector<Rank> NodeRegistry::take_silent(double now_s) {
   std::vector<Rank> silent;
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
     Record& node = nodes_[rank];
-    // Those that were to be started before the first moment are waited for from then on.
+    // A node that was to be started before time was first told counts as silent only from then on.
     if (node.last_heard_s == 0) node.last_heard_s = now_s;
     if (now_s - node.last_heard_s < silence_s_) continue;
     silent.push_back(Rank{rank});

@@ -1,5 +1,5 @@
-// Which node processes there are: which are to be started or ended, which have said hello, and
-// which were heard when.
+// The node processes: which are to be started or ended, which have said hello, and when each was
+// last heard.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace graycube {
 
-/// Node processes in a row that may end before their hello; then the farm gives up.
+/// The farm gives up when so many node processes in a row end before their hello.
 inline constexpr unsigned kMaxFailedStarts = 8;
 
 class NodeRegistry {
@@ -38,16 +38,16 @@ class NodeRegistry {
 
   /// A new process is to be started for the rank, which must have none.
   void start(Rank rank, double now_s);
-  /// A process says which node it is. Returns why it isn't, if so.
+  /// A process says which node it is. Returns a refusal if that can't be.
   [[nodiscard]] std::optional<Refusal> hello(const PeerId& peer, const control::Hello& hello,
                                              double now_s);
   std::optional<Rank> rank_of(const PeerId& peer) const;
   void heard(Rank rank, double now_s) { nodes_[rank.value].last_heard_s = now_s; }
-  /// So long nobody could be heard.
+  /// Tells that the frontal heard nobody for so long, so that it doesn't count as silence.
   void was_held_up(double seconds);
-  /// Those that have been silent for too long; their processes are to be ended.
+  /// Takes the nodes that were silent for too long; their processes are to be ended.
   std::vector<Rank> take_silent(double now_s);
-  /// What comes from the process no longer counts; the rank has to be started again.
+  /// Forgets a node's process: its messages no longer count, and the rank must be started again.
   Lost lose(Rank rank);
   bool is_current(const Process& process) const {
     return nodes_[process.rank.value].incarnation == process.incarnation;
@@ -57,10 +57,10 @@ class NodeRegistry {
 
   bool all_here() const;
   bool all_left() const;
-  /// By rank.
+  /// Endpoints of the nodes' inboxes, and the nodes' start numbers; indexed by rank.
   std::vector<std::string> endpoints() const;
   std::vector<std::uint32_t> incarnations() const;
-  /// For people; `are_busy`: those that are here work on a job.
+  /// The nodes as shown to people; `are_busy`: the nodes that are here work on a job.
   control::NodeList list(bool are_busy) const;
 
   std::vector<Process> take_starts() { return std::exchange(starts_, {}); }
@@ -69,7 +69,7 @@ class NodeRegistry {
  private:
   struct Record {
     std::uint32_t incarnation = 0;
-    /// It has said hello; what follows is known since then.
+    /// Whether it has said hello; the members below are known since then.
     bool is_here = false;
     std::uint64_t pid = 0;
     std::string endpoint;
@@ -84,7 +84,7 @@ class NodeRegistry {
   std::map<PeerId, Rank> peers_;
   std::uint32_t next_incarnation_ = 1;
   std::vector<Process> starts_, kills_;
-  /// In a row.
+  /// Processes in a row that ended before their hello.
   unsigned failed_starts_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What is answered to those who want a picture: rows of it, or that its files are written.
+// Answers requests for a picture: rows of it, or that its files are written.
 #pragma once
 
 #include <cstddef>

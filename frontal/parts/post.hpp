@@ -1,4 +1,4 @@
-// What the frontal sends, in order, and where each node is reached.
+// The messages that the frontal sends, in order, and the connection to each node.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace graycube {
 
-/// A connection, as the transport names it.
+/// The name that the transport gives a connection.
 using PeerId = std::string;
 
 /// The answer to a request that is granted.
@@ -28,7 +28,7 @@ struct Refusal {
   /// The job that the request names; 0 where it names none.
   std::uint32_t job = 0;
   FailureCode code = FailureCode::kBadRequest;
-  /// A field of the message or an option; empty where it is none of them.
+  /// The field of the message, or the option, that is at fault; empty if it is neither.
   std::string where;
   std::string why;
 };
@@ -43,16 +43,16 @@ class Post {
   };
 
   explicit Post(std::uint32_t nodes) : nodes_(nodes) {}
-  /// The node of that rank is reached there from now on; nowhere where `peer` is empty.
+  /// Sets the connection to the node of that rank; an empty `peer` means that there is none.
   void set_node(Rank rank, PeerId peer) { nodes_[rank.value] = std::move(peer); }
 
   void to_peer(const PeerId& peer, const ControlMessage& message, SharedBytes payload = {});
   void answer(const PeerId& peer, Answer answer);
   void to_node(Rank rank, const ControlMessage& message, SharedBytes payload = {});
   void to_node(Rank rank, Bytes batch);
-  /// To all nodes that are reached.
+  /// Sends a message to all nodes that have a connection.
   void to_nodes(const ControlMessage& message);
-  /// To all nodes, with a payload for each.
+  /// The same with a payload for each node.
   void to_each_node(const ControlMessage& message,
                     const std::function<SharedBytes(Rank)>& payload_of);
 

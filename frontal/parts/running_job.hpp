@@ -1,4 +1,4 @@
-// The job that is on: how far it is, and what goes to and comes from the nodes for its sake.
+// The job that is on: how far it is, and its messages to and from the nodes.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace graycube {
 
-/// A deadlocked job waits so long for its nodes' reports.
+/// Seconds for which a deadlocked job waits for its nodes' reports.
 inline constexpr double kReportPatience_s = 5;
 
-/// In the order in which a job goes through them.
+/// The stages of a job, in the order in which it goes through them.
 enum class JobStage : std::uint8_t {
   kPreparing,  ///< its scene is read and cut
   kPrepared,   ///< it can be loaded once all nodes are here
-  kBuilding,   ///< nodes subdivide what they were loaded with
-  kRendering,  ///< the barrier is passed
+  kBuilding,   ///< nodes subdivide their slices
+  kRendering,  ///< all nodes are ready and have been told to trace
   kReporting,  ///< nothing more will be traced; the nodes' reports are due
 };
 
@@ -42,29 +42,29 @@ class RunningJob {
 
   std::uint32_t id() const { return info_.job; }
   JobStage stage() const { return stage_; }
-  /// Whether the nodes know of it.
+  /// Whether the nodes know of the job.
   bool is_loaded() const { return stage_ >= JobStage::kBuilding; }
   bool is_prepared() const { return render_.has_value(); }
   bool is_overdue(double now_s) const;
 
   void prepared(PreparedScene scene);
-  /// All nodes are here.
+  /// Sends the nodes their slices, once all nodes are here.
   void load(double now_s, Post& post);
   /// Whether all nodes are ready, so that it can start.
   [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
   void start(std::vector<std::uint32_t> incarnations, double now_s, Post& post);
 
-  // From the nodes while it is rendered. Those that return a failure end the job with it.
+  // Messages of the nodes while the job is rendered. A failure that is returned ends the job.
   [[nodiscard]] std::optional<JobFailure> on_light(std::span<const std::byte> batch, Post& post);
   void on_borrow(Rank rank, const control::Borrow& m, Post& post) const;
   void on_share(Rank owner, const control::Share& m, Post& post);
   /// False when the token is of another job or epoch.
   [[nodiscard]] bool on_round(const control::TokenRound& m);
   void on_terminated(const control::Terminated& m);
-  /// `last_ping`: the newest that was sent.
+  /// `last_ping`: the sequence of the newest ping that was sent.
   void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping,
                       double now_s, Post& post);
-  /// Has the nodes report once all light is here; fails where that and the token contradict each
+  /// Asks the nodes for reports once all light is here; fails if that and the token contradict each
   /// other.
   [[nodiscard]] std::optional<JobFailure> finish_when_complete(double now_s, Post& post);
   /// Whether all nodes have reported: the job is over.
@@ -76,7 +76,7 @@ class RunningJob {
   /// Whether reports after a deadlock are not waited for any longer.
   bool has_lost_patience(double now_s) const;
 
-  /// To be kept: it doesn't guess when the job ends.
+  /// The job's record to be kept; it makes no guess at when the job ends.
   control::JobInfo info() const;
   control::JobInfo info_at(double now_s) const;
   control::Progress progress_at(double now_s) const;
@@ -101,7 +101,7 @@ class RunningJob {
   control::JobOptions options_;
   JobStage stage_ = JobStage::kPreparing;
   Times times_;
-  /// 0 for the first job: what came before it was for its sake.
+  /// CPU seconds before the job; 0 for the first job, as all that came before was for its sake.
   CpuBefore cpu_before_;
   std::optional<RenderJob> render_;
   std::optional<DeadlockWatch> deadlock_watch_;

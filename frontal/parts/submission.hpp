@@ -1,4 +1,4 @@
-// What the frontal takes for a job.
+// Decides which submitted scenes the frontal accepts as jobs.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace graycube {
 
-/// Why a scene is not taken; nothing where it is. `is_private`: the client may be trusted with
+/// Why a scene is not accepted; nothing if it is. `is_private`: the client may be trusted with
 /// scenes that it has compiled.
 std::optional<Refusal> refusal_of(const control::Submit& m, std::span<const std::byte> scene,
                                   bool is_private);

@@ -1,4 +1,4 @@
-// Who wants to hear of which job, and when they are told of its progress.
+// Keeps which clients watch which job, and when they are told of its progress.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline constexpr double kProgressInterval_s = 0.1;
 class Watchers {
  public:
   void add(std::uint32_t job, const PeerId& peer) { watchers_[job].insert(peer); }
-  /// Those of a job that has ended: nobody watches it any longer.
+  /// Takes the watchers of a job that has ended: nobody watches it any longer.
   std::set<PeerId> take(std::uint32_t job) {
     auto node = watchers_.extract(job);
     return node.empty() ? std::set<PeerId>{} : std::move(node.mapped());

@@ -13,32 +13,32 @@
 namespace graycube {
 namespace {
 
-/// Cells of the coarse pre-render along each side of a macro-region, and along each side of the
-/// grid at most: fewer where each is traced by itself. (With 16 nodes 4, 8 and 16 cells balance
+/// Cells of the coarse pre-render along each side of a macro-region, and at most along each side of
+/// the grid: fewer when each cell is traced by itself. (With 16 nodes 4, 8 and 16 cells balance
 /// csg10k to 0.80, 0.88 and 0.87.)
 constexpr std::uint32_t kFineCells = 8;
 constexpr std::uint32_t kLeastFineCells = 2;
 constexpr std::uint32_t kMostCells = 64, kMostCellsApart = 32;
-/// What a ray that comes in costs a node, in primitives that it tests. Its evaluators hardly notice
-/// (what they do for it counts by itself); its mailroom decodes and stores it.
+/// The cost to a node of a ray that comes in, in tests of a primitive. Its evaluators hardly notice
+/// (their tracing counts by itself), but its mailroom decodes and stores the ray.
 constexpr double kCrossingCost = 3;
-/// Enough to tell the work of a macro-region from that of the next, and what its shadow rays ask
-/// for.
+/// Enough pixels to tell the work of a macro-region from that of the next, and to see which
+/// occluders its shadow rays need.
 constexpr std::uint32_t kCoarsePixelsPerNode = 512;
-/// The pre-render subdivides the whole scene: where nothing is asked for, there must be this many
+/// The pre-render subdivides the whole scene: unless balance is asked for, there must be this many
 /// primary rays to each primitive.
 constexpr std::uint64_t kPrimaryRaysPerPrimitive = 2;
 
-/// In which part a fine cell is.
+/// The index of the part in which a fine cell is, parts being separated by `cuts`.
 std::uint16_t cell_of(std::uint16_t fine, const std::vector<std::uint32_t>& cuts) {
   return static_cast<std::uint16_t>(std::upper_bound(cuts.begin(), cuts.end(), fine) -
                                     cuts.begin());
 }
 
-/// Strips no wider are traced in packets that aren't full.
+/// Strips of at most so many pixels are traced in packets that aren't full.
 constexpr std::int64_t kNarrowStrip = 4;
 
-/// Own pixels end with the macro-region where they nearly do, but each node keeps some.
+/// Makes own pixels end with the macro-region if they nearly do; each node keeps some pixels.
 void close_narrow_strips(std::span<const std::int64_t> region_edges,
                          std::span<std::int64_t> own_edges) {
   for (std::size_t i = 0; i < own_edges.size(); ++i) {
@@ -49,7 +49,7 @@ void close_narrow_strips(std::span<const std::int64_t> region_edges,
   }
 }
 
-/// From 0 to the side of the picture.
+/// The inner edges with 0 before them and the picture's side behind them.
 std::vector<std::int64_t> with_ends(const std::vector<std::int64_t>& inner, std::uint32_t side) {
   std::vector<std::int64_t> all{0};
   all.insert(all.end(), inner.begin(), inner.end());

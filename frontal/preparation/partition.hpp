@@ -1,4 +1,4 @@
-// Where the boundaries of the macro-regions go.
+// Chooses the boundaries of the macro-regions.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 namespace graycube {
 
 struct Partition {
-  /// What was picked: never kAuto.
+  /// The mode that was picked; never kAuto.
   PartitionMode mode = PartitionMode::kRegular;
   MacroGrid grid;
-  /// Own pixels, as own_pixels.hpp says.
+  /// Edges of the nodes' own pixels, as own_pixels.hpp describes them.
   std::vector<std::int64_t> own_edges;
-  /// As CoarseLoad says; 0 where there was no pre-render.
+  /// See CoarseLoad; 0 when there was no pre-render.
   double rays_per_primary = 0;
-  /// As CoarseLoad says, `from` being a macro-region of the grid.
+  /// See CoarseLoad; `from` is a macro-region of the grid.
   std::vector<LeavingLight> left_by_light;
 };
 
-/// For a scene that `cube` renders, with `scatter` × `scatter` macro-regions a node. A picture too
-/// small for a coarse pre-render is cut regularly whatever is `wanted`; kAuto also where the
-/// pre-render would not be small beside the picture. Where all rays stay in the pre-render, work
-/// lies where pixels are: then each row of nodes cuts its part of the picture by itself, and
+/// Cuts a scene that `cube` renders into `scatter` × `scatter` macro-regions per node. A picture
+/// too small for a coarse pre-render is cut regularly whatever is `wanted`; kAuto does so, too,
+/// when the pre-render would not be small beside the picture. When all rays stay in the pre-render,
+/// work lies where pixels are: then each row of nodes cuts its part of the picture by itself, and
 /// macro-regions lie about there. `horizons` may be null.
 Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
                        PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons,

@@ -18,27 +18,27 @@
 namespace graycube {
 namespace {
 
-/// `--scatter` where nothing is asked for. Each doubling about doubles the rays that are forwarded,
-/// which costs more than the better balance brings (docs/lab/2026-11-22-scattered-regions.md).
+/// Scatter when none is asked for. Each doubling about doubles the rays that are forwarded, which
+/// costs more than the better balance brings (docs/lab/2026-11-22-scattered-regions.md).
 constexpr std::uint32_t kAutoScatter = 1;
 
-/// Depths beside light horizons: there must be this many primary rays to each primitive, since two
-/// more scenes are subdivided for them, and to each texel.
+/// Depths are made beside light horizons only if there are this many primary rays to each
+/// primitive, as two more scenes are subdivided for them, and this many to each texel of depths.
 constexpr std::uint64_t kRaysPerPrimitiveForDepths = 12;
 constexpr std::uint64_t kRaysPerDepthTexel = 6;
 
-/// Foreign bounds: there must be this many primary rays to each primitive, since they are taken
-/// from the whole scene's tree.
+/// Foreign bounds are made only if there are this many primary rays to each primitive, since they
+/// are taken from the whole scene's tree.
 constexpr std::uint64_t kRaysPerPrimitiveForBounds = 2;
 
-/// Up to this size of the model most nodes have room for all that their shadow rays ask for.
+/// Up to this size of the model, most nodes have room for all objects that their shadow rays meet.
 constexpr std::uint64_t kFinishedModelBytes = 2 * kSmallSlices;
 
 void add_error(std::vector<control::ErrorItem>& errors, std::string where, std::string why) {
   if (errors.size() < kMaxErrorsListed) errors.push_back({std::move(where), std::move(why)});
 }
 
-/// `serial` has no such limits.
+/// Checks limits that `serial` doesn't have.
 void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem>& errors) {
   for (const ExceededLimit& limit : exceeded_credit_limits(s)) {
     const std::string unit = limit.unit.empty() ? "" : " " + std::string(limit.unit);
@@ -47,7 +47,7 @@ void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem
   }
 }
 
-/// Checks what apply_overrides made; what doesn't fit is added to `errors`.
+/// Checks the settings with the options' overrides; what doesn't fit is added to `errors`.
 void check_overrides(const control::JobOptions& options, const RenderSettings& settings,
                      std::vector<control::ErrorItem>& errors) {
   const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
@@ -68,7 +68,7 @@ void check_overrides(const control::JobOptions& options, const RenderSettings& s
   }
 }
 
-/// Nothing, and errors, where the bytes are no scene.
+/// Nothing, and errors, when the bytes are no scene.
 std::optional<Model> model_of(std::span<const std::byte> scene,
                               std::vector<control::ErrorItem>& errors) {
   if (is_encoded_model(scene)) {
@@ -99,7 +99,7 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
   out.slices.push_back(encode_model(model));
 }
 
-/// What is known of shadow rays' ways to the lights.
+/// The knowledge of the shadow rays' ways to the lights that nodes get.
 struct LightWays {
   std::shared_ptr<const LightHorizons> horizons;
   Occluders occluders;
@@ -107,9 +107,9 @@ struct LightWays {
   bool are_held = false;
 };
 
-/// Nothing where horizons aren't wanted or there are none: on one node no ray leaves, and lights
-/// that are walled in have none. Depths only where too many shadow rays will leave their nodes for
-/// want of room for occluders.
+/// Nothing when horizons aren't wanted or there are none: on one node no ray leaves, and lights
+/// that are walled in have none. Depths are made only when too many shadow rays will leave their
+/// nodes for want of room for occluders.
 LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   LightWays ways;
   if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return ways;
@@ -128,15 +128,15 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   return ways;
 }
 
-/// Whether nodes finish rays that have left their macro-regions: unless a report's mode is asked
-/// for, or the whole scene would be subdivided only for that.
+/// Whether nodes finish rays that have left their macro-regions. Not if a mode is asked for that
+/// keeps to the report, nor if the whole scene would be subdivided for nothing else.
 bool finishes_rays(const PreparationWork& work, const WholeScene& whole) {
   return work.options.shadows == ShadowMode::kHorizon && work.options.flow == FlowMode::kCredit &&
          work.cube.nodes() > 1 && whole.has_primary_rays(kRaysPerPrimitiveForBounds);
 }
 
-/// Balance matters where rays wait for the busiest node: not where nodes help each other, nor in
-/// 1987.
+/// The partition mode with kAuto decided where it can be. Balance matters when rays wait for the
+/// busiest node: not when nodes have replicas, nor in the flow of 1987.
 PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
   const bool is_open = work.options.partition == PartitionMode::kAuto;
   return is_open && (has_replicas || work.options.flow == FlowMode::kBlocking)

@@ -1,5 +1,5 @@
-// From a scene's text to what the nodes get: read, compiled, cut into macro-regions, each with only
-// the part of the scene that reaches into it. Pure and slow: a thread of its own runs it.
+// Turns a scene's text into the nodes' slices: reads, compiles and cuts it into macro-regions, each
+// with only the part that reaches into it. Pure and slow: a thread of its own runs it.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace graycube {
 
-/// With `--shadows local`, a model of at most so many bytes is sent to every node whole: it will
-/// need nearly all of it.
+/// With `--shadows local`, a model of at most so many bytes is sent to every node whole, as every
+/// node will need nearly all of it.
 inline constexpr std::uint64_t kReplicaBytes = std::uint64_t{32} << 20;
 
 struct PreparationWork {
   std::uint32_t job = 0;
   std::string scene_name;
-  /// Its text, or the model that it has been compiled to.
+  /// The scene's text, or the model that the client has compiled it to.
   Bytes scene;
   control::JobOptions options;
   Hypercube cube = *Hypercube::of_size(1);
@@ -43,11 +43,11 @@ struct PreparedScene {
   RenderSettings settings;
   std::optional<TilePlan> plan;
   std::uint64_t primitives = 0, objects = 0;
-  /// By rank, light horizons behind; one for all where every node holds the whole model.
+  /// Slices with light horizons at their ends, by rank; or one for all, the whole model.
   std::vector<SharedBytes> slices;
-  /// What slices may take on each node, with copies of neighbours', in bytes.
+  /// Bytes that slices may take on each node, copies of neighbours' slices included.
   std::uint64_t copy_room = 0;
-  /// Of light horizons, in each slice.
+  /// Bytes of light horizons at the end of each slice.
   std::uint64_t horizon_bytes = 0;
   /// In `macro`: every node holds the whole model.
   bool has_replicas = false;
@@ -55,7 +55,7 @@ struct PreparedScene {
   bool makes_copies = false;
   /// The rays that descend from a primary ray, itself included, on average; 0 where nothing tells.
   double rays_per_primary = 0;
-  /// What reading and compiling the scene took, and what cutting it.
+  /// Seconds that reading and compiling the scene took, and seconds that cutting it took.
   double load_s = 0, partition_s = 0;
 };
 

@@ -14,11 +14,11 @@
 namespace graycube {
 namespace {
 
-/// Of the scene on one node, with occluders: space is shared out however small the scene is.
+/// Most of the scene on one node, with occluders: space is shared out however small the scene is.
 constexpr double kMostPart = 0.45;
 
-/// Calls f(texel) for a texel and those around it on its face: the pre-render looks at few pixels,
-/// and what one surface asks for in a texel the next may ask for beside it.
+/// Calls f(texel) for a texel and those around it on its face: the pre-render traces few pixels,
+/// and the next surface may ask for the texel beside the one that was asked for.
 template <typename F>
 void for_each_around(std::uint32_t texel, F&& f) {
   constexpr std::uint32_t kSide = LightHorizons::kSide;
@@ -29,7 +29,7 @@ void for_each_around(std::uint32_t texel, F&& f) {
   }
 }
 
-/// One query for each texel that is asked for, as far as any ray asks for it.
+/// One query for each texel that is asked for, with the largest distance and the sum of rays.
 std::vector<OccluderQuery> together(std::vector<OccluderQuery> queries) {
   std::sort(queries.begin(), queries.end(), [](const OccluderQuery& a, const OccluderQuery& b) {
     return a.light != b.light ? a.light < b.light : a.texel < b.texel;
@@ -48,7 +48,7 @@ std::vector<OccluderQuery> together(std::vector<OccluderQuery> queries) {
   return queries;
 }
 
-/// By rank: what shadow rays ask for that leave their node.
+/// The queries of shadow rays that leave their node, by rank, with those for the texels around.
 std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube,
                                                    const Partition& cut) {
   std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
@@ -81,7 +81,7 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
   return queries;
 }
 
-/// What nodes hold beside what their macro-regions need.
+/// Chooses the objects that nodes hold beside those that their macro-regions need.
 class Contents {
  public:
   Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube,
@@ -114,7 +114,7 @@ class Contents {
   }
 
  private:
-  /// They are few, mostly floors, and where one is foreign nothing can be said of any ray.
+  /// Such objects are few, mostly floors, and if one is foreign nothing can be said of any ray.
   void add_unbounded(std::size_t& room, std::vector<bool>& whole) const {
     for (const std::uint32_t item : tree_->unbounded_items()) {
       const std::uint32_t object = tree_->items()[item].object;
@@ -130,13 +130,13 @@ class Contents {
   const SurfaceTree* tree_;
   const Occluders& occluders_;
   std::vector<std::vector<OccluderQuery>> queries_;
-  /// By object.
+  /// Encoded bytes of each object, by its index.
   std::vector<std::size_t> bytes_;
   std::uint64_t room_ = 0;
 };
 
-/// By rank, encoded; for nobody where not for all, since nodes with bounds send on what is on its
-/// way to others.
+/// Encoded foreign bounds, by rank. If they are too large for one node, no node gets any: nodes
+/// with bounds send on rays that are on their way to others.
 std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const SurfaceTree* tree,
                              std::size_t most_bytes) {
   std::vector<Bytes> all(contents.size());

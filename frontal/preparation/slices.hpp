@@ -1,5 +1,5 @@
-// What each node gets of the scene: the parts that reach into its macro-regions, and what may stand
-// between its surfaces and the lights.
+// Chooses what each node gets of the scene: the parts that reach into its macro-regions, and
+// objects that may stand between its surfaces and the lights.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,17 @@
 
 namespace graycube {
 
-/// Bytes that a node may hold: so many times an equal share of the whole scene, or so many bytes
-/// where that is more, for its own slice with occluders, and for slices with copies of neighbours'.
+/// A node's own slice with occluders, and its slices with copies of neighbours', may take so many
+/// times an equal share of the whole scene; or so many bytes, if that is more.
 inline constexpr std::uint64_t kMostShares = 2;
 inline constexpr std::uint64_t kSmallSlices = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t kSmallCopies = std::uint64_t{256} << 10;
 
-/// Of an equal share of the scene, or so many bytes where that is more: foreign bounds on a node.
+/// A node's foreign bounds may take this part of an equal share; or so many bytes, if that is more.
 inline constexpr double kBoundsPart = 0.25;
 inline constexpr std::uint64_t kSmallBounds = std::uint64_t{128} << 10;
 
-/// On each of `nodes`, of a model that takes so many bytes.
+/// Bytes for slices or bounds on each of `nodes`; the whole scene's model takes `model_bytes`.
 constexpr std::uint64_t slice_room(std::uint64_t model_bytes, std::uint32_t nodes) {
   return std::max(kMostShares * model_bytes / nodes, kSmallSlices);
 }
@@ -38,15 +38,15 @@ constexpr std::uint64_t copy_room(std::uint64_t model_bytes, std::uint32_t nodes
 }
 
 struct Slices {
-  /// By rank.
+  /// Each node's slice, encoded, indexed by rank.
   std::vector<SharedBytes> bytes;
   bool have_bounds = false;
 };
 
-/// The model that each node's macro-regions and own pixels need. With `tree`, of the whole model,
-/// also objects without bounds, and foreign bounds; with occluders, unless they are empty, also
-/// what the partition's pre-render asks for, as far as there is room, and foreign horizons.
-/// `horizons`, encoded, come last.
+/// Encodes the model that each node's macro-regions and own pixels need. With `tree`, which is that
+/// of the whole model, nodes also get objects without bounds, and foreign bounds; with occluders,
+/// unless they are empty, also the objects that the partition's pre-render asks for, as far as
+/// there is room, and foreign horizons. `horizons`, encoded, come last in each slice.
 Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
                  const SurfaceTree* tree, const Occluders& occluders,
                  std::span<const std::byte> horizons);

@@ -1,4 +1,4 @@
-// The scene that is to be cut, and its subdivision, which is made when something first asks for it.
+// The scene that is to be cut; it is subdivided when that is first asked for.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ class WholeScene {
     if (!territory_) territory_ = Territory::of(model_);
     return territory_;
   }
-  /// Whether there are so many primary rays to each primitive: subdividing the scene then is a
-  /// small part of the work.
+  /// Whether the picture has at least so many primary rays to each primitive: subdividing the scene
+  /// is then a small part of the work.
   bool has_primary_rays(std::uint64_t per_primitive) const {
     return model_->settings.image.primary_rays() >= per_primitive * model_->primitives.size();
   }

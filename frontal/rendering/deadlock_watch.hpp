@@ -1,5 +1,5 @@
-// Finds deadlocks of the historical flow: cycles of nodes each of which holds a ray for which the
-// next one's queue has no room.
+// Finds deadlocks of the historical flow: cycles of nodes that each hold a ray for which the next
+// node's queue has no room.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ class DeadlockWatch {
   /// cycle, each waiting for the next and the last for the first; empty while there is none.
   ///
   /// Two rounds of answers are compared, all of the first received before the second's ping was
-  /// sent: whoever tells the same in both did nothing in between, so all such nodes were in that
-  /// state at one moment. What one has granted and the other received are equal then, so no room
-  /// was on its way either, and none will ever come.
+  /// sent: a node that tells the same in both did nothing in between, so all such nodes were in
+  /// that state at one moment. The room that one has granted equals the room that the other has
+  /// received then, so no room was on its way either, and none will ever come.
   std::vector<Rank> add(Rank rank, const control::WaitReport& report, std::uint64_t last_ping);
 
   /// Nodes that were stalled in the newest complete round of answers.

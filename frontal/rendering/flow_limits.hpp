@@ -1,4 +1,4 @@
-// What bounds the rays in the machine; other values are for tests.
+// Limits of the rays in the machine; only tests set others than these.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ struct FlowLimits {
   /// Own tiles that a node may have open at a time in `macro`: open until the frontal holds all
   /// their light. All rays in the machine descend from them (design section 10).
   std::uint32_t window_tiles = 256;
-  /// Fewer tiles where so many rays descend from them, as far as the pre-render tells, but not
-  /// fewer than the least.
+  /// A node may have fewer tiles open when more than so many rays would descend from them, as far
+  /// as the pre-render tells, but not fewer than the least.
   double window_rays = 300'000;
   std::uint32_t least_window_tiles = 8;
-  /// What may be under way on a link and in its receiver's inbox.
+  /// Bytes of rays that may be under way on a link and in its receiver's inbox.
   std::uint64_t link_credit_bytes = std::uint64_t{2} << 20;
   std::uint32_t batch_bytes = std::uint32_t{256} << 10;
-  /// What a node's outboxes may hold: then it traces only what comes on class credit. All places
+  /// Rays that a node's outboxes may hold before it traces only rays on class credit. All places
   /// for such rays behind a node's links are a quarter of it, or one for each class and link.
   std::uint64_t outbox_rays = kDefaultOutboxRays;
 };

@@ -1,4 +1,4 @@
-// The light and credit that nodes send: added up on the film and in the ledger of tiles, each batch
+// Adds up the light and credit that nodes send, on the film and in the ledger of tiles, each batch
 // once.
 #pragma once
 
@@ -18,9 +18,9 @@ namespace graycube {
 class LightIntake {
  public:
   struct Taken {
-    /// Why the batch can't be added, or empty.
+    /// Why the batch can't be added; empty if it was.
     std::string wrong;
-    /// Tiles that have become whole.
+    /// The numbers of the tiles that this batch made whole.
     std::vector<std::uint32_t> whole;
   };
 
@@ -32,7 +32,7 @@ class LightIntake {
 
   const Film& film() const { return film_; }
   const TileLedger& tiles() const { return ledger_; }
-  /// Batches of the epoch that have come.
+  /// The number of the epoch's batches that have come.
   std::uint64_t batches() const;
 
  private:
@@ -44,7 +44,7 @@ class LightIntake {
   TileLedger ledger_;
   BatchLimits limits_;
   std::vector<std::uint64_t> batches_;  // by rank
-  /// The batch that is taken in; here so that its memory serves the next.
+  /// The batch that is taken in; members so that their memory serves the next batch.
   std::vector<TileCredit> credits_;
   std::vector<Contribution> contributions_;
 };

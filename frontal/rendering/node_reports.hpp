@@ -1,4 +1,4 @@
-// What the nodes did for a job, as they report it at its end.
+// The nodes' reports of what they did for a job, which come at its end.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ class NodeReports {
     }
   }
 
-  /// The first of each node counts.
+  /// Only the first report of each node counts.
   void add(const control::NodeStats& stats) {
     if (stats.rank >= stats_.size() || !came_.note(Rank{stats.rank})) return;
     stats_[stats.rank] = stats;
   }
   bool are_complete() const { return came_.is_complete(); }
-  /// By rank; of a node that has not reported only who it is.
+  /// Indexed by rank; of a node that has not reported, only rank and label are set.
   const std::vector<control::NodeStats>& stats() const { return stats_; }
 
  private:

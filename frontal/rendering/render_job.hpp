@@ -1,5 +1,5 @@
-// A job while it is on the nodes: who has which slice and which tiles, what light has come of them,
-// what the token says, and what the nodes report.
+// A job while it is on the nodes: which node has which slice and which tiles, the light that has
+// come, what the token found, and the nodes' reports.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace graycube {
 
-/// Shadows local: what a node may use for other nodes' models.
+/// Bytes that other nodes' models may take on a node with `--shadows local`.
 inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 
 class RenderJob {
  public:
   RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
             const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
-  /// Parts refer to the plan of its scene.
+  /// Not copyable, as its parts refer to the plan of its scene.
   RenderJob(const RenderJob&) = delete;
   RenderJob& operator=(const RenderJob&) = delete;
 
@@ -52,18 +52,18 @@ class RenderJob {
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
   /// nodes whose windows opened are appended to `opened`.
   std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
-  /// By rank, how many of its tiles neighbours have made whole since this was last asked.
+  /// How many of each node's tiles neighbours made whole since the last call, indexed by rank.
   std::vector<std::uint32_t> take_relief() { return tiles_.take_relief(); }
 
   void set_terminated(const control::Terminated& verdict) { verdict_ = verdict; }
-  /// How far the token is.
+  /// Tells the rounds and hops of the token so far.
   void set_token(const control::TokenProgress& token) { token_ = token; }
   const control::TokenProgress& token() const { return token_; }
   std::size_t tiles() const { return light_.tiles().tile_count(); }
   std::size_t tiles_whole() const { return light_.tiles().whole_count(); }
   bool is_complete() const;
-  /// What contradicts what, when the token says that nothing is left but a tile is open; else
-  /// empty.
+  /// The error when the token says that nothing is left to do but a tile is open; empty if all is
+  /// well.
   std::string contradiction() const;
   const Film& film() const { return light_.film(); }
 

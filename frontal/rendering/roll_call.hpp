@@ -1,4 +1,4 @@
-// Which nodes have answered, each counted once.
+// Counts which nodes have answered, each once.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class RollCall {
  public:
   explicit RollCall(std::uint32_t nodes) : has_answered_(nodes, false) {}
 
-  /// False where it had answered before.
+  /// False if the node had answered before.
   bool note(Rank rank) {
     if (has_answered_[rank.value]) return false;
     has_answered_[rank.value] = true;

@@ -1,5 +1,5 @@
-// The nodes' slices of the scene, as long as somebody may still need them: the node itself, one
-// that borrows it, or a neighbour that gets a copy to help.
+// Keeps the nodes' slices of the scene as long as a node may still need them: the node itself, one
+// that borrows the slice, or a neighbour that gets a copy to help.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,35 @@ namespace graycube {
 class SliceStock {
  public:
   struct Rules {
-    /// Any node may ask for any other's.
+    /// Whether any node may ask for any other node's slice.
     bool are_lent = false;
-    /// Neighbours may get copies.
+    /// Whether neighbours may get copies of each other's slices.
     bool are_copied = false;
     /// Bytes of slices, its own included, that a node has room for.
     std::uint64_t room = 0;
   };
 
-  /// Slices by rank, or one for all.
+  /// `slices` is indexed by rank, or holds one slice for all nodes.
   SliceStock(const Hypercube& cube, std::vector<SharedBytes> slices, const Rules& rules);
 
-  /// A node's own; given away where nobody else can ask for it.
+  /// A node's own slice; forgotten here when no other node can ask for it.
   SharedBytes take(Rank rank);
-  /// To be lent; null where slices aren't, or there is no such node.
+  /// A slice to be lent; null if slices aren't lent, or there is no such node.
   const SharedBytes* to_lend(std::uint32_t rank) const;
-  /// For a neighbour that is to help the owner; null where that has no room for it, or has one.
+  /// The owner's slice for a neighbour that is to help; null if that has no room, or has a copy.
   const SharedBytes* to_copy(Rank owner, Rank helper);
 
  private:
   bool has_room(Rank helper, Rank owner) const;
-  /// Whether any neighbour ever can have a copy.
+  /// Whether any neighbour can ever get a copy of the owner's slice.
   bool may_be_copied(Rank owner) const;
 
   Hypercube cube_;
   std::vector<SharedBytes> slices_;
   Rules rules_;
-  /// By rank: of each slice, and of all that a node holds.
+  /// Bytes of each node's slice, and of all slices that the node holds; indexed by rank.
   std::vector<std::uint64_t> slice_bytes_, held_bytes_;
-  /// By rank: bits of the neighbours whose slice it has.
+  /// A mask for each node, by rank: the bits of the neighbours whose slices it has copies of.
   std::vector<std::uint32_t> copies_;
 };
 

@@ -56,7 +56,7 @@ void TileHandout::take_over(Rank helper, std::uint32_t& open, std::vector<std::u
   while (own_tiles_[helper.value].empty() && cube_.dimension() > 0) {
     auto& theirs = most_left_beside(helper);
     if (theirs.empty() || open >= window_.size(theirs.size())) break;
-    // From the far end: the owner comes from the other.
+    // The helper takes tiles from the far end, as the owner takes them from the front.
     tiles.push_back(theirs.back());
     theirs.pop_back();
     ++open;

@@ -1,4 +1,4 @@
-// Which tiles are left, which node has which, and who gets which next.
+// Keeps which tiles are left and which node has which, and chooses who gets which next.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ class TileHandout {
  public:
   enum class Way : std::uint8_t {
     kAny,   ///< `roth`: any node gets any tile
-    kOwn,   ///< each node gets those of its macro-regions
-    kHelp,  ///< the same, and a node that has none left those of the neighbour
-            ///< that has most
+    kOwn,   ///< each node gets tiles of its macro-regions
+    kHelp,  ///< the same, and a node that has none left gets tiles of the
+            ///< neighbour that has most left
   };
 
   /// The plan must outlive this.
   TileHandout(const Hypercube& cube, const TilePlan& plan, Way way, const TileWindow& window);
 
-  /// Tiles to hand to a node now, as its window allows.
+  /// Takes tiles to hand to the node now, as many as its window allows.
   std::vector<std::uint32_t> next(Rank rank);
-  /// The number of the next batch that brings a node its tiles.
+  /// The sequence number of the next batch that brings a node its tiles.
   std::uint64_t next_sequence(Rank rank) { return batches_[rank.value]++; }
   /// A tile that was handed out is whole. Returns the node that had it.
   Rank is_whole(std::uint32_t tile);
-  /// By rank, how many of its tiles neighbours have traced and brought back since this was last
-  /// asked.
+  /// How many of each node's tiles neighbours have traced and brought back since the last call,
+  /// indexed by rank.
   std::vector<std::uint32_t> take_relief();
   const TileWindow& window() const { return window_; }
 

@@ -5,7 +5,7 @@
 namespace graycube {
 namespace {
 
-/// So many tiles that few enough rays descend from them, as far as the pre-render tells.
+/// The number of tiles from which at most window_rays descend, as far as the pre-render tells.
 std::uint32_t most_open(const PreparedScene& scene, const FlowLimits& limits) {
   const ImageSize& image = scene.settings.image;
   const double primaries =

@@ -11,9 +11,9 @@ namespace graycube {
 
 /// Tiles are handed out again once this part of the window is free.
 inline constexpr std::uint32_t kPartOfWindow = 4;
-/// The same per evaluator thread in `roth`. Of tiles more at first, this part of an equal share of
-/// those that are left, so that light comes in fewer messages; pixels and lines are handed out as
-/// in 1987.
+/// The least and the most tiles that a node may have open per evaluator thread in `roth`. While
+/// many are left it may have this part of an equal share of them, so that light comes in fewer
+/// messages; pixels and lines are handed out by the least only, as in 1987.
 inline constexpr std::uint32_t kRothTilesPerThread = 2;
 inline constexpr std::uint32_t kMostRothTilesPerThread = 16;
 inline constexpr std::uint32_t kPartOfRothShare = 4;
@@ -27,9 +27,9 @@ class TileWindow {
   TileWindow(const PreparedScene& scene, std::uint32_t nodes, std::uint32_t threads,
              const FlowLimits& limits);
 
-  /// When so many tiles are left of those that a node takes from.
+  /// Tiles that a node may have open when `left` are left of those that it takes from.
   std::uint32_t size(std::size_t left) const;
-  /// Before any tile is handed out.
+  /// The size that nodes are told at the start, before any tile is handed out.
   std::uint32_t first_size() const { return is_roth_ ? size(tiles_) : most_; }
   /// Whether so much of the window is free that it pays to hand out tiles: a message for each tile
   /// that becomes whole would wake a node for next to nothing.
@@ -39,9 +39,9 @@ class TileWindow {
   bool is_roth_, has_replicas_;
   std::uint32_t nodes_, threads_;
   std::size_t tiles_;
-  /// In `roth`, for each evaluator thread of a node.
+  /// The most tiles for each evaluator thread of a node in `roth`.
   std::uint32_t most_per_thread_;
-  /// In `macro`, at most.
+  /// The most tiles that a node may have open in `macro`.
   std::uint32_t most_;
 };
 

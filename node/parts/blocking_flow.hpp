@@ -34,11 +34,11 @@ class BlockingFlow : public RayFlow {
   void reset() override;
 
  private:
-  /// In bytes of ray records.
+  /// All members count bytes of ray records.
   struct Link {
-    /// Room in the neighbour's queue; room here that it was not told of yet.
+    /// Room in the neighbour's queue; and room here that the neighbour was not told of yet.
     std::uint64_t send_credit = 0, ungranted = 0;
-    /// All that was granted to the neighbour, and by it.
+    /// The sums of all that was granted to the neighbour, and of all that it granted.
     std::uint64_t granted = 0, received = 0;
   };
   struct Stalled {

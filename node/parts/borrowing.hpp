@@ -17,7 +17,7 @@ class Borrowing {
       : is_on_(is_on), room_(room), loans_(nodes) {}
   bool is_on() const { return is_on_; }
 
-  /// Where a ray goes on that lacks a node's model.
+  /// How a ray goes on that lacks a node's model.
   enum class Place : std::uint8_t {
     kHere,   ///< the model is here meanwhile
     kWaits,  ///< it was taken over, until the model comes
@@ -27,9 +27,9 @@ class Borrowing {
   Place place_of(Rank owner, const RayTask& ray, Mail& mail);
 
   bool is_asked(Rank owner) const;
-  /// The model is here, and takes so much memory; the rays that have waited for it.
+  /// The model is here and takes that much memory; returns the rays that have waited for it.
   std::vector<RayTask> came(Rank owner, std::uint64_t memory_bytes);
-  /// It will not come.
+  /// The model will not come; returns the rays that have waited for it.
   std::vector<RayTask> was_refused(Rank owner);
 
   void report(control::NodeStats& stats) const { stats.models_borrowed += models_; }

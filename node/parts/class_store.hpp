@@ -21,7 +21,7 @@ class ClassStore {
     std::optional<std::uint32_t> link;
   };
 
-  /// Under those of its class: what descends from one ray is finished before the next is begun.
+  /// Puts a ray below its class's: what descends from one ray is done before the next begins.
   void add_received(const RayTask& ray, std::uint32_t link) {
     rays_.emplace_hint(rays_.lower_bound(ray.hops), ray.hops, Held{ray, link});
   }

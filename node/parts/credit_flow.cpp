@@ -9,10 +9,10 @@
 namespace graycube {
 namespace {
 
-/// Where little is under way on a link, a part of a batch goes out at once: this part, when at most
-/// that part of the link's credit is out.
+/// A part of a batch goes out at once, 1 in kEagerPart, when at most 1 in kQuietPart of the link's
+/// credit is out.
 constexpr std::size_t kEagerPart = 4, kQuietPart = 8;
-/// No primary rays are started while so many rays wait to be sent.
+/// No primary rays are started while that many rays wait to be sent.
 constexpr std::uint64_t kLongOutboxes = 8192;
 
 }  // namespace
@@ -38,8 +38,8 @@ Pace CreditFlow::pace() const {
 
 bool CreditFlow::is_full() const { return outbox_rays_ + reserved() >= rules_.outbox_rays; }
 
-/// What has arrived is always traced, so the neighbours' inboxes and with them the outboxes empty
-/// themselves.
+/// Tiles may wait: received rays are traced in any case, so the neighbours' inboxes empty
+/// themselves, and with them the outboxes here.
 bool CreditFlow::may_start_tiles() const { return outbox_rays_ < kLongOutboxes && !is_full(); }
 
 std::size_t CreditFlow::held() const {
@@ -96,7 +96,7 @@ bool CreditFlow::send(bool partial, Mail& mail) {
 void CreditFlow::flush(Mail& mail) {
   for (std::uint32_t bit = 0; bit < links_.size(); ++bit) {
     send_link(bit, true, mail);
-    // Less is kept for the next time: the peer has enough left, and each grant is a message.
+    // A smaller grant waits for next time: the peer has credit left, and each grant is a message.
     grant_from(bit, rules_.link_credit_bytes / kQuietPart, mail);
   }
 }
@@ -132,7 +132,7 @@ std::size_t CreditFlow::gift_room(std::uint32_t bit) const {
   return static_cast<std::size_t>(links_[bit].send_credit / kRayBytes);
 }
 
-/// What descends from rays on class credit, as far as the link's own credit allows.
+/// Sends rays that descend from rays on class credit, as far as the link's own credit allows.
 void CreditFlow::send_class_outbox(std::uint32_t bit, Mail& mail) {
   std::vector<RayTask>& waiting = links_[bit].class_outbox;
   const auto paid = std::min<std::size_t>({waiting.size(), gift_room(bit), kMaxRaysPerBatch});
@@ -142,8 +142,8 @@ void CreditFlow::send_class_outbox(std::uint32_t bit, Mail& mail) {
   waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(paid));
 }
 
-/// Where there is no such credit: what descends from rays on class credit, and of a full node all
-/// else, while there are places for their classes.
+/// Sends rays on their classes' places when the link has no credit: those that descend from rays on
+/// class credit, and if the node is full all others, too.
 void CreditFlow::send_on_class(std::uint32_t bit, Mail& mail) {
   Link& link = links_[bit];
   std::vector<RayTask> rays;
@@ -196,7 +196,7 @@ bool CreditFlow::was_granted(std::uint32_t bit, std::uint64_t bytes, bool partia
 
 // ---- rays on the credit of their classes
 
-/// What an evaluator of a full node may send on of what it traces together.
+/// The most rays that an evaluator of a full node may send on in one piece of work.
 std::uint64_t CreditFlow::children_per_class_work() const {
   return rays_per_class_work() * rules_.most_children;
 }
@@ -223,8 +223,8 @@ bool CreditFlow::has_class_work() const {
   return reserved() == 0 && next_class(true, {}).has_value();
 }
 
-/// The highest that may be taken: of a full node with room after it, and that of the rays begun
-/// with.
+/// The highest class that may be taken. A full node takes only classes that have room for children,
+/// and only that of the rays in `begun`, if there are any.
 std::optional<std::uint16_t> CreditFlow::next_class(bool is_full,
                                                     const std::vector<RayTask>& begun) const {
   return class_rays_.highest([&](std::uint16_t c) {
@@ -232,7 +232,7 @@ std::optional<std::uint16_t> CreditFlow::next_class(bool is_full,
   });
 }
 
-/// While the node is full those of one class, otherwise any.
+/// Takes rays of one class while the node is full, otherwise of any.
 std::optional<RayFlow::ClassWork> CreditFlow::take_class_work(const Route& route, Mail& mail) {
   if (!has_class_work()) return std::nullopt;
   const bool full = is_full();

@@ -68,7 +68,7 @@ class CreditFlow : public RayFlow {
 
   FlowRules rules_;
   std::vector<Link> links_;  // by bit
-  /// In outboxes and class outboxes.
+  /// Number of rays in all outboxes and class outboxes.
   std::uint64_t outbox_rays_ = 0;
   ClassStore class_rays_;
   /// Rays of each class in the class outboxes, and those that evaluators may add.

@@ -10,11 +10,11 @@ namespace {
 /// A batch may be slow while the token goes round quickly, so after so many white rounds with the
 /// same non-zero sum each further one waits for the frontal's next ping.
 constexpr std::uint32_t kFreeStalledRounds = 1;
-/// So many such rounds are taken for a loss.
+/// After so many such rounds a batch is taken to be lost here.
 constexpr std::uint32_t kRoundsUntilLossHere = 32;
-/// Of all rounds so many are free. Once all tiles are whole two more are enough, and until then
-/// they mostly find rays under way: the others wait for that, or (a batch may be lost) for one of
-/// so many pings.
+/// So many rounds need wait for nothing. Once all tiles are whole two more are enough, and until
+/// then rounds mostly find rays under way. So further rounds wait for all tiles to be whole, or (as
+/// a batch may be lost) for every kPingsToARound-th ping.
 constexpr std::uint32_t kFreeRounds = 2;
 constexpr std::uint64_t kPingsToARound = 8;
 

@@ -1,5 +1,5 @@
-// How a node passes the token on that finds the end (coordination/termination.hpp): when, to whom,
-// and what rank 0 tells the frontal of it.
+// How a node passes on the token that detects the picture's end (coordination/termination.hpp):
+// when, to whom, and what rank 0 tells the frontal of it.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ class Ending {
   void work_came() { token_.message_received(); }
   /// Tiles of this node were traced by others.
   void work_was_taken() { token_.work_was_taken(); }
-  /// No ray is left anywhere; told to rank 0.
+  /// The frontal tells rank 0 that all tiles are whole: no ray is left anywhere.
   void all_are_whole() { all_are_whole_ = true; }
-  /// False when it was of no use.
+  /// False when the token was of no use.
   [[nodiscard]] bool on_token(std::span<const std::byte> batch, const BatchLimits& limits,
                               Mail& mail);
-  /// Passes the token on if it is here and may go. Passive: nothing is under way on this node.
-  /// `ping`: that of the frontal which is being answered.
+  /// Passes the token on if it is here and may go. `is_passive`: nothing is under way on this node.
+  /// `ping`: the number of the frontal's ping that is being answered.
   void pass(bool is_passive, std::optional<std::uint64_t> ping, Mail& mail);
   /// A new epoch.
   void reset();
@@ -37,7 +37,7 @@ class Ending {
   void tell_round(const Token& token, Mail& mail) const;
   void tell_verdict(Mail& mail) const;
 
-  /// Across which the next node on the ring is; nothing on a ring of one.
+  /// The link to the next node on the ring; nothing on a ring of one.
   std::optional<std::uint32_t> next_bit_;
   bool never_rests_;
   bool is_initiator_;

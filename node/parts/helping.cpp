@@ -6,20 +6,20 @@
 namespace graycube {
 namespace {
 
-/// Own tiles not begun, and rays received, from which on a node shares them. A ray costs about as
-/// much to send as to trace, so that it takes many of them.
+/// A node gives work away from so many own tiles not begun, or received rays, on. A ray costs about
+/// as much to send as to trace, so that it takes many of them.
 constexpr std::size_t kTilesToShare = 2;
 constexpr std::size_t kRaysToShare = 1024;
-/// Before a neighbour has a copy it takes so many tiles, and one more for so many bytes of the
-/// slice: to send and subdivide it costs about as much as to trace them.
+/// A neighbour gets a copy when it could take this many tiles, and one more for each kBytesPerTile
+/// of the slice: to send and subdivide the slice costs about as much as to trace them.
 constexpr std::size_t kTilesToCopy = 8;
 constexpr std::size_t kBytesPerTile = std::size_t{16} << 10;
 constexpr std::size_t kBytesPerRay = 32;
-/// Of a received ray, before it is traced, in tests of a primitive.
+/// The work that a received ray is expected to take, in tests of a primitive.
 constexpr double kRayWork = 50;
-/// What a tile takes is known once so many have been traced.
+/// The work that a tile takes is known once so many tiles have been traced.
 constexpr std::uint64_t kTellingTiles = 4;
-/// Given away at a time: at most half of what there is.
+/// The most rays that are given away at a time; never more than half of those here.
 constexpr std::size_t kMostRaysAtATime = 512;
 
 }  // namespace
@@ -74,14 +74,14 @@ void Helping::has_traced(double work, bool is_tile) {
   if (is_tile) ++tiles_traced_;
 }
 
-/// 0 while it isn't known.
+/// The mean work of a tile, in tests of a primitive; 0 while it isn't known.
 double Helping::work_of_a_tile() const {
   return tiles_traced_ < kTellingTiles ? 0 : work_done_ / static_cast<double>(tiles_traced_);
 }
 
-/// What brings both to the same if a neighbour that is idle does it: half of what this node will
-/// have done, as far as can be told, beyond what the neighbour has. Who is idle first need not have
-/// less to do, but may have been let run first.
+/// The work that an idle neighbour must take over to have done as much as this node: half of what
+/// this node will have done, as far as can be told, beyond what the neighbour has. A node that is
+/// idle first need not have less to do: it may have been let run first.
 double Helping::work_to_spare(const Neighbour& neighbour, const Supply& supply) const {
   const double to_do =
       work_of_a_tile() * static_cast<double>(supply.tiles + supply.unassigned_tiles) +
@@ -98,7 +98,7 @@ bool Helping::copy_pays(const Neighbour& neighbour, const Supply& supply) const 
          (supply.rays >= least_rays && spare >= 0.5 * kRayWork * static_cast<double>(least_rays));
 }
 
-/// Tiles rather than rays: they are a few bytes.
+/// Tiles are given rather than rays, as they are a few bytes.
 Helping::Gift Helping::gift_of(const Neighbour& neighbour, const Supply& supply,
                                std::size_t most_rays) const {
   const double tile = work_of_a_tile(), spare = work_to_spare(neighbour, supply);

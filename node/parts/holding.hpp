@@ -1,5 +1,5 @@
-// What a node holds of scene and picture while a job is on: its macro-regions, the tiles, and what
-// numbers may be.
+// What a node holds of scene and picture while a job is on: its macro-regions, the plan of tiles,
+// and the limits within which numbers in batches must lie.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Holding {
   TilePlan plan;
   BatchLimits limits;
 
-  /// Of a domain that was built from what the job was loaded with.
+  /// The holding of a node whose domain was built from the slice that came with `load`.
   static Holding of(const Seat& seat, const control::Load& load,
                     std::shared_ptr<const Domain> domain);
 
@@ -33,7 +33,7 @@ struct Holding {
   /// macro-regions, from these to what they meet.
   bool is_due(const RegionIndex& region, bool neighbours_help) const;
   bool are_due(std::span<const RayTask> rays, bool neighbours_help) const;
-  /// Who traces it, where it isn't everybody's as in `roth`.
+  /// The node that traces the tile, unless tiles are everybody's as in `roth`.
   Rank owner_of_tile(std::uint32_t tile) const { return seat.owner_of(plan.owner_of_tile(tile)); }
   bool is_own_tile(std::uint32_t tile) const { return holds(plan.owner_of_tile(tile)); }
   /// Tiles that belong to this node; 0 where all are everybody's.

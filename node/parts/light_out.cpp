@@ -22,7 +22,7 @@ void LightOut::reset() {
 void LightOut::add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
                    const TilePlan& plan, Mail& mail) {
   while (!returns.empty()) {
-    // Where children's light for the same pixels will come, each has its one place.
+    // When children's light for the same pixels will come, each pixel must have one place only.
     const bool comes_once = tile && !has_children_;
     returns = returns.subspan(comes_once ? merged_.add_tile(returns, *tile, plan)
                                          : merged_.add(returns, plan));

@@ -17,7 +17,7 @@ class LightOut {
  public:
   LightOut(const Seat& seat, SumsMode sums);
 
-  /// Of a tile's primary rays, or of rays that came from anywhere.
+  /// Gathers light: of the primary rays of `tile`, or when there is none, of rays from anywhere.
   void add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
            const TilePlan& plan, Mail& mail);
   /// Light that a child in the tree of sums has gathered. It goes on with this node's own, at the
@@ -25,12 +25,12 @@ class LightOut {
   /// the job has failed then.
   [[nodiscard]] bool on_sums(std::uint32_t bit, std::span<const std::byte> batch,
                              const BatchLimits& limits, Mail& mail);
-  /// All that is here.
+  /// Sends all light that is gathered here.
   void send(Mail& mail);
   bool is_empty() const { return merged_.is_empty(); }
   bool holds_others_light() const { return holds_others_light_; }
 
-  /// What it has sent in this job.
+  /// Adds the numbers of batches and bytes sent in this job.
   void report(control::NodeStats& stats) const;
   /// A new epoch.
   void reset();
@@ -42,7 +42,7 @@ class LightOut {
 
   MergeBuffer merged_;
   std::optional<std::uint32_t> parent_bit_;
-  /// By bit: in the tree of sums.
+  /// Whether the neighbour is a child in the tree of sums, indexed by bit.
   std::vector<bool> is_child_;
   bool has_children_ = false;
   bool holds_others_light_ = false;

@@ -1,5 +1,5 @@
-// One hypercube link, as the flow by credit sees it: what waits to cross it, and for how much there
-// is credit.
+// One hypercube link, as the flow by credit sees it: the rays that wait to cross it, and the credit
+// for more.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace graycube {
 
 struct Link {
   Outbox outbox;
-  /// What may still be sent before the peer grants more, in bytes of ray records.
+  /// Bytes of ray records that may still be sent before the peer grants more.
   std::uint64_t send_credit = 0;
   /// A full node's rays for the peer that descend from rays on class credit; and the places that
   /// rays on class credit have taken, on the way to the peer and on the way here.
   std::vector<RayTask> class_outbox;
   ClassPlaces places_out, places_in;
-  /// Taken from the inbox by evaluators, but not yet granted back.
+  /// Bytes of rays that evaluators have taken from the inbox, but that are not granted back yet.
   std::uint64_t ungranted = 0;
 
   void reset(std::uint64_t credit) {

@@ -1,5 +1,5 @@
-// What a node sends, in order; and the numbers of what goes and comes on each link, by which a loss
-// is found out.
+// The messages that a node sends, in order; and the numbers of the batches sent and received on
+// each link, by which a loss is noticed.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace graycube {
 class Mail {
  public:
   struct Outgoing {
-    /// Nothing: the frontal.
+    /// The neighbour's rank; nothing for the frontal.
     std::optional<Rank> to;
     Message message;
   };
-  /// What the token has to know of (coordination/termination.hpp).
+  /// Numbers of batches that the token carries (coordination/termination.hpp).
   struct Counted {
-    /// Batches to neighbours that may make a passive node active; of light to the frontal.
+    /// Batches to neighbours that may make a passive node active; batches of light to the frontal.
     std::uint64_t work = 0, light = 0;
   };
 
@@ -37,7 +37,7 @@ class Mail {
   void begin(const BatchStamp& first);
 
   void to_frontal(const ControlMessage& message);
-  /// Ends the job.
+  /// Tells the frontal that the job has failed, which ends it.
   void fail(std::string why);
   /// A greeting or its answer: neither is numbered.
   void signal(std::uint32_t bit, BatchType type);
@@ -58,7 +58,7 @@ class Mail {
     ++counted_.light;
     return post(std::nullopt, encode(stamped(sent_to_frontal_++)));
   }
-  /// Since it was last asked.
+  /// The numbers of batches sent since this was last called.
   Counted take_counted() { return std::exchange(counted_, {}); }
 
   /// Whether nothing was lost before a batch that came; the next one is due from here on.
@@ -68,7 +68,7 @@ class Mail {
   [[nodiscard]] bool is_next_from_frontal(std::uint64_t sequence) {
     return sequence == came_from_frontal_++;
   }
-  /// Tells that something which came was of no use, and counts it.
+  /// Says on standard error that something which came was of no use, and counts it.
   void drop(const char* what, std::string_view why);
   std::uint64_t drops() const { return drops_; }
   Rank peer(std::uint32_t bit) const { return links_[bit].peer; }

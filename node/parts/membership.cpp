@@ -37,7 +37,7 @@ std::vector<Rank> Membership::peers() const {
   return peers;
 }
 
-/// Also those that know this node: there is a new welcome because some node is new.
+/// Neighbours that know this node are greeted again: each welcome means that some node is new.
 bool Membership::is_to_greet(std::uint32_t bit) const {
   const Rank peer = seat_->peer(bit);
   return connects_to(id_.rank, peer) && !endpoints_[peer.value].empty();

@@ -26,8 +26,8 @@ struct NodeIdentity {
   std::string version;
 };
 
-/// Of two neighbours one connects to the other, and greets it each time that the frontal welcomes
-/// the nodes.
+/// Which of two neighbours connects to the other; it greets the other each time that the frontal
+/// welcomes the nodes.
 inline bool connects_to(Rank from, Rank to) { return from < to; }
 
 class Membership {
@@ -41,10 +41,10 @@ class Membership {
   /// False, and nothing changes, when the welcome is to another farm.
   [[nodiscard]] bool join(const control::Welcome& welcome);
   bool has_joined() const { return seat_.has_value(); }
-  /// Of a node that has joined.
+  /// The node must have joined.
   const Seat& seat() const { return *seat_; }
   std::vector<Rank> peers() const;
-  /// By rank; empty where no node is yet.
+  /// Endpoints of all nodes' inboxes, indexed by rank; an empty string while there is no such node.
   const std::vector<std::string>& endpoints() const { return endpoints_; }
   /// Whether this node is to greet the one across that bit.
   bool is_to_greet(std::uint32_t bit) const;
@@ -59,7 +59,7 @@ class Membership {
   /// From here on batches of that job and epoch count, whoever sends them.
   void begin(std::uint32_t job, std::uint32_t epoch);
   void begin_epoch(std::uint32_t epoch) { epoch_ = epoch; }
-  /// From here on only those of processes with these start numbers, by rank.
+  /// From here on only batches from processes with these start numbers count; indexed by rank.
   void accept_only(std::vector<std::uint32_t> incarnations) {
     incarnations_ = std::move(incarnations);
   }
@@ -69,7 +69,7 @@ class Membership {
     return job == job_ && epoch == epoch_;
   }
   bool is_of_now(const BatchStamp& stamp) const;
-  /// Of the first batch that this node sends.
+  /// The stamp of the first batch that this node sends.
   BatchStamp stamp() const { return {job_, epoch_, id_.rank.value, id_.incarnation, 0}; }
 
  private:

@@ -5,17 +5,17 @@
 namespace graycube {
 namespace {
 
-/// Whether one record can't hold both.
+/// Whether the sum is more than one record can hold.
 bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
   return a.r > kMaxMergedLight - b.r || a.g > kMaxMergedLight - b.g || a.b > kMaxMergedLight - b.b;
 }
 
 }  // namespace
 
-/// That of the key, or the free one where it goes.
+/// The slot of the key, or the free one where it goes.
 MergeBuffer::Index::Slot& MergeBuffer::Index::slot_of(std::uint32_t key) {
-  // Fibonacci hashing of short rows of pixels: those of one lie side by side, as they are looked
-  // for.
+  // Fibonacci hashing of short rows of pixels: the pixels of a row, which are looked up one after
+  // the other, lie side by side.
   constexpr std::uint32_t kGolden = 2654435769u, kRow = 16;
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = (key / kRow * kGolden * kRow + key % kRow) & mask;
@@ -63,8 +63,8 @@ void MergeBuffer::clear() {
   tiles_.clear();
 }
 
-/// Not before there is light: what a node got to build from has been freed by then, and this takes
-/// its place.
+/// Called when the first light comes: by then the slice that a node was built from has been freed,
+/// and this takes its place.
 void MergeBuffer::make_room() {
   if (merged_.contributions.capacity() == 0) merged_.contributions.reserve(kFullPixels);
 }
@@ -110,7 +110,7 @@ std::size_t MergeBuffer::add_tile(std::span<const PixelReturn> returns, std::uin
 
 void MergeBuffer::add_credit(std::uint32_t tile, const Credit& credit) {
   auto& all = merged_.credits;
-  // Mostly they come tile by tile.
+  // Returns mostly come tile by tile.
   if (!all.empty() && all.back().tile == tile) return all.back().credit.add(credit);
   const auto next = static_cast<std::uint32_t>(all.size());
   const std::uint32_t place = tiles_.place_of(tile, next);

@@ -15,22 +15,22 @@ namespace graycube {
 
 class MergeBuffer {
  public:
-  /// So many pixels or tiles are gathered before they are sent.
+  /// Pixels or tiles that are gathered before they are sent.
   static constexpr std::size_t kFullPixels = 8192;
   /// The same where other nodes' light comes too: the longer it waits, the more of it is merged.
   static constexpr std::size_t kFullOfOthers = 32768;
-  /// What a buffer for other nodes' light may hold, and so all that a batch between nodes may.
+  /// The most pixels in a buffer for other nodes' light, and so in a batch between nodes.
   static constexpr std::size_t kMostPixels = 2 * kFullOfOthers;
   static_assert(most_contribution_bytes(kMostPixels, kMostPixels) < kMaxContributionBatchBytes);
 
   MergeBuffer();
-  /// Empties it, and makes room for other nodes' light or gives that up.
+  /// Empties the buffer, and makes room for other nodes' light or gives that room up.
   void expect_others(bool others);
 
   /// Takes in returns until it is full or there are no more; says how many it took.
   std::size_t add(std::span<const PixelReturn> returns, const TilePlan& plan);
-  /// The same for what came of a tile's primary rays, in which hardly a pixel comes twice: quicker,
-  /// and what follows of a pixel by other ways is sent beside it.
+  /// The same for the returns of a tile's primary rays, in which hardly any pixel comes twice. It
+  /// is quicker, but light that reaches a pixel in other ways is not merged with it.
   std::size_t add_tile(std::span<const PixelReturn> returns, std::uint32_t tile,
                        const TilePlan& plan);
   /// Takes in what another node has gathered: all of it, or nothing and false when that doesn't fit
@@ -45,16 +45,16 @@ class MergeBuffer {
     std::vector<TileCredit> credits;
     std::vector<Contribution> contributions;
   };
-  /// All that is here; credits are exactly those of the light beside them.
+  /// All that is gathered here; the credits are exactly those of the light beside them.
   const Merged& gathered() const { return merged_; }
-  /// Forgets it; its memory serves what comes next.
+  /// Forgets what is gathered; the memory serves what comes next.
   void clear();
 
  private:
-  /// Where a pixel or tile stands among those gathered; open addressing, at most half full.
+  /// Maps a pixel or tile to its place among those gathered; open addressing, at most half full.
   class Index {
    public:
-    /// The place of `key`, which is `next` when it is new.
+    /// The place of `key`; a new key is entered with the place `next`.
     std::uint32_t& place_of(std::uint32_t key, std::uint32_t next);
     void clear();
 
@@ -62,7 +62,7 @@ class MergeBuffer {
     struct Slot {
       std::uint32_t key = 0, place = 0, generation = 0;
     };
-    /// At first, a power of two. Most nodes look few pixels up: where tiles come whole, none.
+    /// Slots at first, a power of two. Most nodes look few pixels up: where tiles come whole, none.
     static constexpr std::size_t kFewSlots = 512;
 
     Slot& slot_of(std::uint32_t key);

@@ -11,14 +11,14 @@ namespace graycube {
 
 class Outbox {
  public:
-  /// Each is about to cross one link more.
+  /// Adds rays, and counts the link that each is about to cross.
   void add(std::span<const RayTask> rays) {
     rays_.insert(rays_.end(), rays.begin(), rays.end());
     for (RayTask& ray : std::span(rays_).last(rays.size())) cross_link(ray);
   }
   std::size_t size() const { return rays_.size() - sent_; }
   bool is_empty() const { return size() == 0; }
-  /// The `count` oldest; until the next call that changes anything.
+  /// The `count` oldest rays; the span is valid until the next call that changes anything.
   std::span<const RayTask> oldest(std::size_t count) const { return {rays_.data() + sent_, count}; }
   /// Forgets the `count` oldest. What has been sent stays in front until it is half of all: an
   /// outbox may hold millions, and moving those at each batch would cost more than everything else.

@@ -7,20 +7,20 @@
 
 namespace graycube {
 
-/// Received rays handed to an evaluator in one piece.
+/// The most received rays that are handed to an evaluator in one piece.
 inline constexpr std::size_t kMaxRaysPerWork = 256;
-/// Once this part of what the outboxes may hold has left in a piece of work, the rest of it is set
-/// aside.
+/// A piece of work sets its rest aside once so many rays have left it: this part, one in so many,
+/// of what the outboxes may hold.
 inline constexpr std::uint64_t kWorksPerOutboxes = 16;
 
 struct Pace {
   std::size_t most_rays = kMaxRaysPerWork;
-  /// Of a piece of work: then the rest of it is set aside.
+  /// Rays that may leave in a piece of work before the rest of it is set aside.
   std::size_t most_leaving = std::numeric_limits<std::size_t>::max();
-  /// Primary rays are handed out pixel by pixel, and received rays as they came; otherwise tile by
-  /// tile and deepest first.
+  /// Whether primary rays are handed out pixel by pixel, and received rays first come first served;
+  /// otherwise tile by tile and deepest first.
   bool is_one_by_one = false;
-  /// The token goes round all the time, whatever hints there are at the end.
+  /// The token goes round all the time, whether or not anything hints at the end.
   bool token_never_rests = false;
 };
 

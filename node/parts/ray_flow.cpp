@@ -14,7 +14,7 @@ FlowRules FlowRules::of(const control::Load& load, const Holding& here) {
   rules.class_places = load.class_places;
   rules.classes = most_hops(here.limits.max_depth, here.limits.columns, here.limits.rows);
   rules.threads = load.threads;
-  // To each light, reflected and refracted.
+  // A hit sends a shadow ray to each light, a reflected and a refracted ray.
   rules.most_children = static_cast<std::uint32_t>(here.domain->settings().lights.size()) + 2;
   return rules;
 }

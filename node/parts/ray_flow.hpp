@@ -1,6 +1,6 @@
 // How rays go from node to node, so that neither memory nor the farm's progress is lost: by credit,
-// or as in 1987 by queues that block. What both do is here; credit_flow.hpp and blocking_flow.hpp
-// say how.
+// or as in 1987 by queues that block. Both have the interface that is here; credit_flow.hpp and
+// blocking_flow.hpp implement it.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace graycube {
 
-/// What a job allows.
+/// The limits that a job sets, and its numbers on which the flow depends.
 struct FlowRules {
   std::uint32_t links = 0;
   std::uint64_t link_credit_bytes = 0, batch_bytes = 0;
-  /// A node with so many rays in its outboxes is full.
+  /// A node with that many rays in its outboxes is full.
   std::uint64_t outbox_rays = 0;
   /// Rays of each class that a link has places for beside its credit; and how many classes there
   /// are.
   std::uint32_t class_places = 1;
   std::uint64_t classes = 1;
   std::uint32_t threads = 1;
-  /// Rays that one hit may send out.
+  /// The most rays that one hit may send out.
   std::uint32_t most_children = 2;
 
   static FlowRules of(const control::Load& load, const Holding& here);
 };
 
-/// What has left, for the report.
+/// Counts of the rays that have left this node, for the report.
 struct FlowCounts {
   std::uint64_t forwarded_shadow = 0, forwarded_secondary = 0;
   std::uint64_t batches = 0, bytes = 0, rays = 0;
@@ -46,9 +46,9 @@ struct FlowCounts {
 
 class RayFlow {
  public:
-  /// The link across which a ray in that region goes on; nothing when it is in this node's.
+  /// The link across which a ray in that region goes on; nothing when it is traced on this node.
   using Route = std::function<std::optional<std::uint32_t>(const RegionIndex&)>;
-  /// Rays on class credit. With a class: all are of it, and the node is full.
+  /// Rays on class credit. If `on_class` is set, all are of that class, and the node is full.
   struct ClassWork {
     std::vector<RayTask> rays;
     std::optional<std::uint16_t> on_class;
@@ -57,8 +57,8 @@ class RayFlow {
   virtual ~RayFlow() = default;
   virtual Pace pace() const = 0;
 
-  /// Rays leave across a link. `on_class`: that of the work in which they were sent, if a full node
-  /// did it.
+  /// Rays leave across a link. `on_class`: the class of the work in which they were sent, if a full
+  /// node did that work.
   virtual void leave(std::uint32_t bit, std::span<const RayTask> rays,
                      std::optional<std::uint16_t> on_class = std::nullopt) = 0;
   /// Rays came across one link and leave across another: at once, or when there is room. True when
@@ -69,18 +69,18 @@ class RayFlow {
   /// Sends what may go now; with `partial` also what doesn't fill a batch. True when rays were
   /// stalled and no longer are.
   virtual bool send(bool partial, Mail& mail) = 0;
-  /// Nothing is to be done here: sends all that may go, and gives back credit that is worth a
+  /// There is nothing to do here: sends all that may go, and gives back credit that is worth a
   /// message.
   virtual void flush(Mail& mail) = 0;
-  /// A gift, of at most gift_room() rays: they go at once.
+  /// Sends a gift of at most gift_room() rays at once.
   virtual void give(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) = 0;
   virtual std::size_t gift_room(std::uint32_t bit) const = 0;
 
-  /// Received rays were taken: their credit is the neighbour's again.
+  /// Evaluators took received rays: the neighbour may have their credit again.
   virtual void taken(std::uint32_t bit, std::size_t rays) = 0;
-  /// Gives it back, if that is worth a message while there is work.
+  /// Gives free credit back, if that is worth a message while there is work.
   virtual void grant(std::uint32_t bit, Mail& mail) = 0;
-  /// A neighbour gives credit back. As send() for that link.
+  /// A neighbour gives credit back. Sends, and returns, like send(), but for that link only.
   virtual bool was_granted(std::uint32_t bit, std::uint64_t bytes, bool partial, Mail& mail) = 0;
   bool on_link_credit(std::uint32_t bit, std::span<const std::byte> batch,
                       const BatchLimits& limits, bool partial, Mail& mail);
@@ -89,19 +89,19 @@ class RayFlow {
   [[nodiscard]] virtual bool add_class_rays(std::uint32_t, std::span<const RayTask>) {
     return false;
   }
-  /// A neighbour has places again. As send() for that link.
+  /// A neighbour has places again. Sends like send(), but for that link only.
   virtual void was_given_places(std::uint32_t, std::span<const std::uint16_t>, bool, Mail& mail) {
     mail.drop("class credit", "of a class that it was not due for");
   }
   void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch,
                        const BatchLimits& limits, bool partial, Mail& mail);
   virtual bool has_class_work() const { return false; }
-  /// Those that only pass through go on at once. Nothing when none is left to be traced.
+  /// Takes rays to trace; those that only pass through go on at once. Nothing when none is left.
   virtual std::optional<ClassWork> take_class_work(const Route&, Mail&) { return std::nullopt; }
-  /// That work is done, but for what was set aside.
+  /// The work on that class is done, but for the rays that were set aside.
   virtual void class_work_ended(std::uint16_t, std::span<const RayTask>) {}
 
-  /// Rays wait on this node for something that is on its way; then they leave, or are traced here.
+  /// Counts rays that wait here for a model on its way; then they leave, or are traced here.
   void reserve(std::uint64_t rays) { reserved_ += rays; }
   void release(std::uint64_t rays) { reserved_ -= rays; }
 
@@ -109,7 +109,7 @@ class RayFlow {
   virtual bool may_start_tiles() const { return true; }
   /// Evaluators' rays are held up, and so are the evaluators.
   virtual bool is_stalled() const { return false; }
-  /// Rays that came and are kept here.
+  /// The number of rays that came across links and are kept here.
   virtual std::size_t held() const { return 0; }
   virtual bool is_empty() const { return reserved_ == 0; }
 

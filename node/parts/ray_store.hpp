@@ -1,5 +1,5 @@
-// Rays waiting for an evaluator: deepest first, so that trees stay narrow; or as they came, as in
-// 1987.
+// Rays waiting for an evaluator. The deepest are taken first, so that trees stay narrow; or the
+// oldest, as in 1987.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace graycube {
 
 class RayStore {
  public:
-  /// Whether rays are taken as they came. The store must be empty.
+  /// Whether rays are taken first come first served. The store must be empty.
   void set_fifo(bool fifo) { is_fifo_ = fifo; }
   /// `link`: the bit across which the rays came; their credit goes back there when they are taken.
   void add(std::span<const RayTask> rays, std::uint32_t link) {
@@ -31,7 +31,7 @@ class RayStore {
     });
   }
 
-  /// Takes up to `most` of the deepest rays; `taken_from(link, count)` tells whose they are.
+  /// Takes up to `most` of the deepest rays; `taken_from(link, count)` tells whence they came.
   template <typename TakenFrom>
   std::vector<RayTask> take(std::size_t most, TakenFrom&& taken_from) {
     std::vector<RayTask> taken;
@@ -75,7 +75,7 @@ class RayStore {
       if (runs.empty() || runs.back().link != link) runs.push_back({link, 0});
       runs.back().count += more.size();
     }
-    /// The last `count`.
+    /// Moves the last `count` rays to `taken`.
     template <typename TakenFrom>
     void take(std::size_t count, std::vector<RayTask>& taken, TakenFrom& taken_from) {
       const auto first = rays.end() - static_cast<std::ptrdiff_t>(count);
@@ -103,7 +103,7 @@ class RayStore {
   }
 
   std::vector<Level> levels_;
-  /// All of them, where rays are taken as they came.
+  /// All rays, where they are taken first come first served.
   std::deque<Held> line_;
   std::size_t size_ = 0;
   std::size_t deepest_ = 0;

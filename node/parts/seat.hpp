@@ -1,4 +1,4 @@
-// Where a node sits in the hypercube: whom it has across which bit, and who holds which
+// Where a node sits in the hypercube: which neighbour is across which bit, and who owns which
 // macro-regions.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Seat {
 
   std::uint32_t links() const { return cube.dimension(); }
   Rank peer(std::uint32_t bit) const { return cube.neighbour(rank, bit); }
-  /// links() for a rank that is no neighbour.
+  /// The bit of the link to `peer`; links() for a rank that is no neighbour.
   std::uint32_t bit_of(Rank peer) const {
     return cube.has(peer) ? cube.link_between(rank, peer).value_or(links()) : links();
   }
@@ -35,9 +35,9 @@ struct Seat {
   std::uint32_t bit_towards(const RegionIndex& region) const {
     return cube.first_bit(rank, owner_of(region));
   }
-  /// What is traced here for a neighbour goes on to another node. If that is a neighbour of the
-  /// owner, it crosses the bit that it would have crossed from there: who is beyond is a neighbour
-  /// of the node that it goes to, and sends it on. So the owner, which is busy, has no part in it.
+  /// The link for a ray that was traced here for a neighbour, `owner`, and goes on to `next`. It
+  /// crosses the bit that it would have crossed from the owner: the node there is a neighbour of
+  /// `next` if the owner is, and sends it on. So the busy owner has no part in it.
   std::uint32_t bit_for_helped(Rank owner, Rank next) const {
     return cube.first_bit(rank, next, bit_of(owner));
   }

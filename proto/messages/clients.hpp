@@ -30,7 +30,7 @@ struct List {
   friend bool operator==(const List&, const List&) = default;
 };
 
-/// Progress from now on, until Done or Failed.
+/// Asks for progress from now on, until Done or Failed.
 struct Watch {
   static constexpr std::string_view kType = "watch";
   std::uint32_t job = 0;
@@ -48,25 +48,25 @@ struct Nodes {
   friend bool operator==(const Nodes&, const Nodes&) = default;
 };
 
-/// Rows of a picture; fewer may come, the client asks on from there. Plane 0 is light, 1 …
-/// kAovPlanes are those of AOVs.
+/// Asks for rows of a picture. Fewer may come: then the client asks for the rest. Plane 0 is light,
+/// planes 1 … kAovPlanes are those of AOVs.
 struct Fetch {
   static constexpr std::string_view kType = "fetch";
   std::uint32_t job = 0, first_row = 0, rows = 0, plane = 0;
   friend bool operator==(const Fetch&, const Fetch&) = default;
 };
 
-/// To a private frontal: write a picture's files, "" for none. For pictures of at most
-/// kMostPixelsToWrite.
+/// Asks a private frontal to write a picture's files; a path may be "" for no file. The picture may
+/// have at most kMostPixelsToWrite pixels.
 struct Write {
   static constexpr std::string_view kType = "write";
   std::uint32_t job = 0;
-  /// Absolute paths.
+  /// Absolute paths of the files.
   std::string exr{}, png{};
   friend bool operator==(const Write&, const Write&) = default;
 };
 
-/// Stop the farm.
+/// Asks the frontal to stop the farm.
 struct Down {
   static constexpr std::string_view kType = "down";
   friend bool operator==(const Down&, const Down&) = default;
@@ -87,17 +87,17 @@ struct JobInfo {
   std::string scene{};
   Algorithm algorithm = Algorithm::kAuto;
   std::uint32_t nodes = 0;
-  /// 0 … 1.
+  /// The part of the job that is done, 0 … 1.
   double fraction = 0;
-  /// Absent while nothing is known.
+  /// Seconds that are left; absent while nothing is known.
   std::optional<double> eta_s{};
   std::uint32_t rounds = 0;
-  /// Unix time.
+  /// The times below are Unix time.
   double submitted_s = 0;
   std::optional<double> started_s{}, finished_s{};
   std::string message{};
   std::uint32_t tiles = 0, tiles_whole = 0;
-  /// What was picked for the scene, for people; empty until then.
+  /// What was picked for the scene, as text for people; empty until then.
   std::string choices{};
   friend bool operator==(const JobInfo&, const JobInfo&) = default;
 };
@@ -129,41 +129,41 @@ struct NodeList {
 struct Done {
   static constexpr std::string_view kType = "done";
   std::uint32_t job = 0;
-  /// The statistics file.
+  /// The statistics file, as its JSON text.
   RawObject stats{};
   friend bool operator==(const Done&, const Done&) = default;
 };
 
-/// Followed by a binary frame: `rows` rows of `width` pixels, see picture_rows.hpp.
+/// A binary frame follows: `rows` rows of `width` pixels, see picture_rows.hpp.
 struct Picture {
   static constexpr std::string_view kType = "picture";
   std::uint32_t job = 0, width = 1, height = 1, first_row = 0, rows = 0, plane = 0;
-  /// The AOVs that the picture has.
+  /// Names of the AOVs that the picture has.
   std::string aov{};
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-/// The files are there, each whole.
+/// The files are written, each whole.
 struct Written {
   static constexpr std::string_view kType = "written";
   std::uint32_t job = 0, width = 1, height = 1;
-  /// What writing took of the frontal's CPU time, which the statistics can't have.
+  /// CPU seconds that writing took the frontal, which the statistics can't have.
   double cpu_s = 0;
   friend bool operator==(const Written&, const Written&) = default;
 };
 
-/// Refusals and failed jobs; job 0 when the request named none.
+/// A request was refused, or a job failed; job 0 if the request named none.
 struct Failed {
   static constexpr std::string_view kType = "failed";
   std::uint32_t job = 0;
   FailureCode code = FailureCode::kFailed;
   std::vector<ErrorItem> errors{};
-  /// Of a job that ended in a deadlock: the statistics file.
+  /// The statistics file of a job that ended in a deadlock; absent for others.
   std::optional<RawObject> stats{};
   friend bool operator==(const Failed&, const Failed&) = default;
 };
 
-/// The frontal stops.
+/// The frontal stops now.
 struct Bye {
   static constexpr std::string_view kType = "bye";
   friend bool operator==(const Bye&, const Bye&) = default;

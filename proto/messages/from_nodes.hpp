@@ -15,14 +15,14 @@ struct Hello {
   std::uint32_t rank = 0;
   std::uint64_t pid = 0;
   std::uint32_t incarnation = 0;
-  /// Where the node's inbox listens.
+  /// The endpoint at which the node's inbox listens.
   std::string endpoint{};
   std::uint32_t threads = 1;
   std::string version{};
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
-/// The macro-region is subdivided.
+/// The node's macro-regions are subdivided.
 struct Ready {
   static constexpr std::string_view kType = "ready";
   std::uint32_t job = 0, epoch = 0;
@@ -31,7 +31,7 @@ struct Ready {
   friend bool operator==(const Ready&, const Ready&) = default;
 };
 
-/// Everything of older epochs is dropped. Frontals that begin epochs wait for it; none does yet.
+/// The node has dropped everything of older epochs. A frontal that begins one waits for this.
 struct EpochAck {
   static constexpr std::string_view kType = "epoch_ack";
   std::uint32_t job = 0, epoch = 0;
@@ -47,8 +47,8 @@ struct TokenRound {
   friend bool operator==(const TokenRound&, const TokenRound&) = default;
 };
 
-/// Rank 0 only: the token's verdict, with the contribution batches that the frontal must hold by
-/// then.
+/// Rank 0 only: the token's verdict, with the number of contribution batches that the frontal must
+/// hold by then.
 struct Terminated {
   static constexpr std::string_view kType = "terminated";
   std::uint32_t job = 0, epoch = 0, rounds = 0, hops = 0;
@@ -69,19 +69,19 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-/// Flow blocking only, behind each pong: what the node waits for. The frontal finds cycles in
+/// What the node waits for, sent behind each pong if flow is blocking. The frontal finds cycles in
 /// these.
 struct WaitReport {
   static constexpr std::string_view kType = "wait_report";
   std::uint32_t job = 0, epoch = 0;
-  /// The ping's sequence.
+  /// The sequence of the ping that is answered.
   std::uint64_t ping = 0;
-  /// The evaluator holds a ray for which the queue across bit `waits_for` has no room.
+  /// Whether the evaluator holds a ray for which the queue across bit `waits_for` has no room.
   bool is_stalled = false;
   std::uint32_t waits_for = 0;
-  /// Pieces of work done so far.
+  /// Pieces of work done in the job so far.
   std::uint64_t moves = 0;
-  /// Rays' room granted to, and received from, the neighbour across each bit.
+  /// Credit granted to, and received from, the neighbour across each bit: bytes of ray records.
   std::vector<std::uint64_t> granted{}, received{};
   friend bool operator==(const WaitReport&, const WaitReport&) = default;
 };
@@ -90,19 +90,19 @@ struct WaitReport {
 struct Borrow {
   static constexpr std::string_view kType = "borrow";
   std::uint32_t job = 0, epoch = 0, rank = 0;
-  /// Largest slice that the node has room for.
+  /// Bytes of the largest slice that the node has room for.
   std::uint64_t room_bytes = 0;
   friend bool operator==(const Borrow&, const Borrow&) = default;
 };
 
-/// A neighbour that has nothing to do is to get a copy of this node's slice, to help it.
+/// Asks the frontal to send an idle neighbour a copy of this node's slice, to help it.
 struct Share {
   static constexpr std::string_view kType = "share";
   std::uint32_t job = 0, epoch = 0, rank = 0;
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// The node can't go on with a job. job 0: with anything.
+/// The node can't go on with this job; job 0: it can't go on at all.
 struct NodeError {
   static constexpr std::string_view kType = "node_error";
   std::uint32_t job = 0;

@@ -13,16 +13,16 @@ namespace graycube::control {
 struct Welcome {
   static constexpr std::string_view kType = "welcome";
   std::uint32_t nodes = 1;
-  /// The frontal's.
+  /// The frontal's version.
   std::string version{};
-  /// Every node's inbox, by rank; empty where no node is yet.
+  /// Endpoints of every node's inbox, indexed by rank; empty where no node is yet.
   std::vector<std::string> endpoints{};
-  /// How often the frontal pings.
+  /// Milliseconds between the frontal's pings.
   std::uint32_t heartbeat_ms = 1000;
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
-/// Followed by a binary frame: the node's model slice, and behind it `horizon_bytes` of light
+/// A binary frame follows: the node's model slice, and at its end `horizon_bytes` of light
 /// horizons.
 struct Load {
   static constexpr std::string_view kType = "load";
@@ -36,20 +36,20 @@ struct Load {
   std::uint32_t tile_size = 1;
   ShadowMode shadows = ShadowMode::kHorizon;
   FlowMode flow = FlowMode::kCredit;
-  /// Rays that the input queues hold together where flow is blocking. Nodes have no use for it:
-  /// each link's part of it is link_credit_bytes.
+  /// Rays that the input queues hold together if flow is blocking. Nodes have no use for it: each
+  /// link's part of it is link_credit_bytes.
   std::uint32_t queue = kDefaultQueue;
   std::uint64_t link_credit_bytes = 0;
   /// Own tiles that may be open at a time. Nodes have no use for it: the frontal hands out no more.
   std::uint32_t window_tiles = 1;
   std::uint32_t batch_bytes = 65536;
-  /// A node whose outboxes hold so many rays is full: it traces only what comes on class credit.
-  /// Where a frontal says nothing there is no bound.
+  /// A node whose outboxes hold so many rays is full: it traces only rays on class credit. There is
+  /// no bound if the frontal leaves this out.
   std::uint64_t outbox_rays = 0xFFFF'FFFF;
   /// Rays of each class that a link has places for beside its credit.
   std::uint32_t class_places = 1;
   std::uint64_t horizon_bytes = 0;
-  /// Memory for other nodes' models, where shadow rays are finished by the node that created them.
+  /// Bytes for other nodes' models, if shadow rays are finished by the nodes that created them.
   std::uint64_t borrow_bytes = 0;
   /// The slice is a replica of the whole model.
   bool is_replica = false;
@@ -59,22 +59,22 @@ struct Load {
   friend bool operator==(const Load&, const Load&) = default;
 };
 
-/// Answers `borrow`; followed by a binary frame with the slice, unless it is larger than the room.
+/// Answers `borrow`. A binary frame with the slice follows, unless it is larger than the room.
 struct Lend {
   static constexpr std::string_view kType = "lend";
   std::uint32_t job = 0, epoch = 0, rank = 0;
   friend bool operator==(const Lend&, const Lend&) = default;
 };
 
-/// Followed by a binary frame: the slice of a neighbour, which its tiles and rays can be traced in
-/// here.
+/// A binary frame follows: the slice of a neighbour, in which this node can trace the neighbour's
+/// tiles and rays.
 struct Copy {
   static constexpr std::string_view kType = "copy";
   std::uint32_t job = 0, epoch = 0, rank = 0;
   friend bool operator==(const Copy&, const Copy&) = default;
 };
 
-/// So many of the node's own tiles were traced by neighbours, and are whole.
+/// Tells that neighbours have traced so many of the node's own tiles, which are whole.
 struct Relieved {
   static constexpr std::string_view kType = "relieved";
   std::uint32_t job = 0, epoch = 0, tiles = 1;
@@ -88,25 +88,25 @@ struct AllWhole {
   friend bool operator==(const AllWhole&, const AllWhole&) = default;
 };
 
-/// Drop everything of epochs before this one, and acknowledge. Nodes do; no frontal sends it yet,
-/// since a job fails with a node. One that has a lost node replaced will.
+/// Asks to drop everything of epochs before this one, and to acknowledge that. Nodes do; no frontal
+/// sends it yet, since a job fails with a node. One that has a lost node replaced will.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
   std::uint32_t job = 0, epoch = 0;
   friend bool operator==(const Prepare&, const Prepare&) = default;
 };
 
-/// The barrier is passed. Tiles to trace: a node's own in epoch 0, later those that assignments
-/// bring.
+/// All nodes are ready: tracing begins. A node traces its own tiles in epoch 0, later those that
+/// assignments bring.
 struct Start {
   static constexpr std::string_view kType = "start";
   std::uint32_t job = 0, epoch = 0;
-  /// By rank; links accept no others.
+  /// The nodes' start numbers, indexed by rank; links accept no others.
   std::vector<std::uint32_t> incarnations{};
   friend bool operator==(const Start&, const Start&) = default;
 };
 
-/// Send the report and drop the job.
+/// Asks the node to send its report and to drop the job.
 struct Finish {
   static constexpr std::string_view kType = "finish";
   std::uint32_t job = 0;

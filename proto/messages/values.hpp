@@ -1,5 +1,5 @@
-// What control messages are made of: what a job may ask for, what is known of nodes and jobs, and
-// the limits. Times are in seconds; jobs count from 1.
+// The parts of control messages: options of a job, records of nodes and jobs, and limits. Times are
+// in seconds; jobs count from 1.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@
 namespace graycube {
 
 inline constexpr std::uint32_t kMaxThreads = 1024;
-/// Longest names, endpoints and versions, and longest messages for people; UTF-8 bytes.
+/// Most UTF-8 bytes of names, endpoints and versions, and of messages for people.
 inline constexpr std::size_t kMaxNameBytes = 256;
 inline constexpr std::size_t kMaxTextBytes = 1024;
-/// Longest JSON text of a job's statistics.
+/// Most bytes of the JSON text of a job's statistics.
 inline constexpr std::size_t kMaxStatsBytes = 768 * 1024;
 inline constexpr std::size_t kMaxJobsListed = 256;
 inline constexpr std::size_t kMaxErrorsListed = 100;
-/// Largest binary frame behind `submit` (the scene's text) and behind `picture`.
+/// Most bytes of the binary frames behind `submit` (the scene's text) and behind `picture`.
 inline constexpr std::size_t kMaxSubmitBytes = std::size_t{1} << 28;
-/// Writing larger pictures would keep a frontal from everything else for too long.
+/// Writing pictures with more pixels would keep a frontal from everything else for too long.
 inline constexpr std::uint64_t kMostPixelsToWrite = std::uint64_t{1} << 22;
 inline constexpr std::size_t kMaxPictureBytes = std::size_t{1} << 26;
 /// Most macro-regions per node along either side of the grid.
 inline constexpr std::uint32_t kMaxScatter = 8;
-/// Rays that a node's input queues hold together where flow is blocking.
+/// Rays that a node's input queues hold together if flow is blocking.
 inline constexpr std::uint32_t kDefaultQueue = 64;
 inline constexpr std::uint32_t kMaxQueue = 1u << 16;
-/// Rays that a node's outboxes hold before it is full, where nothing else is asked for.
+/// Rays that a node's outboxes hold before it is full, unless a frontal sets another number.
 inline constexpr std::uint32_t kDefaultOutboxRays = 1u << 18;
 
 enum class Algorithm : std::uint8_t { kAuto, kSerial, kRoth, kMacro };
@@ -66,7 +66,7 @@ enum class FailureCode : std::uint8_t {
   kDeadlock
 };
 
-/// Names as on the wire and on the command line; empty for a value outside the enum.
+/// Names as on the wire and on the command line; empty for values that the enum doesn't have.
 std::string_view to_string(Algorithm value);
 std::string_view to_string(Grain value);
 std::string_view to_string(ShadowMode value);
@@ -85,54 +85,54 @@ struct RawObject {
 
 namespace control {
 
-/// A node's record of one job: the fields of `per_node` in the statistics file, and what the
+/// A node's record of one job: the fields of `per_node` in the statistics file, and those that the
 /// frontal sums.
 struct NodeStats {
   std::uint32_t rank = 0, gray = 0;
   std::uint64_t pid = 0;
   double cpu_s = 0, busy_s = 0, idle_s = 0, blocked_s = 0, window_s = 0;
-  /// What of cpu_s the process took before its first job came; 0 in those after it.
+  /// The part of cpu_s that the process took before its first job came; 0 in later jobs.
   double start_cpu_s = 0;
   std::uint64_t rays_in = 0, rays_out = 0, queue_peak = 0, primitives = 0, peak_rss_bytes = 0;
-  /// Rays, counted where they are created.
+  /// Numbers of rays, counted where the rays are created.
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
   std::uint64_t skipped_by_horizon = 0, forwarded_shadow = 0, forwarded_secondary = 0;
   std::uint64_t ray_batches = 0, ray_bytes = 0, contribution_batches = 0, contribution_bytes = 0;
   /// Contributions sent to the parent in the tree of sums; those above went to the frontal.
   std::uint64_t sum_batches = 0, sum_bytes = 0;
-  /// Components of contributions mended while rounding; batches and messages refused.
+  /// Components of contributions mended while rounding; and batches and messages refused.
   std::uint64_t non_finite = 0, clamped = 0, malformed_drops = 0;
-  /// Most rays that lay in the outboxes at a time.
+  /// The most rays that lay in the outboxes at one time.
   std::uint64_t outbox_peak = 0;
-  /// Model and subdivision, borrowed ones and copies included.
+  /// Bytes of the model and its subdivision, borrowed models and copies included.
   std::uint64_t memory_bytes = 0;
-  /// Other nodes' models, fetched to finish shadow rays here, or got to help them.
+  /// Other nodes' models that came here, to finish shadow rays or to help those nodes.
   std::uint64_t models_borrowed = 0;
-  /// Other nodes' tiles, and rays received by them, that were traced here.
+  /// Other nodes' tiles, and rays that other nodes had received, that were traced here.
   std::uint64_t tiles_taken_over = 0, rays_taken_over = 0;
-  /// From the end of the node's last primary ray to its report.
+  /// Seconds from the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
 };
 
-/// Overrides and choices of a render; what a client leaves out keeps the default.
+/// A render's options; those that a client leaves out keep the default.
 struct JobOptions {
   Algorithm algorithm = Algorithm::kAuto;
   Grain grain = Grain::kTile;
   ShadowMode shadows = ShadowMode::kHorizon;
   PartitionMode partition = PartitionMode::kAuto;
-  /// K: K × K macro-regions per node; 0: what suits the scene.
+  /// K, for K × K macro-regions per node; 0 picks what suits the scene.
   std::uint32_t scatter = 0;
   FlowMode flow = FlowMode::kCredit;
-  /// Rays that a node's input queues hold together where flow is blocking.
+  /// Rays that a node's input queues hold together if flow is blocking.
   std::uint32_t queue = kDefaultQueue;
-  /// Evaluator threads per node; 0: what the node was started with.
+  /// Evaluator threads per node; 0 for as many as the node was started with.
   std::uint32_t threads = 0;
-  /// Seconds; 0: no limit.
+  /// Seconds after which the job fails; 0 for no limit.
   double timeout_s = 0;
-  /// The scene's own values where absent.
+  /// Those that are absent are the scene's own values.
   std::optional<std::uint32_t> width{}, height{}, samples{}, max_depth{};
-  /// Names as parse_aovs reads them.
+  /// Names of AOVs as parse_aovs reads them.
   std::string aov{};
   SumsMode sums = SumsMode::kDirect;
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
@@ -142,10 +142,10 @@ struct JobOptions {
 /// (i mod columns/scatter, j mod rows/scatter).
 struct GridLayout {
   std::uint32_t columns = 1, rows = 1, scatter = 1;
-  /// Inner boundaries as pixel edges, strictly increasing, one fewer than columns (rows).
+  /// Inner boundaries as pixel edges, strictly increasing, one fewer than columns or rows.
   std::vector<std::int64_t> column_edges{}, row_edges{};
-  /// By row: between the pixels whose primary rays its nodes trace, one fewer than columns. Empty:
-  /// those of their macro-regions.
+  /// Row by row, the boundaries between the pixels whose primary rays the row's nodes trace, one
+  /// fewer than columns. Empty if these are the macro-regions' boundaries.
   std::vector<std::int64_t> own_edges{};
   friend bool operator==(const GridLayout&, const GridLayout&) = default;
 };
@@ -156,7 +156,7 @@ struct TokenProgress {
 };
 
 struct ErrorItem {
-  /// A JSON pointer into the scene, a node, an option.
+  /// The place of the mistake: a JSON pointer into the scene, a node, or an option.
   std::string where{};
   std::string why{};
   friend bool operator==(const ErrorItem&, const ErrorItem&) = default;

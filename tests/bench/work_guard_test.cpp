@@ -16,8 +16,8 @@ struct Guard {
   const char* name;
   Family family;
   std::uint32_t size;
-  /// A quarter or so above what was counted when last looked at. When a change lowers the counts,
-  /// lower these too; when it raises them for a reason, say it in the commit.
+  /// Bounds about a quarter above the last counts. When a change lowers the counts, lower these
+  /// too; when it raises them for a reason, tell it in the commit.
   double cells_per_ray, primitives_per_ray;
 };
 constexpr Guard kGuards[]{

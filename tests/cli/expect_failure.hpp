@@ -1,4 +1,4 @@
-// The failures that functions of the command throw, as their lines.
+// The lines of the failures that functions of the command throw.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace graycube {
 
-/// The first line of what `act` throws, which must have the status of bad usage or input.
+/// The first line of the failure that `act` throws; its status must be that of bad usage or input.
 template <typename Act>
 std::string refusal(const Act& act) {
   try {

@@ -16,7 +16,7 @@ control::Progress halfway() {
   return p;
 }
 
-/// What a display prints into a file, which is no terminal.
+/// The text that a display prints into a file, which is no terminal.
 std::string printed(const std::vector<control::Progress>& steps, bool is_quiet) {
   std::FILE* file = std::tmpfile();
   REQUIRE(file != nullptr);

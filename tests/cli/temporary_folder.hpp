@@ -1,4 +1,4 @@
-// Files of a test's own folder.
+// Files in a folder of a test's own.
 #pragma once
 
 #include <filesystem>

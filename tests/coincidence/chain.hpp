@@ -1,4 +1,4 @@
-// A way to a place: maps one after the other, as a file's nested `transform` lists give them, and
+// Ways to a place: maps one after the other, as a file's nested `transform` lists give them, and
 // other ways that lead to the same place by other arithmetic.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace graycube::testing {
 struct Move {
   enum class Kind { kTranslate, kRotate, kScale, kMatrix };
   Kind kind = Kind::kTranslate;
-  /// Offset, axis or factors.
+  /// The offset, the axis or the factors.
   Vec3 v;
   double angle_degrees = 0;
   Affine matrix;
@@ -48,7 +48,7 @@ inline Affine map_of(const Chain& chain) {
   return map;
 }
 
-/// What of a chain may be drawn.
+/// The limits within which a chain is drawn.
 struct ChainOptions {
   enum class Turns {
     kQuarters,  ///< quarter turns, mirrors, powers of two: all arithmetic is exact
@@ -108,7 +108,7 @@ inline Move any_move(Dice& dice, double size, ChainOptions::Turns turns) {
 
 }  // namespace chains
 
-/// A place for things of about the given size.
+/// A random way to a place, for solids of about the given size.
 inline Chain some_chain(Dice& dice, double size, const ChainOptions& options) {
   Chain chain;
   const std::size_t count = 1 + dice.below(options.most_moves);
@@ -124,7 +124,7 @@ inline Chain some_chain(Dice& dice, double size, const ChainOptions& options) {
 
 namespace chains {
 
-/// A move and what takes it back, so that nothing happens.
+/// A move and its inverse, so that nothing happens in all.
 inline std::pair<Move, Move> there_and_back(Dice& dice, double size) {
   switch (dice.below(5)) {
     case 0: {
@@ -153,7 +153,7 @@ inline std::pair<Move, Move> there_and_back(Dice& dice, double size) {
   }
 }
 
-/// The move in two.
+/// The move as two moves.
 inline std::pair<Move, Move> halves(Dice& dice, const Move& s) {
   const double share = dice.between(0.1, 0.9);
   switch (s.kind) {
@@ -227,7 +227,7 @@ inline Chain rewritten(Chain chain, Dice& dice, double size, std::size_t times) 
   return chain;
 }
 
-/// The node brought there, on up to five levels of the tree with some moves each.
+/// The node brought to its place, on up to five levels of the tree with some moves each.
 inline CsgNode placed(CsgNode node, const Chain& chain, Dice& dice) {
   constexpr std::size_t kMostLevels = 5;
   const std::size_t levels = 1 + dice.below(kMostLevels);

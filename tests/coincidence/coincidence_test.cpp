@@ -1,5 +1,5 @@
-// What finds surfaces that coincide, part by part. That nothing is left of them in pictures is
-// tested beside.
+// The parts of the search for surfaces that coincide. Other tests check that none is left of them
+// in pictures.
 #include "coincidence/coincidence.hpp"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ Exactness exact_to(double distance, double direction = 1e-14) {
   return {{d, d, d}, static_cast<float>(direction)};
 }
 
-/// A model of leaves, as the compiler makes it before coincidences are seen to.
+/// A model of leaves as the compiler makes it before it unifies coincident surfaces.
 Model model_of(const std::vector<Primitive>& primitives, std::vector<Plane> planes = {}) {
   Model model;
   model.primitives = primitives;
@@ -160,7 +160,7 @@ TEST_CASE("what is nearest stays together, whatever comes within tolerance of on
     std::vector<Measured> pairs;
     std::vector<int> names;
     for (int i = 0; i < 100; ++i) {
-      // Known much worse than they differ, and mostly within tolerance of others.
+      // The tolerance is much larger than their differences, and mostly others are within it, too.
       const double at = dice.between(0, 1);
       for (int k = 0; k < 2; ++k) {
         pairs.push_back({at + dice.between(0, 1e-9), 1e-2});
@@ -316,7 +316,7 @@ TEST_CASE(
     const Affine turn = some_turn(dice);
     Model model;
     model.primitives.push_back(build_box(turn, {0, 0, 0}, {3, 3, 1}));
-    // As exact as six digits are, and with corners off by as much.
+    // The mesh is as exact as six digits are, and has corners that are off by as much.
     PolygonMesh plate = box_polygons({1, 1, 0}, {2, 2, 1});
     for (Vec3& p : plate.points) p = p + 1e-6 * dice.point(1);
     model.primitives.push_back(build_mesh(turn, closed(plate), model.meshes));
@@ -324,7 +324,7 @@ TEST_CASE(
     const Mesh& mesh = model.meshes[0];
     REQUIRE_FALSE(mesh.surface().planes.empty());
     for (int i = 0; i < 50; ++i) {
-      // From one large face to the other.
+      // The ray goes from one large face to the other.
       const Vec3 through = turn.point({dice.between(1.3, 1.7), dice.between(1.3, 1.7), 0.5});
       const Vec3 origin =
           through - 5.0 * turn.vector({dice.between(-0.4, 0.4), dice.between(-0.4, 0.4), 1});
@@ -355,7 +355,7 @@ TEST_CASE("a settled root is the same to the bit whatever interval it was found 
     const double root = settled_root(f, df, lo, hi);
     const double reach = dice.between(1e-3, 0.1);
     const double from = std::fmax(lo, root - reach), to = std::fmin(hi, root + reach);
-    // One root only, so that both look for the same.
+    // There is only one root, so that both look for the same one.
     const auto knots = quartic_extremes(line, lo, hi);
     if (knots.count != 2 || (f(from) < 0) == (f(to) < 0)) continue;
     REQUIRE(settled_root(f, df, from, to) == root);

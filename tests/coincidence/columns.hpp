@@ -30,7 +30,7 @@ enum class ColumnKind : std::uint8_t {
   kTorus,
 };
 inline constexpr std::size_t kColumnKinds = 14;
-/// Those up to here have plane sides.
+/// The kinds below this number have plane sides.
 inline constexpr std::size_t kFlatColumnKinds = 6;
 
 /// The heights between which a column's sides are meant to be seen; they go on a little beyond.
@@ -42,8 +42,8 @@ struct Stretch {
 
 class Column {
  public:
-  /// About (x, y), of radius about `r`. `is_exact`: numbers for which all arithmetic is exact, in a
-  /// kind with plane sides.
+  /// A column about (x, y), of a radius of about `r`. `is_exact`: a kind with plane sides, and
+  /// numbers for which all arithmetic is exact.
   Column(ColumnKind kind, double x, double y, double r, const Stretch& stretch, Dice& dice,
          bool is_exact = false)
       : kind_(kind), x_(x), y_(y), r_(r), stretch_(stretch) {
@@ -51,15 +51,15 @@ class Column {
     b_ = is_exact ? 0.75 : dice.between(0.75, 1);
     phase_degrees_ = dice.between(0, 360);
     sides_ = 5 + static_cast<std::uint32_t>(dice.below(4));
-    // A tenth of the radius at most, over the whole stretch.
+    // At most a tenth of the radius, over the whole stretch.
     const double slope = 0.1 * r / stretch.half();
     lean_x_ = is_exact ? 0 : dice.sign() * dice.between(0.3, 1) * slope;
     lean_y_ = is_exact ? 0 : dice.sign() * dice.between(0.3, 1) * slope;
     narrowing_ = dice.sign() * dice.between(0.5, 1) * slope;
   }
 
-  /// Within the sides at all heights of the stretch lies the disc of this radius, and around them
-  /// that of the other.
+  /// The disc of radius inner() lies within the sides at all heights of the stretch, and that of
+  /// radius outer() around them.
   double inner() const { return kind_ == ColumnKind::kTorus ? 0 : 0.6 * r_; }
   double outer() const {
     return static_cast<std::size_t>(kind_) < kFlatColumnKinds ? 1.55 * r_ : 1.3 * r_;
@@ -68,7 +68,7 @@ class Column {
   double y() const { return y_; }
   ColumnKind kind() const { return kind_; }
 
-  /// A ball and a ring must be higher than the stretch.
+  /// Whether a column of that kind has room: a ball and a ring must be higher than the stretch.
   static bool fits(ColumnKind kind, double r, const Stretch& stretch) {
     if (kind == ColumnKind::kTorus) return stretch.half() < 0.38 * r;
     if (kind == ColumnKind::kBall || kind == ColumnKind::kEllipsoid)
@@ -105,7 +105,7 @@ class Column {
   CsgNode cylinder(double lo, double hi) const {
     return node_of(CylinderShape{{x_, y_, lo}, {x_, y_, hi}, r_});
   }
-  /// Planes of constant z stay where they are.
+  /// A map under which planes of constant z stay where they are.
   Affine lean() const {
     Affine a;
     a.m[0][2] = lean_x_;
@@ -166,7 +166,7 @@ class Column {
                                      along_a(hi) / along_a(lo),
                                      along_b(hi) / along_b(lo)});
   }
-  /// x² + b y² + k z ≤ r² about the axis.
+  /// The solid x² + b y² + k z ≤ r² about the axis.
   CsgNode quadric(double lo, double hi) const {
     const double k = narrowing_ * r_;
     const QuadricShape q{{b_, 0, k, -r_ * r_},

@@ -1,5 +1,5 @@
-// Eyes and lights that lie exactly on faces, and on what would be a face if a flush cut left a
-// skin.
+// Eyes and lights that lie exactly on faces, and in places where a face would be if a flush cut
+// left a skin.
 #include <limits>
 #include <optional>
 
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t kSide = 48;
 
-/// Where in the pair touching faces vanish, with no surface near: in a hole's mouth, or between two
-/// parts.
+/// A point of the pair at which touching faces vanish, with no surface near: in a hole's mouth, or
+/// between two parts.
 std::optional<Vec3> vanished_face_point(const FlushPair& pair, Dice& dice, double& size) {
   const Model model = compile_scene(pair.longer);
   CrossingFinder finder(model);
@@ -62,7 +62,7 @@ void check_at_vanished_faces(const Change& change, bool apart) {
 
 Material matt() { return coloured({0.9, 0.8, 0.7}); }
 
-/// Two columns, one upon the other, where z is 0.
+/// Two columns, one upon the other; they meet at z = 0.
 struct Stack {
   Column below, above;
   static Stack some(Dice& dice) {
@@ -85,8 +85,8 @@ void put_eye(Scene& scene, const Vec3& point, double size) {
   c.eye = point;
   c.look_at = point + size * view;
 }
-/// It lies in the plane of the faces around, where whether there are highlights is for rounding to
-/// say.
+/// The light lies in the plane of the faces around, where it is for rounding to decide whether
+/// there are highlights.
 void put_light(Scene& scene, const Vec3& point, double) {
   scene.materials.front().material.specular = 0;
   scene.settings.lights = {{point, {1, 1, 1}, Falloff::kNone}};
@@ -163,7 +163,7 @@ TEST_CASE("a light in the plane of a face leaves no grains of highlights there")
   shiny.specular = 0.5;
   shiny.shininess = 3;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    // Alone the solid shows no highlight at all: the light is in it, or in its upper face.
+    // Alone, the solid shows no highlight at all: the light is in it, or in its upper face.
     const auto only_face = [&](double above) {
       Scene scene = lit_from_face(seed, above, shiny);
       scene.objects.resize(1);
@@ -176,7 +176,7 @@ TEST_CASE("a light in the plane of a face leaves no grains of highlights there")
 
 namespace {
 
-/// How many of a picture's rays hit something at once.
+/// The number of a picture's rays that hit something at once.
 std::size_t hits_at_once(const Scene& scene) {
   const Picture picture = picture_of(scene);
   std::size_t count = 0;
@@ -197,7 +197,7 @@ TEST_CASE("of the face that it lies on an eye sees nothing, or nothing else") {
     const Stack stack = Stack::some(dice);
     Scene scene = scene_with_settings(settings_around_origin(dice, kSide), {matt()});
     Camera& c = scene.settings.camera;
-    // On a face of one solid, or where two touch; out of it or into it.
+    // The eye is on a face of one solid, or where two touch, and looks out of it or into it.
     c.eye = dice.one_in(2) ? Vec3{-0.2, 0.35, 0} : Vec3{0.15, -0.09, 0};
     c.look_at = c.eye + Vec3{0.1, 0.05, dice.sign()};
     c.up = {0, 1, 0};

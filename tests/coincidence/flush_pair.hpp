@@ -1,6 +1,6 @@
-// Pairs of scenes that hold the same solids: one with faces that touch, flush cuts, plugs, nested
-// shells, each part told in numbers and brought there by maps of its own; the other without any
-// surface that coincides with another.
+// Pairs of scenes that hold the same solids. One has faces that touch: flush cuts, plugs, nested
+// shells, each part told in its own numbers and brought there by its own maps. In the other no
+// surface coincides with another.
 #pragma once
 
 #include <array>
@@ -40,14 +40,14 @@ inline constexpr std::array<const char*, kPairKinds> kPairNames{
     "groove",        "split and joined",  "union less",   "flush box",     "complements",
     "slices",        "assembly"};
 
-/// Where surfaces touch, in coordinates of the part.
+/// A place where surfaces touch, in coordinates of the part.
 struct Site {
   Affine to_world;
   /// The part lies within this radius about the z axis, between 0 and `height`.
   double radius = 0, height = 0;
   /// Discs in which faces touch or parts lie: x, y, radius.
   std::vector<Vec3> discs;
-  /// Heights of faces.
+  /// Heights at which faces lie.
   std::vector<double> heights;
 
   /// The largest stretch of its world map times its radius.

@@ -1,5 +1,5 @@
-// What is meant apart stays apart: sheets, slits and thin walls just above the rounding of numbers,
-// on parts of 100 mm and of 100 m, turned and unturned.
+// Parts that are meant to be apart stay apart: sheets, slits and thin walls just above the rounding
+// of numbers, on parts of 100 mm and of 100 m, turned and unturned.
 #include <functional>
 
 #include "catch.hpp"
@@ -11,7 +11,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// Brings a node to its place.
+/// A function that brings a node to its place.
 using Placing = std::function<CsgNode(const CsgNode&)>;
 
 /// A solid of which rays from `from` to within `spread` of `at` first cross one thin piece, or
@@ -21,7 +21,7 @@ struct ThinPlace {
   Vec3 from, at;
   double spread = 0;
   double thickness = 0;
-  /// A slit: what is thin lies between the first two pieces of the solid.
+  /// Whether it is a slit: then the thin gap lies between the first two pieces of the solid.
   bool is_slit = false;
 };
 
@@ -34,7 +34,7 @@ void for_all_sizes(const Check& check) {
       for (std::uint64_t seed = 0; seed < 24; ++seed) {
         INFO("size " << size << ", share " << share << ", seed " << seed);
         Dice dice(seed + 1);
-        // Every third unturned.
+        // Every third part is unturned.
         Chain chain{Move::translate({0, 0, 0})};
         if (seed % 3 != 0) {
           chain = some_turn_and_move(dice);
@@ -50,7 +50,7 @@ void for_all_sizes(const Check& check) {
   }
 }
 
-/// Both ends of the thin piece are crossed, and as far apart as they are.
+/// Checks that both ends of the thin piece are crossed, and as far apart as it is thick.
 void check_thin_place(const ThinPlace& place, double size, const Affine& map, Dice& dice) {
   const Model model = compile_scene(scene_of({place.solid}));
   CrossingFinder finder(model);
@@ -107,7 +107,7 @@ TEST_CASE("a sheet on a face stays an object of its own, and a slit between two 
                       w,
                       true},
                      s, map, dice);
-    // The sheet on the lower part, itself crossed with a slit of its own thickness below.
+    // The sheet lies on the lower part, and is itself crossed by a slit of its own thickness below.
     const CsgNode sheet = node_of(BoxShape{{0, 0, middle + w}, {s, s, middle + 2 * w}});
     check_thin_place({operation(Operation::kUnion, {placing(lower), placing(sheet)}),
                       {middle, middle, 3 * s},
@@ -149,7 +149,7 @@ TEST_CASE("round walls stay where radii differ by a millionth or a billionth") {
       return node_of(EllipsoidShape{
           {0, 0, 0}, {Vec3{radius, 0, 0}, {0, 0.8 * radius, 0}, {0, 0, 1.2 * radius}}});
     };
-    // Where an axis ends an ellipsoid's wall is as thick as the axes differ.
+    // At the end of an axis, an ellipsoid's wall is as thick as the difference of the axes.
     check_thin_place(
         {wall(egg(r), egg(r * (1 - share))), {2 * s, 0, 0}, {r, 0, 0}, 1e-3 * s, r * share, false},
         s, map, dice);
@@ -180,7 +180,7 @@ TEST_CASE("cylinders whose axes lie a millionth or a billionth apart leave a cre
 TEST_CASE("a wedge stays whose faces form an angle of a millionth or a billionth") {
   for_all_sizes([](double s, double share, const Placing& placing, const Affine& map, Dice& dice) {
     const CsgNode block = node_of(BoxShape{{0, 0, 0}, {s, s, s}});
-    // What lies above the plane z = share · x is taken away.
+    // The part above the plane z = share · x is taken away.
     const CsgNode above = node_of(HalfSpaceShape{{share, 0, -1}, 0});
     check_thin_place({cut(placing(block), placing(above)),
                       {0.8 * s, 0.5 * s, -2 * s},
@@ -213,8 +213,8 @@ TEST_CASE("a pack of sheets a billionth thick, and apart, stays as many sheets")
 TEST_CASE(
     "planes of other parts, each within rounding of the next, don't bring the sides of a sheet "
     "together") {
-  // The sides are 1e-11 of the size apart, a thousand times what rounding makes of numbers; 4000
-  // steps lie between.
+  // The sides are 1e-11 of the size apart, a thousand times the rounding of numbers; 4000 steps lie
+  // between.
   constexpr std::size_t kSteps = 4000;
   for (const bool is_turned : {false, true}) {
     Dice dice(is_turned ? 1 : 2);

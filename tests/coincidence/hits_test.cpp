@@ -38,7 +38,7 @@ void check_pairs(std::uint64_t count, const Make& make, bool forgives_skins = fa
   CHECK(wrong_pairs == 0);
   if (one > 0) return;
   CHECK(sum.met * 3 > sum.rays);
-  // What differs near edges only is rare.
+  // Differences near edges are rare.
   CHECK(sum.near_edges * 1000 <= sum.rays);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("solids without touching surfaces are the same whichever way leads to 
   });
 }
 
-/// Run by name: a table of how many pairs of each kind fail.
+/// Only run by its name: prints a table of how many pairs of each kind fail.
 TEST_CASE("how many pairs of each kind fail", "[.][measure]") {
   const std::uint64_t count = number_in_environment("GRAYCUBE_SEEDS", 100);
   std::ostringstream table;

@@ -22,8 +22,8 @@ MeshFlats flats_of(const TriangleMesh& mesh, double distance) {
   return MeshFlats(mesh, std::move(all), distance);
 }
 
-/// Each triangle of the mesh is of one flat part, and how many triangles these have, the most
-/// first.
+/// The numbers of triangles of all flat parts, the largest first; each triangle must belong to one
+/// part.
 std::vector<std::uint32_t> sizes(const TriangleMesh& mesh, const MeshFlats& flats) {
   std::vector<std::uint32_t> counts, found;
   for (const Flat& f : flats.flats()) {

@@ -1,5 +1,5 @@
 // Faces shared by different objects, under turns: the first object in the file wins everywhere, and
-// whatever starts on such a face goes on as it does where all coordinates are short.
+// rays that start on such a face go on as they do if all coordinates are short.
 
 #include "catch.hpp"
 #include "coincidence/touching_objects.hpp"
@@ -106,8 +106,8 @@ TEST_CASE(
 
 namespace {
 
-/// Pixels whose first hits differ in object, depth or normal, where a rigid map leads from the one
-/// picture to the other.
+/// Counts pixels whose first hits differ in object, depth or normal between two pictures, where a
+/// rigid map leads from one scene to the other.
 std::size_t pixels_of_other_hits(const Picture& turned, const Picture& unturned,
                                  const Affine& map) {
   std::size_t count = 0;
@@ -130,8 +130,8 @@ std::size_t pixels_of_other_hits(const Picture& turned, const Picture& unturned,
   return count;
 }
 
-/// Pictures of solids in all materials, or all of glass, turned and not. `apart`: every solid a
-/// little smaller and moved by a little, so that no faces coincide.
+/// Compares pictures of solids in all materials, or all of glass, turned and not. `apart`: every
+/// solid is a little smaller and moved a little, so that no faces coincide.
 void check_turned_and_unturned(bool apart) {
   PictureTally tally;
   std::size_t other_hits = 0;

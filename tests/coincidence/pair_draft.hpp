@@ -1,5 +1,5 @@
-// What the parts of a pair are made with: one chain of maps, lengths, columns, and two ways to tell
-// a part.
+// Tools that make the parts of a pair: one chain of maps, lengths, columns, and two ways to tell a
+// part.
 #pragma once
 
 #include <cmath>
@@ -16,21 +16,21 @@ namespace graycube::testing {
 
 struct PairOptions {
   ChainOptions::Turns turns = ChainOptions::Turns::kAny;
-  /// Sizes other than 1 and places far from the origin.
+  /// Sizes may be other than 1, and places far from the origin.
   bool is_any_size = true;
-  /// The longer scene's parts have ways and numbers of their own, too.
+  /// The longer scene's parts have their own ways and numbers, too.
   bool tells_longer_anew = false;
-  /// Round things may be told as shapes of other kinds (Retelling).
+  /// Round solids may be told as shapes of other kinds (Retelling).
   bool tells_across_kinds = false;
-  /// Of the chain that leads to the pair's place.
+  /// The most moves of the chain that leads to the pair's place.
   std::size_t most_moves = 5;
-  /// How parts are told; by default anew, by a way of their own.
+  /// How parts are told; by default in other numbers, by a way of their own.
   std::function<CsgNode(const CsgNode&, const Chain&)> telling{};
 
   bool is_exact() const { return turns == ChainOptions::Turns::kQuarters; }
 };
 
-/// A pair in the making; what makes its parts draws from it.
+/// A pair under construction; the makers of its parts draw from it.
 class PairDraft {
  public:
   PairDraft(std::uint64_t seed, PairKind kind, PairOptions options)
@@ -57,11 +57,11 @@ class PairDraft {
     if (is_exact()) return Move::rotate(dice.axis(), 90);
     return Move::rotate(dice.unit_vector(), chains::round_angle(dice));
   }
-  /// By the chain as it is.
+  /// The part at its place, by the chain as it is.
   CsgNode plain(const CsgNode& node) {
     return options_.tells_longer_anew ? told(node) : transformed(node, map_of(chain));
   }
-  /// By another way, in other numbers.
+  /// The part at its place, by another way and in other numbers.
   CsgNode told(const CsgNode& node) {
     if (options_.telling) return options_.telling(node, chain);
     if (is_exact()) return placed(node, chain, telling_dice);
@@ -72,7 +72,7 @@ class PairDraft {
   Column some_column(double x, double y, double r, const Stretch& stretch) {
     return {some_kind(r, stretch), x, y, r, stretch, dice, is_exact()};
   }
-  /// Not a ring, so that there is room in it.
+  /// A column that is no ring, so that there is room in it.
   Column body(const Stretch& stretch) {
     for (;;) {
       const Column c = some_column(0, 0, unit, stretch);
@@ -107,7 +107,7 @@ class PairDraft {
     for (const Column& c : columns) pair.sites.back().discs.push_back({c.x(), c.y(), c.outer()});
   }
 
-  /// What is made, and how it is told.
+  /// Dice that decide what is made, and dice that decide how it is told.
   Dice dice, telling_dice;
   FlushPair pair;
   double unit = 1;

@@ -1,4 +1,4 @@
-// Makes pairs of all kinds by a seed.
+// Makes pairs of all kinds from a seed.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@ namespace graycube::testing {
 
 class PairMaker {
  public:
-  /// The kind is that of the seed, modulo kPairKinds.
+  /// The pair's kind is the seed modulo kPairKinds.
   explicit PairMaker(std::uint64_t seed, PairOptions options = {})
       : PairMaker(seed, static_cast<PairKind>(seed % kPairKinds), std::move(options)) {}
   PairMaker(std::uint64_t seed, PairKind kind, PairOptions options = {})
@@ -33,7 +33,7 @@ class PairMaker {
   }
 
  private:
-  /// A solid in both scenes.
+  /// A solid as told in both scenes.
   struct Told {
     CsgNode flush, longer;
   };
@@ -69,7 +69,7 @@ class PairMaker {
     }
   }
 
-  /// From `floor` (of the height) to the top.
+  /// Holes from `floor`, a fraction of the height, to the top.
   Told holes(double floor, bool by_complements) {
     const Stretch s = draft_.some_stretch();
     const Column plate = draft_.body(s);
@@ -190,7 +190,7 @@ class PairMaker {
     const Column outer = draft_.body(s);
     const Column middle = draft_.some_column(0, 0, draft_.length(0.25, 0.35), s);
     const Column inner = draft_.some_column(0, 0, draft_.length(0.06, 0.08), s);
-    // A ring in the middle has no room in it: the inner cut takes nothing away from it then, or a
+    // A ring in the middle leaves no room inside: then the inner cut takes nothing away, or only a
     // little.
     const CsgNode whole = outer.between(0, s.hi);
     CsgNode first =
@@ -225,7 +225,7 @@ class PairMaker {
     const CsgNode x = draft_.some_column(0, 0, draft_.unit, s).between(0, s.hi);
     const CsgNode x_plain = draft_.plain(x), x_told = draft_.told(x), x_again = draft_.told(x);
     draft_.note_site(s, {0, s.hi});
-    // The other stands askew in it.
+    // The other part stands askew in it.
     draft_.chain.insert(
         draft_.chain.begin(),
         {draft_.some_turn(),

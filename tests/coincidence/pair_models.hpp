@@ -10,10 +10,10 @@
 
 namespace graycube::testing {
 
-/// What came of the rays of some pairs.
+/// The results of the rays of some pairs.
 struct Tally {
   std::size_t rays = 0, met = 0, wrong = 0;
-  /// Differ within a hair's breadth of an edge, or nearly along a face.
+  /// Rays that differ within a hair's breadth of an edge, or nearly along a face.
   std::size_t near_edges = 0;
   /// The first wrong ray.
   std::string first;
@@ -31,9 +31,9 @@ struct Tally {
 class PairOfModels {
  public:
   struct Options {
-    /// Skins as thick as rounding makes them don't count.
+    /// Skins as thin as the rounding of numbers don't count.
     bool forgives_skins = false;
-    /// What is written of a number may differ from it by this share of the size and of coordinates.
+    /// Numbers as written may be off by this share of the size and of coordinates.
     double rounding = 1e-10;
   };
 
@@ -59,7 +59,7 @@ class PairOfModels {
   }
 
  private:
-  /// Where numbers are coarse a ray that starts on a face of one scene may miss the other's.
+  /// If numbers are coarse, a ray that starts on a face of one scene may miss the other's face.
   bool may_start_on_face(const PairRay& ray) const {
     return options_.rounding < 1e-9 && PairRays::is_large_enough(ray);
   }
@@ -87,8 +87,8 @@ class PairOfModels {
             std::fmax(1e-6, 1000 * options_.rounding)};
   }
 
-  /// Rays a millionth of the size beside it, or a little more where numbers are coarser, cross the
-  /// same faces, none of them nearly along it.
+  /// Whether rays a millionth of the size beside it, or a little more if numbers are coarser, cross
+  /// the same faces, none of them nearly along the face.
   bool is_clear_of_edges(const PairRay& ray, const std::vector<SeenCrossing>& expected) {
     const double beside = std::fmax(1e-6, 60 * options_.rounding);
     for (const SeenCrossing& c : expected) {

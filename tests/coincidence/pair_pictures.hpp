@@ -1,4 +1,4 @@
-// Pairs of scenes as pictures, and where these differ.
+// The scenes of a pair as pictures, and the differences between these.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace graycube::testing {
 
-/// A camera that looks at one of the pair's parts, lights, and a material, the same in both scenes.
+/// Gives both scenes the same camera, which looks at one of the pair's parts, lights and material.
 inline void set_up_picture(FlushPair& pair, std::uint32_t side) {
   Dice dice(pair.seed ^ 0xC0FFEEull);
   const Site& site = pair.sites[dice.below(pair.sites.size())];
@@ -62,9 +62,9 @@ inline Picture picture_of(const Scene& scene, Subdivision subdivision = Subdivis
 /// Differences between two pictures of one size, of which the second is right.
 struct PictureDifference {
   std::size_t pixels = 0;
-  /// Of these, those around which the right picture shows one surface.
+  /// The number of those around which the right picture shows one surface.
   std::size_t interior = 0;
-  /// Of the picture's pixels.
+  /// The number of all pixels around which the right picture shows one surface.
   std::size_t all_interior = 0;
 };
 
@@ -91,7 +91,7 @@ class PictureComparison {
   std::size_t at(std::uint32_t x, std::uint32_t y) const {
     return 3 * (std::size_t{y} * expected_.width + x);
   }
-  /// By more than four steps of a 16-bit picture.
+  /// Whether the pixel differs by more than four steps of a 16-bit picture.
   bool differs(std::uint32_t x, std::uint32_t y) const {
     constexpr double kMost = 4.0 / 65535;
     for (std::size_t i = at(x, y); i < at(x, y) + 3; ++i) {
@@ -110,7 +110,7 @@ class PictureComparison {
     };
     return {word(0), word(1), word(2)};
   }
-  /// The same object and about the same normal in all nine pixels around.
+  /// Whether all nine pixels around show the same object, and about the same normal.
   bool is_interior(std::uint32_t x, std::uint32_t y) const {
     constexpr double kBend = 0.15;
     if (x == 0 || y == 0 || x + 1 == expected_.width || y + 1 == expected_.height) return false;
@@ -141,8 +141,8 @@ class PictureTally {
     sum_.all_interior += d.all_interior;
     pixels_ += std::uint64_t{expected.width} * expected.height;
   }
-  /// Interior pixels never differ, others hardly ever; `share`: of all pixels how many are interior
-  /// at least.
+  /// Checks that interior pixels never differ, and others hardly ever. `share`: the least part of
+  /// all pixels that must be interior.
   void check(double share = 0.5) const {
     INFO(sum_.pixels << " of " << pixels_ << " pixels" << wrong_);
     CHECK(sum_.interior == 0);

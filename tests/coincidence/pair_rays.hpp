@@ -1,4 +1,4 @@
-// Rays for a pair of scenes, most of them aimed at where surfaces touch, and what they meet.
+// Rays for a pair of scenes, most of them aimed where surfaces touch, and their crossings.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@ struct PairRay {
   Ray ray;
   /// Crossings before it don't count.
   double t0 = 0;
-  /// Of the part that it is aimed at.
+  /// The size of the part at which the ray is aimed.
   double size = 1;
   bool starts_on_face = false;
 };
 
-/// The angle below which a ray along a face isn't held to anything, in radians.
+/// Nothing is checked of rays that meet a face at less than this angle, in radians.
 inline constexpr double kLeastGrazing = 0.01;
 
 class PairRays {
@@ -60,7 +60,7 @@ class PairRays {
     return r;
   }
 
-  /// From a point of a surface on, as a shadow or a reflected ray.
+  /// A ray that starts at a point of a surface, as a shadow or a reflected ray does.
   PairRay secondary(const PairRay& from, const Vec3& hit) {
     PairRay r{"from a hit", {hit, dice_.unit_vector()}, 0, from.size, false};
     start_on_face(r);
@@ -70,7 +70,7 @@ class PairRays {
   /// smaller).
   static bool is_large_enough(const PairRay& r) { return epsilon(r.ray.origin) < 5e-3 * r.size; }
 
-  /// The ray a little beside: of those that start on a face only the direction.
+  /// The ray moved a little aside; if it starts on a face, only its direction is changed.
   PairRay beside(PairRay r, double by) {
     const Vec3 aside = cross(r.ray.direction, dice_.unit_vector());
     if (!r.starts_on_face)
@@ -90,7 +90,7 @@ class PairRays {
     return site_->to_world.point(
         {dice_.between(-r, r), dice_.between(-r, r), dice_.between(-0.1, 1.1) * site_->height});
   }
-  /// Of a face that others may touch.
+  /// A point of a face that other faces may touch.
   Vec3 face_point() {
     const double z = site_->heights[dice_.below(site_->heights.size())];
     Vec3 disc{0, 0, site_->radius};
@@ -123,9 +123,9 @@ struct SeenCrossing {
   double t = 0;
   std::uint32_t object = 0;
   bool entering = false;
-  /// Against the ray.
+  /// The normal, against the ray.
   Vec3 normal;
-  /// Of the angle between normal and ray.
+  /// The cosine of the angle between normal and ray.
   double cosine = 0;
 };
 
@@ -165,7 +165,7 @@ class CrossingFinder {
   TreeScratch scratch_;
 };
 
-/// Without the pieces, in a solid or between two, that are not thicker than `thickness`.
+/// The crossings without pieces, of a solid or between two, that are not thicker than `thickness`.
 inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& all,
                                                double thickness) {
   std::vector<SeenCrossing> kept;
@@ -182,7 +182,7 @@ inline std::vector<SeenCrossing> without_skins(const std::vector<SeenCrossing>& 
   return kept;
 }
 
-/// How much crossings of one line may differ that came by different arithmetic.
+/// How much crossings of one line may differ that were computed by different arithmetic.
 struct CrossingTolerance {
   /// In scene units, for a ray straight at a face; more for one that grazes it.
   double t = 0;

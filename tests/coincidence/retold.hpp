@@ -1,4 +1,4 @@
-// The same solid told by other numbers: ends swapped, planes rescaled, a box as a polyhedron, a
+// The same solid told in other numbers: ends swapped, planes rescaled, a box as a polyhedron, a
 // prism or a mesh, an ellipsoid by other axes, a rotation carried out in the numbers.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace graycube::testing {
 
-/// As six planes.
+/// The box as six planes.
 inline PolyhedronShape polyhedron_of(const BoxShape& box) {
   PolyhedronShape p;
   for (int a = 0; a < 3; ++a) {
@@ -25,14 +25,14 @@ inline PolyhedronShape polyhedron_of(const BoxShape& box) {
   return p;
 }
 
-/// Tells leaves anew, by dice.
+/// Tells leaves in other numbers, as dice decide.
 class Retelling {
  public:
-  /// `across_kinds`: round things also as shapes of a more general kind.
+  /// `across_kinds`: round solids may also become shapes of a more general kind.
   explicit Retelling(Dice& dice, bool across_kinds = false)
       : dice_(dice), across_kinds_(across_kinds) {}
 
-  /// All leaves of a tree, whose order and maps stay.
+  /// Tells all leaves of a tree anew; their order and maps stay.
   CsgNode operator()(const CsgNode& node) {
     CsgNode told = std::visit([&](const auto& shape) { return tell(shape); }, node.value);
     told.material = node.material;
@@ -68,7 +68,7 @@ class Retelling {
             b.max.z - b.min.z,
             b.min.z};
   }
-  /// The box turned back in its numbers, and forth by a map.
+  /// The box turned back in its numbers, and forth again by a map.
   CsgNode quarter_turned(const BoxShape& b) {
     const Vec3 axis = dice_.axis();
     const double angle = 90.0 * static_cast<double>(1 + dice_.below(3));
@@ -137,7 +137,7 @@ class Retelling {
                        scaling({s.radius, s.radius, s.radius}));
   }
   CsgNode tell(const EllipsoidShape& e) {
-    // The unit sphere turned in itself first.
+    // The unit sphere is first turned in itself.
     const Affine turn = rotation(dice_.unit_vector(), chains::round_angle(dice_));
     const auto column = [&](std::size_t i) {
       return turn.m[0][i] * e.axes[0] + turn.m[1][i] * e.axes[1] + turn.m[2][i] * e.axes[2];
@@ -160,7 +160,7 @@ class Retelling {
   }
   CsgNode tell(const EllipticTorusShape& t) {
     if (dice_.one_in(2)) return node_of(t);
-    // Seen from the other side of its plane.
+    // The torus is seen from the other side of its plane.
     return node_of(EllipticTorusShape{t.center, -t.axis, t.radius, t.outward, -t.upward, t.across});
   }
   template <typename Shape>
@@ -227,7 +227,7 @@ class CarriedOut {
   Affine map_;
 };
 
-/// The node brought there in numbers of its own.
+/// The node brought to its place, told in other numbers.
 inline CsgNode told_anew(const CsgNode& node, Chain way, Dice& dice, bool across_kinds = false) {
   CsgNode told = Retelling(dice, across_kinds)(node);
   if (!told.transform && !way.empty() && way.front().is_rigid()) {

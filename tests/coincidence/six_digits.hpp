@@ -1,4 +1,4 @@
-// Numbers as a file of few digits has them.
+// Rounds numbers as a file of few digits has them.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ inline double rounded_to_six_digits(double v) {
   return std::strtod(text.data(), nullptr);
 }
 
-/// Rounds all numbers of nodes: shapes', and each level's matrix.
+/// Rounds all numbers of nodes: those of shapes, and each level's matrix.
 class SixDigits {
  public:
   void operator()(CsgNode& node) {
@@ -101,7 +101,7 @@ class SixDigits {
     say_six(m);
   }
 
-  /// Where digits are kept.
+  /// Sets the digits of a shape or scene that keeps them.
   template <typename T>
   static void say_six(T& owner) {
     if constexpr (requires { owner.digits; }) owner.digits = 6;
@@ -109,7 +109,7 @@ class SixDigits {
   friend void round_to_six_digits(Scene& scene);
 };
 
-/// All of a scene's numbers but its settings', and says so.
+/// Rounds all of a scene's numbers but its settings', and sets its digits.
 inline void round_to_six_digits(Scene& scene) {
   SixDigits rounding;
   for (NamedShape& s : scene.shapes) rounding(s.node);
@@ -117,8 +117,8 @@ inline void round_to_six_digits(Scene& scene) {
   SixDigits::say_six(scene);
 }
 
-/// A leaf as OpenSCAD tells it: at the origin, of a size, brought to its place by a level of its
-/// own.
+/// A leaf as OpenSCAD tells it: at the origin, with a size, and brought to its place by a level of
+/// its own.
 class AsOpenscad {
  public:
   CsgNode operator()(const CsgNode& node) const {
@@ -162,7 +162,7 @@ class AsOpenscad {
   }
 };
 
-/// Each move a level of the tree.
+/// Makes each move a level of the tree.
 inline CsgNode on_own_levels(CsgNode node, const Chain& chain) {
   for (const Move& m : chain) node = AsOpenscad::with_level(std::move(node), m.map());
   return node;

@@ -12,7 +12,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// Of some numbers added up.
+/// The rounding of sums of some numbers of six digits, relative to their size.
 constexpr double kSixDigits = 5e-6;
 
 /// Pairs whose flush scene is written in six digits. `told(node, chain)` tells its parts.
@@ -37,17 +37,17 @@ void check_six_digits(std::uint64_t count, const std::vector<PairKind>& kinds,
   }
   INFO(sum.wrong << " of " << sum.rays << " rays, " << sum.near_edges << " more near edges; "
                  << wrong_pairs << " pairs of " << count << "; first: " << sum.first);
-  // Where a ray grazes a face, a rounded plane may be met a little beyond an edge.
+  // If a ray grazes a face, a rounded plane may be met a little beyond an edge.
   CHECK(sum.wrong * 10'000 <= sum.rays);
   CHECK(sum.met * 3 > sum.rays);
   CHECK(sum.near_edges * 20 <= sum.rays);
 }
 
-/// All whose touching faces are plane whatever the parts are.
+/// All kinds whose touching faces are plane, whatever the parts are.
 const std::vector<PairKind> kFlatKinds{PairKind::kThroughHoles, PairKind::kPocketToTop,
                                        PairKind::kNotch, PairKind::kStandingBoss,
                                        PairKind::kComplements};
-/// All but assemblies, whose parts lie many times their size from the origin.
+/// All kinds but assemblies, whose parts lie many times their size from the origin.
 std::vector<PairKind> all_kinds() {
   std::vector<PairKind> kinds;
   for (std::size_t i = 0; i + 1 < kPairKinds; ++i) kinds.push_back(static_cast<PairKind>(i));
@@ -138,7 +138,7 @@ TEST_CASE("in six digits a turned part of 40 mm that is 57 m away keeps a floor 
     const Ray ray{map.point({25, 15, 20}), normalized(map.vector({0, 0, -1}))};
     const auto found = finder.all({"", ray, 0, 40, false});
     REQUIRE(found.size() == 2);
-    // What lies within the digits of 57 m from each other may have become one: half a millimetre.
+    // Faces closer to each other than the digits of 57 m, half a millimetre, may have become one.
     CHECK(found[1].t - found[0].t == Approx(kFloor).margin(0.6));
   }
 }

@@ -1,6 +1,6 @@
 // Scenes of several objects whose faces touch: parts on tables, side by side, let into each other,
-// of glass, mirrors and matter. Unturned all their numbers are short, so that what coincides does
-// to the bit.
+// of glass, mirrors and matter. If unturned, all their numbers are short, so that faces which
+// coincide do so to the bit.
 #pragma once
 
 #include <utility>
@@ -12,7 +12,7 @@
 
 namespace graycube::testing {
 
-/// Brings nodes to one place, each by a way and in numbers of its own.
+/// Brings nodes to one place, each in its own way and its own numbers.
 class OtherWays {
  public:
   OtherWays(Chain chain, Dice& dice) : chain_(std::move(chain)), dice_(dice) {}
@@ -27,7 +27,7 @@ class OtherWays {
   Dice& dice_;
 };
 
-/// A turn and a translation: lengths and handedness stay.
+/// A turn and a translation, which keep lengths and handedness.
 inline Chain some_turn_and_move(Dice& dice) {
   return {Move::rotate(dice.unit_vector(), chains::round_angle(dice)),
           Move::translate(dice.point(2)), Move::rotate(dice.axis(), chains::round_angle(dice))};
@@ -42,7 +42,7 @@ inline Scene scene_with_settings(const RenderSettings& settings,
   return scene;
 }
 
-/// Looks at the origin, of a scene about 4 across, with two lights.
+/// Settings that look at the origin of a scene about 4 across, with two lights.
 inline RenderSettings settings_around_origin(Dice& dice, std::uint32_t side) {
   RenderSettings s;
   s.image = {side, side, 1};
@@ -67,7 +67,7 @@ inline Material coloured(const Rgb& color) {
   return m;
 }
 
-/// The same view of what a rigid map has moved.
+/// Settings with the same view of a scene that a rigid map has moved.
 inline RenderSettings moved_settings(RenderSettings s, const Affine& map) {
   s.camera.up = map.vector(s.camera.up);
   s.camera.eye = map.point(s.camera.eye);
@@ -77,7 +77,7 @@ inline RenderSettings moved_settings(RenderSettings s, const Affine& map) {
 }
 
 /// Solids about the origin that touch: a table with its top at 0; standing on it, side by side and
-/// in one another, boxes and round things as high as each other or twice that.
+/// in one another, boxes and round solids of the same height or twice that.
 inline std::vector<CsgNode> touching_solids(Dice& dice) {
   std::vector<CsgNode> solids{node_of(BoxShape{{-2, -2, -0.5}, {2, 2, 0}})};
   // A row of boxes that share their sides, one behind the other.
@@ -88,7 +88,7 @@ inline std::vector<CsgNode> touching_solids(Dice& dice) {
     solids.push_back(node_of(BoxShape{{x, -1.5, 0}, {x + width, -0.5, height}}));
     x += width;
   }
-  // Let into a box, level with its top; and one upon the other.
+  // One box is let into another, level with its top; and one stands upon the other.
   solids.push_back(node_of(BoxShape{{-1.5, 0.25, 0}, {0, 1.5, 0.5}}));
   solids.push_back(node_of(CylinderShape{{-0.75, 0.875, -0.25}, {-0.75, 0.875, 0.5}, 0.375}));
   solids.push_back(node_of(CylinderShape{{1, 0.875, 0}, {1, 0.875, 0.5}, 0.5}));
@@ -97,7 +97,7 @@ inline std::vector<CsgNode> touching_solids(Dice& dice) {
   return solids;
 }
 
-/// Each solid an object, with one material after the other.
+/// Makes each solid an object; materials are given in turn.
 inline void add_objects(Scene& scene, std::vector<CsgNode> solids) {
   for (CsgNode& s : solids) {
     const auto material = static_cast<MaterialIndex>(scene.objects.size() % scene.materials.size());

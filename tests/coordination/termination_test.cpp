@@ -43,7 +43,7 @@ class Farm {
     }
   }
 
-  /// One event, drawn at random.
+  /// Lets one event happen, drawn at random.
   void step() {
     switch (engine_() % 4) {
       case 0: return work(static_cast<std::uint32_t>(engine_() % nodes_.size()));
@@ -138,7 +138,7 @@ constexpr std::uint32_t kNever = 1u << 30;
 
 TEST_CASE("the token detects the end, and never too early, on rings of 1 to 64 nodes") {
   for (std::uint32_t seed = 0; seed < 2400; ++seed) {
-    // Mostly small rings: on them the rare orders of events that call for colour and count come up.
+    // Mostly small rings: on them the rare orders of events happen that need colour and count.
     const std::uint32_t nodes = 1u << (seed % 20 == 0 ? seed / 20 % 7 : 1 + seed / 20 % 3);
     Farm farm(nodes, seed, kNever);
     const Verdict verdict = farm.run();
@@ -167,7 +167,7 @@ TEST_CASE("a reset ring serves the next epoch, whatever state the last one left"
 
 TEST_CASE("a lost message is never taken for the end, and is told apart from it") {
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
-    // So many equal rounds that nothing can still be under way.
+    // After so many equal rounds, nothing can still be under way.
     const std::uint32_t nodes = 1u << (seed % 5);
     Farm farm(nodes, seed, 200);
     farm.lose_message_of(seed % nodes);

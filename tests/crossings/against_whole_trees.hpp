@@ -1,4 +1,4 @@
-// Random scenes and rays on which what finds crossings is compared, bit for bit, with the whole
+// Random scenes and rays, on which finders of crossings are compared, bit for bit, with the whole
 // trees.
 #pragma once
 
@@ -37,7 +37,7 @@ inline std::string describe(const std::vector<WholeCrossing>& list) {
   return s.str();
 }
 
-/// What is left of light that crosses the surfaces; nothing when an opaque one is among them.
+/// The light that is left after it crosses the surfaces; nothing if one of them is opaque.
 inline std::optional<Rgb> filtered(const Model& model, const std::vector<WholeCrossing>& crossings,
                                    Rgb light) {
   for (const WholeCrossing& c : crossings) {
@@ -56,7 +56,7 @@ bool agrees(const Model& model, const RayCase& c, const std::vector<WholeCrossin
             const First& first, const Pass& pass) {
   double t0 = c.t0;
   for (std::size_t i = 0;; ++i) {
-    // Of crossings at one parameter the first object's is found.
+    // If several crossings have one parameter, the first object's is found.
     while (i > 0 && i < expected.size() && expected[i].t == expected[i - 1].t) ++i;
     const std::optional<Crossing> hit = first(t0, c.t1);
     if (hit.has_value() != (i < expected.size()) || (hit && !(plain(*hit) == expected[i]))) {
@@ -129,7 +129,7 @@ std::size_t compare_scene(std::uint64_t seed, const RandomOptions& options, int 
 struct SceneFamily {
   const char* name;
   RandomOptions options;
-  /// Out of a thousand.
+  /// The family's share of the seeds, out of a thousand.
   std::uint64_t share;
 };
 inline const std::vector<SceneFamily> kFamilies{

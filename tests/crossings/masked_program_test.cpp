@@ -1,4 +1,4 @@
-// Programs as operations on bits against the trees that they come from.
+// Programs as operations on bits, compared with the trees that they come from.
 #include "crossings/masked_program.hpp"
 
 #include <span>
@@ -53,7 +53,7 @@ TEST_CASE(
     std::uint32_t leaves = 0;
     add_tree(dice, 1 + static_cast<int>(dice.below(3)), leaves, tree);
     if (tree.size() == 1) continue;
-    // Behind operations of others, as in a surface tree.
+    // The program stands behind operations of others, as in a surface tree.
     std::vector<MaskOperation> operations(dice.below(3));
     const std::size_t first = operations.size();
     if (!MaskedProgram::append(tree, operations)) {

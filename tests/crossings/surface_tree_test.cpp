@@ -17,7 +17,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// From all objects cut into cells to none.
+/// Options with which all objects are cut into cells, some, or none.
 const std::vector<SurfaceTreeOptions> kOptions{{},
                                                {.whole_object_literals = 0},
                                                {.whole_object_literals = 2},
@@ -83,7 +83,7 @@ TEST_CASE("a tree of one item and a tree of thousands find the same") {
   TreeScratch scratch;
   std::size_t hits = 0;
   for (int i = 0; i < 3000; ++i) {
-    // From outside all of them, so that the nearest surface is the union's.
+    // The ray starts outside all of them, so that the nearest surface is the union's.
     const Vec3 from = 9.0 * random.dice().unit_vector();
     const Ray ray{from, normalized(random.dice().point(3) - from)};
     const auto a = many.first_crossing(ray, 0, kInf, scratch);
@@ -175,7 +175,7 @@ TEST_CASE(
     "a packet finds in a mesh of many triangles what its rays find alone, also behind faces that "
     "cancel") {
   PolygonMesh polygons = ball_polygons(2, 20, 30);
-  // A box and its inside-out twin are nothing, wherever they are.
+  // A box and its inside-out twin leave nothing, wherever they are.
   for (const Vec3& at : {Vec3{0, 0, 0}, Vec3{1.5, -1, 0.5}, Vec3{-3, -3, -3}}) {
     append(polygons, box_polygons(at, at + Vec3{3, 3, 3}));
     append(polygons, box_polygons(at, at + Vec3{3, 3, 3}), true);

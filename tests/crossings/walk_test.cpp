@@ -13,7 +13,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// All crossings that the walk comes across, region by region.
+/// All crossings that the walk meets, region by region.
 std::vector<WholeCrossing> walked(const Bsp& bsp, const RayCase& c, Mailbox& mailbox) {
   std::vector<WholeCrossing> all;
   mailbox.begin_ray();

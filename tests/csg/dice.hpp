@@ -34,7 +34,7 @@ class Dice {
       if (l > 0.01 && l < 1) return normalized(v);
     }
   }
-  /// Along a world axis.
+  /// A direction along a world axis.
   Vec3 axis() {
     Vec3 v;
     v[static_cast<int>(below(3))] = sign();

@@ -1,5 +1,5 @@
-// Points tell: what is near a point of a solid lies in the dilated one, what is near one of the
-// eroded solid in the solid.
+// Checks by points: a point near a point of a solid lies in the dilated solid, and one near a point
+// of the eroded solid lies in the solid.
 #include "csg/morphology.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// A vector of at most that length, mostly as long.
+/// A vector of at most that length, mostly just as long.
 Vec3 some_offset(Dice& dice, double most) {
   return (dice.one_in(3) ? dice.between(0, most) : most) *
          (dice.one_in(4) ? dice.axis() : dice.unit_vector());
@@ -64,7 +64,7 @@ TEST_CASE("dilated and eroded primitives enclose and are enclosed") {
         ++eroded_points[kind];
       }
     }
-    // What the larger one holds, its bounds hold.
+    // The bounds of the larger one hold all points that it holds.
     for (int i = 0; i < 100; ++i) {
       const Vec3 q = dice.point(8);
       if (contains(larger, {planes, {}}, q)) REQUIRE(larger.bounds.grown(1e-9).contains(q));

@@ -66,7 +66,7 @@ inline bool is_inside(const Spans& spans, double t) {
   }
   return false;
 }
-/// Distance of t to the nearest end.
+/// The distance of t from the nearest end.
 inline double distance_to_ends(const Spans& spans, double t) {
   double least = kInf;
   for (int i = 0; i < spans.count; ++i) {

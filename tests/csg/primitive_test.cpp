@@ -31,7 +31,7 @@ void for_random_primitives(const Check& check, const RandomOptions& options = {}
   }
 }
 
-/// Or anywhere, when none is found soon.
+/// A point inside; or anywhere, if none is found soon.
 Vec3 point_inside(const OnePrimitive& one, Dice& dice) {
   for (int i = 0; i < 5; ++i) {
     const Ray ray = ray_towards(one, dice);

@@ -48,7 +48,7 @@ class RandomModel {
 
   Dice& dice() { return dice_; }
 
-  /// Valid as if read from a file. The picture is small, the eye anywhere, also inside a solid.
+  /// A scene as valid as if read from a file; a small picture, the eye anywhere, even in a solid.
   Scene scene() {
     Scene s;
     settings(s.settings);
@@ -62,7 +62,7 @@ class RandomModel {
     return s;
   }
 
-  /// Kind number 0 … kLeafKinds − 1, in its own coordinates near the origin.
+  /// A leaf of kind number 0 … kLeafKinds − 1, in its own coordinates near the origin.
   CsgNode leaf(std::size_t kind) {
     switch (kind) {
       case 0: return node_of(SphereShape{place(), size()});
@@ -80,7 +80,7 @@ class RandomModel {
     }
   }
 
-  /// Invertible: translations, quarter turns, rotations, scales, mirrors, shears.
+  /// An invertible map: translations, quarter turns, rotations, scales, mirrors, shears.
   Affine map() {
     switch (dice_.below(6)) {
       case 0: return translation(place());
@@ -95,7 +95,7 @@ class RandomModel {
     return compose(translation(dice_.point(3)),
                    rotation(dice_.unit_vector(), dice_.between(0, 360)));
   }
-  /// Far from singular, with shear, in half of all cases a mirror.
+  /// A map far from singular, with shear, and in half of all cases a mirror.
   Affine shear() {
     Affine a;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -233,7 +233,7 @@ class RandomModel {
             radius * dice_.between(0.05, 0.6),
             radius * dice_.between(0.1, 0.6)};
   }
-  /// As rpc, rhc, epa, ehy and hyp.
+  /// A quadric of BRL-CAD's kinds rpc, rhc, epa, ehy or hyp.
   QuadricShape quadric() {
     const double k = 1 + 2 * size();
     switch (dice_.below(5)) {
@@ -244,7 +244,7 @@ class RandomModel {
       default: return {{1, 1 - k * k, 0, -1}, {-k, -k, -1}, {k, k, 1}};
     }
   }
-  /// Coarse enough for flat faces to matter; with cavities, and with parts that overlap.
+  /// A mesh so coarse that its flat faces matter; with cavities, and with parts that overlap.
   MeshShape mesh() {
     PolygonMesh polygons;
     switch (dice_.below(4)) {

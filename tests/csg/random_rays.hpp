@@ -29,7 +29,7 @@ class RandomRays {
   RandomRays(std::uint64_t seed, const Model& model)
       : dice_(seed ^ 0x9E3779B97F4A7C15ull), model_(model), trees_(model) {}
 
-  /// Number `kind` < kRayCases.
+  /// Makes a ray of kind number `kind` < kRayCases.
   RayCase make(std::size_t kind) {
     RayCase c = of_kind(kind);
     c.ray.direction = normalized(c.ray.direction);
@@ -63,7 +63,7 @@ class RandomRays {
     return model_.primitives[dice_.below(model_.primitives.size())];
   }
 
-  /// Of a primitive with plane faces one of them, if it has any.
+  /// The plane of one of the primitive's faces; nothing if it has no plane faces.
   std::optional<Plane> face_of(const Primitive& p) {
     switch (p.kind) {
       case PrimitiveKind::kBox: {
@@ -103,8 +103,8 @@ class RandomRays {
   }
   Vec3 corner() { return finite_bounds().corner(static_cast<int>(dice_.below(8))); }
 
-  /// Along an axis in a face of the bounds, where a sphere's, a cylinder's, a torus's surface
-  /// touches it.
+  /// A ray along an axis in a face of the bounds, which a sphere's, a cylinder's or a torus's
+  /// surface touches.
   Ray tangent() {
     const Aabb b = finite_bounds();
     const int a = static_cast<int>(dice_.below(3));
@@ -136,8 +136,8 @@ class RandomRays {
     return {0, 0, 0};
   }
 
-  /// Up to 10^5 times the scene's size. Beyond 10^7 times it a point on a ray is rounded by as much
-  /// as cells are grown, and the walk promises nothing.
+  /// From a distance of up to 10^5 times the scene's size. Beyond 10^7 times the size, a point on a
+  /// ray is rounded by as much as cells are grown, and the walk promises nothing.
   Ray from_afar() {
     const double distance = std::pow(10, dice_.between(1, 6));
     return between(distance * dice_.unit_vector(), dice_.point(2));

@@ -58,7 +58,7 @@ CsgNode random_leaf(RandomModel& random) {
   return transformed(random.leaf(random.dice().below(kLeafKinds)), random.map());
 }
 
-/// Without what a ray is inside of for a few last places only, at an edge.
+/// The crossings without pieces that are only a few last places long, at an edge.
 std::vector<WholeCrossing> without_skins(const std::vector<WholeCrossing>& crossings) {
   std::vector<WholeCrossing> r;
   for (const WholeCrossing& c : crossings) {
@@ -72,9 +72,9 @@ std::vector<WholeCrossing> without_skins(const std::vector<WholeCrossing>& cross
   return r;
 }
 
-/// Whether two lists have the same crossings, their parameters but for the last places: where a
-/// mesh stands twice, its faces coincide with others, and are crossed where the planes are that
-/// they share.
+/// Whether two lists have the same crossings, with parameters equal but for the last places: if a
+/// mesh stands twice, its faces coincide with others, and are crossed at the planes that they
+/// share.
 bool agree(std::vector<WholeCrossing> a, std::vector<WholeCrossing> b, bool with_primitives) {
   a = without_skins(a);
   b = without_skins(b);
@@ -85,7 +85,7 @@ bool agree(std::vector<WholeCrossing> a, std::vector<WholeCrossing> b, bool with
       });
 }
 
-/// Parameters only.
+/// Only the parameters of the crossings.
 std::vector<double> parameters(const std::vector<WholeCrossing>& crossings) {
   std::vector<double> r;
   for (const WholeCrossing& c : crossings) r.push_back(c.t);

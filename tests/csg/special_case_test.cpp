@@ -1,5 +1,5 @@
-// Single primitives where solvers go wrong: tangents, apexes, edges, thin shapes, great distances.
-// Expected parameters are worked out by hand.
+// Single primitives in cases where solvers go wrong: tangents, apexes, edges, thin shapes, great
+// distances. Expected parameters are worked out by hand.
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@ Intervals intervals(const Spans& spans) {
   return r;
 }
 
-/// What of the line is inside, intervals of length (almost) zero left out and touching ones joined.
+/// The inside part of the line, without (almost) empty intervals, and with touching ones joined.
 Intervals solid_part(const Spans& spans, double tolerance) {
   Intervals r;
   for (const auto& [enter, leave] : intervals(spans)) {

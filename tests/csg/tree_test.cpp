@@ -1,5 +1,5 @@
-// Trees of the compiled model: pruning, membership, bounds, what compiling makes of the scene's
-// trees.
+// Trees of the compiled model: pruning, membership, bounds, and how the scene's trees are
+// compiled.
 #include "csg/tree.hpp"
 
 #include <vector>
@@ -16,7 +16,7 @@ namespace {
 
 using Kind = TreeNode::Kind;
 
-/// Leaves are numbered in order; nested nodes of one kind may occur.
+/// Appends a random tree. Leaves are numbered in order; nested nodes of one kind may occur.
 void grow(Dice& dice, int depth, std::uint32_t& leaves, std::vector<TreeNode>& out) {
   if (depth == 0 || dice.one_in(4)) {
     out.push_back({dice.one_in(3) ? Kind::kInvertedLeaf : Kind::kLeaf, leaves++, 1});
@@ -72,7 +72,7 @@ TEST_CASE("a pruned tree has the membership of the whole one") {
                       : dice.one_in(2)            ? CellSide::kInside
                                                   : CellSide::kOutside);
     }
-    // What stands before the tree in the output is left alone.
+    // Nodes that stand before the tree in the output are left alone.
     const TreeNode before{Kind::kLeaf, 4711, 1};
     std::vector<TreeNode> out{before};
     const Pruned result = prune(

@@ -20,7 +20,7 @@ struct SolidTree {
   enum class Kind : std::uint8_t { kUnion, kIntersection, kDifference, kComplement, kLeaf };
   Kind kind = Kind::kLeaf;
   std::vector<SolidTree> children;
-  /// Leaves: index into Model::primitives.
+  /// For leaves: the index into Model::primitives.
   std::uint32_t primitive = 0;
 };
 
@@ -39,7 +39,7 @@ bool holds(const SolidTree& tree, const IsInside& is_inside) {
   return false;
 }
 
-/// A tree of the compiled model.
+/// The tree of an object in the compiled model.
 inline SolidTree solid_of(std::span<const TreeNode> nodes) {
   const TreeNode& root = nodes.front();
   SolidTree tree;
@@ -89,11 +89,11 @@ struct WholeCrossing {
 
 class WholeTrees {
  public:
-  /// The compiled trees.
+  /// Evaluates the compiled trees.
   explicit WholeTrees(const Model& model) : model_(model) {
     for (const Object& o : model.objects) trees_.push_back(solid_of(model, o));
   }
-  /// The trees as written; the model gives the primitives only.
+  /// Evaluates the trees as written; the model gives only the primitives.
   WholeTrees(const Model& model, const Scene& scene) : model_(model) {
     std::uint32_t next = 0;
     for (const SceneObject& o : scene.objects) trees_.push_back(solid_of(scene, o.csg, next));
@@ -132,7 +132,7 @@ class WholeTrees {
     return found;
   }
 
-  /// Those of all objects with t0 ≤ t < t1, in order of t, then of the objects.
+  /// Crossings of all objects with t0 ≤ t < t1, in order of t, then of the objects.
   std::vector<WholeCrossing> crossings_between(const Ray& ray, double t0, double t1) const {
     std::vector<WholeCrossing> all;
     for (std::uint32_t o = 0; o < trees_.size(); ++o) {
@@ -159,7 +159,7 @@ class WholeTrees {
     for (const SolidTree& c : tree.children) collect(c, ray, entries);
   }
 
-  /// Just after (or before) t; intervals are closed, so one of length zero holds neither.
+  /// Membership just after (or before) t; intervals are closed: of length zero, they hold neither.
   static bool is_inside(const std::vector<Entry>& entries, std::uint32_t primitive, double t,
                         bool just_after) {
     const auto e = std::find_if(entries.begin(), entries.end(),

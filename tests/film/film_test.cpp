@@ -64,7 +64,7 @@ float slow_mean(Wide sum, std::uint32_t rays) {
   return sum < 0 ? -mean : mean;
 }
 
-/// Any magnitude below 2^63, of either sign; often with few bits set, so that ties occur.
+/// Any magnitude below 2^63, of either sign; often with few bits set, so that ties are met.
 std::int64_t random_fixed(std::mt19937_64& engine) {
   std::uint64_t bits = engine() >> 1 >> engine() % 62;
   if (engine() % 2 == 0) bits &= engine() & engine();
@@ -150,8 +150,8 @@ TEST_CASE("a mean is rounded to float once, as the exact quotient would be") {
   CHECK(developed(one, 9) == 1.0f / 9.0f);
   CHECK(developed(one, 4096) == 0x1p-12f);
   CHECK(developed(1, 1) == 0x1p-32f);
-  // Halfway between 1 and the next float: to even. One part in 3 · 2^62 above: up. Rounding to
-  // double on the way would lose that part.
+  // Halfway between 1 and the next float, which rounds to even. One part in 3 · 2^62 more rounds
+  // up: rounding to double on the way would lose that part.
   const std::int64_t halfway = (one << 24) + one;
   CHECK(developed(halfway, 1) == 0x1p24f);
   CHECK(developed(halfway + 1, 1) == 0x1.000002p24f);
@@ -184,7 +184,7 @@ TEST_CASE("every mean has the bits of exact arithmetic, whatever the sum's size 
     std::vector<Wide> sums(3 * kSide * kSide);
     for (int round = 0; round < 12; ++round) {
       for (std::uint32_t pixel = 0; pixel < kSide * kSide; ++pixel) {
-        // Some pixels receive once, others until their sums leave 64 bits, and some come back.
+        // Some pixels receive once, others until their sums leave 64 bits; some of these come back.
         if (round > 0 && pixel % 4 < 2) continue;
         const FixedRgb light{random_fixed(engine), random_fixed(engine), random_fixed(engine)};
         film.add(pixel, light);

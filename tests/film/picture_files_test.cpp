@@ -56,7 +56,7 @@ Bytes from_hex(const std::string& hex) {
   return bytes;
 }
 
-/// Noise, from dark to far above white.
+/// A picture of noise, from dark to far above white.
 Picture noise(std::uint32_t width, std::uint32_t height, std::uint64_t seed = 1) {
   std::mt19937_64 engine(seed);
   Picture picture{width, height, {}};
@@ -96,7 +96,7 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-/// The superuser may write anywhere; while this lives the test is somebody else.
+/// While this lives, the test runs as another user: the superuser may write anywhere.
 class NotSuperuser {
  public:
   NotSuperuser() {

@@ -116,7 +116,7 @@ TEST_CASE("outlines that cross themselves too often are refused before they take
     return std::vector<FlatLoops>{{wild}};
   };
   CHECK(crossings_are_few(zigzag(200)));
-  // Few sides, but Clipper takes seconds for so many crossings.
+  // These are few sides, but Clipper takes seconds for so many crossings.
   CHECK_FALSE(crossings_are_few(zigzag(600)));
   CHECK_FALSE(crossings_are_few(zigzag(6000)));
   CHECK(crossings_are_few(std::vector<FlatLoops>{{square(0, 0, 1)}, {square(0.5, 0, 1)}}));

@@ -22,9 +22,9 @@ bool holds(const FlatRoundHull& hull, const std::vector<FlatDisk>& disks, const 
                      [&](std::size_t i) { return in_disk(p, disks[i].center, disks[i].radius); });
 }
 
-/// How far the point is beyond the hull at most, seen from many directions: positive is proof that
-/// it is outside, and the best direction is missed by less than 1e-3, so that −kMissed is proof
-/// that it is inside.
+/// How far the point is beyond the hull, from many directions. If positive, the point is outside.
+/// The best direction is missed by less than 1e-3, so that less than −kMissed proves that the point
+/// is inside.
 constexpr double kMissed = 0.02;
 double beyond_hull(const std::vector<FlatDisk>& disks, const FlatPoint& p) {
   double most = -INFINITY;

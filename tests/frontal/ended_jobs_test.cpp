@@ -15,7 +15,7 @@ EndedJob job_of(std::uint32_t number, JobState state = JobState::kDone) {
   return job;
 }
 
-/// Has so many jobs of an earlier frontal, and takes no more.
+/// A store with so many jobs of an earlier frontal, which takes no more.
 class FullStore : public JobStore {
  public:
   explicit FullStore(std::uint32_t jobs) : jobs_(jobs) {}

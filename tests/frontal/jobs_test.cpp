@@ -1,4 +1,4 @@
-// Which job is on, who hears of it, and how jobs end.
+// Which job is on, which clients hear of it, and how jobs end.
 #include "frontal/jobs.hpp"
 
 #include "catch.hpp"
@@ -61,7 +61,7 @@ TEST_CASE(
   REQUIRE(failed.size() == 1);
   CHECK(failed.front().code == FailureCode::kBadInput);
   CHECK(farm.state_of(job) == JobState::kFailed);
-  // Who asks later hears that it failed.
+  // A client that asks later hears that it failed.
   CHECK(granted<control::Failed>(farm.jobs.watch("b", job)).code == FailureCode::kFailed);
 }
 

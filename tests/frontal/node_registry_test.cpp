@@ -100,7 +100,7 @@ TEST_CASE(
   CHECK(starts.front().incarnation == 5);
   CHECK(four.nodes.is_current(starts.front()));
   CHECK_FALSE(four.nodes.is_current(four.processes[2]));
-  // The one before comes too late.
+  // A message of the process before comes too late.
   CHECK(four.nodes.hello("late", hello(four.processes[2]), 3));
 }
 

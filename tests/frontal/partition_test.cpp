@@ -1,4 +1,4 @@
-// What is picked where a command leaves the macro-regions' boundaries open.
+// The partitions that are picked when a command leaves the macro-regions' boundaries open.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -32,7 +32,7 @@ TEST_CASE(
   const PreparedScene open = prepared(scene, {}, 16);
   REQUIRE(open.grid.own_edges.size() == 12);
   CHECK(std::set<std::int64_t>(open.grid.own_edges.begin(), open.grid.own_edges.end()).size() > 3);
-  // By node; a pixel that sees the ball sends out rays to eight lights.
+  // Work of each node; a pixel that sees the ball sends out rays to eight lights.
   const Domain whole(compile_scene(scene));
   CrossingScratch scratch;
   const auto busiest = [&](const PreparedScene& cut) {
@@ -52,8 +52,8 @@ TEST_CASE(
   };
   CHECK(busiest(open) < 1.5);
   CHECK(busiest(prepared(scene, {.partition = PartitionMode::kRegular}, 16)) > 2);
-  // Nothing is known of rays that begin beside their node's region, or pixels' rays lie on
-  // boundaries: own pixels are the region's.
+  // Nodes know nothing of rays that begin beside their regions, or pixels' rays lie on boundaries:
+  // then own pixels are the region's.
   CHECK(prepared(scene, {.partition = PartitionMode::kRegular}, 16).grid.own_edges.empty());
   CHECK(prepared(scene, {.shadows = ShadowMode::kForward}, 16).grid.own_edges.empty());
   CHECK(prepared(scene, {.shadows = ShadowMode::kLocal}, 16).grid.own_edges.empty());

@@ -11,7 +11,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// Each value is the number of its row.
+/// A picture in which each value is the number of its row.
 Picture striped(std::uint32_t width, std::uint32_t height) {
   Picture picture;
   picture.width = width;

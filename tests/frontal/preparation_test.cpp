@@ -1,4 +1,4 @@
-// Scenes come as text, or compiled by who read them: both are cut alike.
+// Scenes come as text, or compiled by the client that read them: both are cut alike.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -33,7 +33,7 @@ TEST_CASE("a compiled scene is cut as its text is") {
     options.height = 48;
     options.max_depth = 3;
     const PreparedScene text = prepared(scene, options, 4, options.algorithm);
-    // As read from the text, which may write a map in another way.
+    // The scene is read from text, as text may write a map in another way.
     const auto read = read_scene_text(write_scene_text(scene));
     REQUIRE(read.scene);
     const PreparationResult compiled = cut(encode_model(compile_scene(*read.scene)), options);
@@ -55,7 +55,7 @@ TEST_CASE("a compiled scene is cut as its text is") {
 TEST_CASE("what reading and cutting took is told by the clock that is given") {
   const PreparationResult result = cut(encode_model(compile_scene(RandomModel(3).scene())), {});
   REQUIRE(result.scene);
-  // Each glance at it takes a second.
+  // The clock goes on by a second each time that it is read.
   CHECK(result.scene->load_s == 1);
   CHECK(result.scene->partition_s == 1);
 }

@@ -42,7 +42,7 @@ struct OnTwo {
     REQUIRE(job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
     job.start({7, 8}, 103, post);
   }
-  /// All credit of the tiles that were handed out, and of those that are then.
+  /// Sends all credit of the tiles that were handed out, and of those handed out then.
   void trace_all() {
     std::vector<std::uint64_t> sent(kNodes, 0);
     for (;;) {
@@ -86,7 +86,7 @@ TEST_CASE("a job goes through its stages, of which clients are told five") {
   CHECK(on.job.info().state == JobState::kBuilding);
   CHECK(SentPost(on.post).names() == std::vector<std::string>{"node 0: load", "node 1: load"});
   CHECK_FALSE(on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
-  // Another job's, and the same node again.
+  // A message for another job counts as little as one that the same node repeats.
   CHECK_FALSE(on.job.on_ready(Rank{0}, {2, 0, 1, 1, 1, 0}));
   CHECK_FALSE(on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
   CHECK(on.job.on_ready(Rank{0}, {3, 0, 1, 1, 1, 0}));
@@ -112,7 +112,7 @@ TEST_CASE(
   CHECK(on.job.stage() == JobStage::kReporting);
   CHECK(on.job.info().state == JobState::kRendering);
   CHECK(SentPost(on.post).names() == std::vector<std::string>{"node 0: finish", "node 1: finish"});
-  // Once is enough.
+  // Nodes are asked for reports only once.
   CHECK_FALSE(on.job.finish_when_complete(106, on.post));
   CHECK(SentPost(on.post).all.empty());
   control::NodeReport report{3, 0, {}};

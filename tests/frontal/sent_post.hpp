@@ -1,4 +1,4 @@
-// What a part of the frontal has put into the post, for tests.
+// Reads the messages that a part of the frontal has posted, for tests.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace graycube::testing {
 
-/// Node 3 is reached by "node 3".
+/// The name of a node's connection: "node 3" for rank 3.
 inline PeerId peer_of(std::uint32_t rank) { return "node " + std::to_string(rank); }
 
-/// All nodes can be reached.
+/// A post in which all nodes can be reached.
 inline Post post_of(std::uint32_t nodes) {
   Post post(nodes);
   for (std::uint32_t rank = 0; rank < nodes; ++rank) post.set_node(Rank{rank}, peer_of(rank));
@@ -27,7 +27,7 @@ struct SentPost {
 
   explicit SentPost(Post& post) : all(post.take()) {}
 
-  /// Control messages of a kind that somebody was sent.
+  /// The control messages of a type that were sent to anybody.
   template <typename T>
   std::vector<T> told(const PeerId& peer) const {
     std::vector<T> told;
@@ -38,7 +38,7 @@ struct SentPost {
     }
     return told;
   }
-  /// The names of all messages, and of batches, in order, with whom they are for.
+  /// The names of all messages, and of batches, in order, with the peers that they are for.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const Post::Outgoing& o : all) {
@@ -58,7 +58,7 @@ struct SentPost {
   }
 };
 
-/// The message of a kind that a request is granted with.
+/// The message with which a request is granted; it must be of that type.
 template <typename T>
 T granted(const Answer& answer) {
   const auto* reply = std::get_if<Reply>(&answer);

@@ -14,7 +14,7 @@ namespace {
 
 const Hypercube kCube = *Hypercube::of_size(4);
 
-/// Slices that are so long, of which neighbours may get copies; only their sizes matter here.
+/// Slices of these lengths, of which neighbours may get copies; only the lengths matter here.
 SliceStock stock_of(const std::vector<std::size_t>& bytes) {
   std::vector<SharedBytes> slices;
   for (const std::size_t size : bytes) slices.emplace_back(Bytes(size));

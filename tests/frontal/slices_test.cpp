@@ -1,4 +1,4 @@
-// What each node gets of a scene.
+// The parts of a scene that each node gets.
 #include "frontal/preparation/slices.hpp"
 
 #include <optional>
@@ -81,7 +81,7 @@ TEST_CASE(
     more_in_all += more[rank].model.objects.size();
     own_in_all += own[rank].model.objects.size();
   }
-  // Partitions differ, their sum hardly does.
+  // Partitions differ, but the sum of their parts hardly does.
   CHECK(own_in_all < 2400);
   CHECK(more_in_all > own_in_all + 700);
 }
@@ -115,7 +115,7 @@ TEST_CASE("nodes know where all is that they do not hold, and all hold a floor w
       foreign += is_held ? 0 : 1;
     }
     CHECK(foreign > 750);
-    // Others' boxes reach into it.
+    // Boxes of foreign objects reach into balls that are held.
     CHECK(met < foreign + (floor - foreign) / 2);
   }
 }
@@ -149,7 +149,7 @@ TEST_CASE("where objects without bounds are too many for one node, no node knows
   for (int i = 0; i < 80; ++i) floors.push_back(node_of(HalfSpaceShape{{0, 1, 0}, -2.0 - i}));
   Scene scene = many_balls();
   scene.objects = scene_of(std::move(floors)).objects;
-  // Evenly: rows that aren't cut in the middle reach the floors behind the eye.
+  // Regular, because rows that aren't cut in the middle reach the floors behind the eye.
   const auto all = slices(prepared(scene, {.partition = PartitionMode::kRegular}, 16));
   std::size_t fewest = 80;
   for (std::size_t rank = 0; rank < 16; ++rank) {
@@ -168,7 +168,7 @@ TEST_CASE("what a node gets beside its own part is what its shadow rays ask for"
   const MacroGrid grid(frame, cut.grid.column_edges, cut.grid.row_edges);
   const Hypercube cube = *Hypercube::of_size(16);
   // The light shines from the left and above: of two nodes with as much of the scene, the one to
-  // the right below has more in its way.
+  // the lower right has more objects in its shadow rays' way.
   std::size_t beside_upper_left = 0, beside_lower_right = 0;
   const auto all = slices(cut);
   for (std::uint32_t rank = 0; rank < 16; ++rank) {

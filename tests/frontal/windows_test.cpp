@@ -1,4 +1,4 @@
-// How many tiles nodes have open at a time.
+// How many tiles a node may have open at a time.
 
 #include "catch.hpp"
 #include "frontal/prepared.hpp"
@@ -68,8 +68,8 @@ TEST_CASE("in macro windows shrink where many rays descend from a pixel") {
   RenderJob open = job(plain, {});
   CHECK(open.next_tiles(Rank{0}).size() == FlowLimits{}.window_tiles);
   CHECK(open.load().window_tiles == FlowLimits{}.window_tiles);
-  // A third of the rays that 64 such tiles may bring, each of 256 primary rays and more than one in
-  // all for each.
+  // A third of the rays that 64 such tiles may bring: each has 256 primary rays, and each of these
+  // brings more than one ray in all.
   RenderJob narrow = job(plain, {.window_rays = 64 * 256 / 3.0});
   const std::size_t fewer = narrow.next_tiles(Rank{0}).size();
   CHECK(fewer < 64 / 3);

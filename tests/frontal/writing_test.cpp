@@ -1,4 +1,4 @@
-// Who may have the frontal write files.
+// Which clients may have the frontal write files.
 
 #include "catch.hpp"
 #include "frontal/frontal.hpp"

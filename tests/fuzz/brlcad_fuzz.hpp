@@ -1,4 +1,4 @@
-// What must hold for any bytes read as a BRL-CAD database; the normal suite drives it with
+// Rules that must hold for any bytes read as a BRL-CAD database; the normal suite drives this with
 // mutations of small ones.
 #pragma once
 
@@ -25,7 +25,7 @@ inline void fuzz_brlcad(std::string_view bytes) {
   GRAYCUBE_CHECK(read.scene.has_value() == read.errors.empty(), "%zu errors", read.errors.size());
   GRAYCUBE_CHECK(tops.errors.empty() || !read.scene, "errors in the list only");
   if (read.scene) {
-    // What is written for a farm must be accepted there, and mean the same.
+    // A farm must accept the scene's text, and read the same from it.
     const ReadResult again = read_scene_text(write_scene_text(*read.scene));
     GRAYCUBE_CHECK(again.scene.has_value(), "%s: %s", again.errors.front().pointer.c_str(),
                    again.errors.front().message.c_str());

@@ -1,5 +1,5 @@
-// What must hold for any bytes read as CBOR: they are refused, or mean a tree that can be written
-// and read again.
+// Rules that must hold for any bytes read as CBOR: they are refused, or mean a tree that can be
+// written and read again.
 #pragma once
 
 #include <bit>
@@ -31,8 +31,8 @@ inline void check_same_meaning(const JsonTree& a, const JsonTree& b) {
   }
 }
 
-/// A root without a length isn't read in pieces: the scene must be the same. `cbor` has no syntax
-/// errors.
+/// Checks that a root without a length, which isn't read in pieces, gives the same scene. `cbor`
+/// must have no syntax errors.
 inline void check_whole_is_same(const std::string& cbor, const ReadResult& read) {
   const auto root = static_cast<unsigned char>(cbor[kCborMagic.size()]);
   constexpr unsigned kEmptyMap = 0xA0, kFullMap = 0xB7;
@@ -50,7 +50,7 @@ inline void check_whole_is_same(const std::string& cbor, const ReadResult& read)
   }
 }
 
-/// Whether the bytes, which the magic is put before, were accepted as CBOR.
+/// Reads the bytes with the magic before them; returns whether they were accepted as CBOR.
 inline bool fuzz_cbor(std::string_view bytes) {
   const std::string text = std::string(kCborMagic) + std::string(bytes);
   const JsonTree tree(text);
@@ -60,7 +60,7 @@ inline bool fuzz_cbor(std::string_view bytes) {
   if (tree.syntax_error()) return false;
   check_whole_is_same(text, read);
   const std::string written = cbor_of(tree);
-  // Halves, of three bytes, are written as singles, of five.
+  // Half-precision numbers, of three bytes, are written as singles, of five.
   GRAYCUBE_CHECK(written.size() <= text.size() + 2 * tree.value_count(), "%zu bytes of %zu",
                  written.size(), text.size());
   const JsonTree again(written);

@@ -1,4 +1,4 @@
-// Replays the fuzzers' corpora: seeds, and every input that a fuzzer has found a fault with.
+// Replays the fuzzers' corpora: seeds, and every input in which a fuzzer has found a fault.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// What must hold for any text whatever: read fast or carefully, it gives the same tree or the same
+// Rules that must hold for any text: read fast or carefully, it gives the same tree or the same
 // error. Driven by libFuzzer (scene_json_fuzz.cpp) and by seeded texts in the normal suite.
 #pragma once
 
@@ -29,7 +29,7 @@ inline void check_same_value(const JsonTree& fast, const JsonTree& careful, Json
     GRAYCUBE_CHECK(fast.size(i) == careful.size(i), "value %u: another size", i);
 }
 
-/// Whether the text was read without a second look.
+/// Reads the text both ways; returns whether the fast parser read it.
 inline bool fuzz_json(std::string_view text) {
   const PaddedText padded(text);
   const JsonTree fast(padded), careful(text);

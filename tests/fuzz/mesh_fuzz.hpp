@@ -1,5 +1,5 @@
-// What must hold for any bytes read as a mesh file; the normal suite drives it with mutations of
-// small ones.
+// Rules that must hold for any bytes read as a mesh file; the normal suite drives this with
+// mutations of small ones.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
   const TriangleMesh mesh = std::get<TriangleMesh>(std::move(closed));
   GRAYCUBE_CHECK(MeshEdges(mesh.triangles).unbalanced_count() == 0, "an open mesh");
   GRAYCUBE_CHECK(std::get<TriangleMesh>(closed_mesh(mesh)) == mesh, "closed again it is another");
-  // A line ends outside, where it began.
+  // A line must end outside, where it began.
   const Mesh solid(mesh);
   for (const Vec3& p : {mesh.points.front(), 0.5 * (mesh.points.front() + mesh.points.back())}) {
     for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0.6, 0, -0.8}}) {
@@ -43,9 +43,9 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
       }
     }
   }
-  // What is written for a farm must be accepted there, and mean the same. Coordinates near the
-  // largest double have no camera that sees them, and what is next to nothing none that is away
-  // from it.
+  // A farm must accept the scene's text, and read the same from it. No camera sees
+  // coordinates near the largest double, and none is away from a mesh that is next to
+  // nothing.
   for (const Vec3& p : mesh.points) {
     if (!(max_abs(p) < 1e100)) return;
   }

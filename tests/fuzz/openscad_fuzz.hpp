@@ -1,5 +1,5 @@
-// What must hold for any text read as OpenSCAD's evaluated tree; the normal suite drives it with
-// mutations of small ones.
+// Rules that must hold for any text read as OpenSCAD's evaluated tree; the normal suite drives this
+// with mutations of small ones.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace graycube::testing {
 /// Larger inputs only make the fuzzer slow.
 inline constexpr std::size_t kMaxOpenscadFuzzBytes = std::size_t{1} << 14;
 
-/// Answers everything with one of two files, so that what a program gives is read as well.
+/// Answers everything with one of two files, so that reading a program's files is tested.
 class CannedOpenscad : public OpenscadProgram {
  public:
   Result evaluate(const std::string& csg, Format format) override {
@@ -27,7 +27,7 @@ class CannedOpenscad : public OpenscadProgram {
   }
 };
 
-/// Whether the text was accepted.
+/// Reads the text and checks these rules; returns whether it was accepted.
 inline bool fuzz_openscad(std::string_view text) {
   if (text.size() > kMaxOpenscadFuzzBytes) return false;
   bool accepted = false;
@@ -36,7 +36,7 @@ inline bool fuzz_openscad(std::string_view text) {
     OpenscadOptions options;
     options.facets = facets;
     options.program = &program;
-    // Half of the file may spell the numbers of all of it out.
+    // Half of the file is also taken for the spelled-out numbers of the whole.
     if (facets) options.spelled_out = text.substr(text.size() / 2);
     const OpenscadResult read = read_openscad_csg(text, options);
     GRAYCUBE_CHECK(read.scene.has_value() == read.errors.empty(), "%zu errors", read.errors.size());
@@ -45,7 +45,7 @@ inline bool fuzz_openscad(std::string_view text) {
                    read.warnings.size());
     if (!read.scene) continue;
     accepted = true;
-    // What is written for a farm must be accepted there, and mean the same.
+    // A farm must accept the scene's text, and read the same from it.
     const ReadResult again = read_scene_text(write_scene_text(*read.scene));
     GRAYCUBE_CHECK(again.scene.has_value(), "%s: %s", again.errors.front().pointer.c_str(),
                    again.errors.front().message.c_str());

@@ -1,6 +1,6 @@
-// What must hold for any bytes whatever: decoders neither crash nor believe nonsense, and what they
+// Rules that must hold for any bytes: decoders neither crash nor believe nonsense, and what they
 // accept survives a round trip. Driven by libFuzzer (proto_*_fuzz.cpp) and by seeded mutations in
-// the normal suite. Each returns whether the bytes were accepted.
+// the normal suite. Each function returns whether the bytes were accepted.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace graycube {
 
-/// Signals are all header.
+/// Decodes a signal, which is only a header.
 inline BatchResult signal_of(std::span<const std::byte> bytes) {
   const BatchResult peeked = peek_header(bytes);
   const auto* h = std::get_if<BatchHeader>(&peeked);

@@ -1,5 +1,5 @@
-// What must hold for any text read as a scene: it is refused with reasons, or means a model that
-// survives being written for a farm.
+// Rules that must hold for any text read as a scene: it is refused with reasons, or means a model
+// that survives being written for a farm.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace graycube {
 
-/// Whether the text was accepted.
+/// Reads the text and checks these rules; returns whether it was accepted.
 inline bool fuzz_scene(std::string_view text) {
   const ReadResult read = read_scene_text(text);
   GRAYCUBE_CHECK(read.scene.has_value() == read.errors.empty(), "%zu errors", read.errors.size());

@@ -24,7 +24,7 @@ class RandomMaps {
     while (length(axis) < 0.1) axis = vector();
     return rotation(axis, number(-720, 720));
   }
-  /// Turned, stretched by up to 10 along skew axes, moved: well away from singular.
+  /// A map that turns, stretches by up to 10 along skew axes and moves: well away from singular.
   Affine map() {
     const Vec3 factors{number(0.1, 1), number(0.5, 5), number(-10, -1)};
     return compose(translation(vector()), compose(turn(), compose(scaling(factors), turn())));

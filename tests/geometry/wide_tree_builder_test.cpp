@@ -55,7 +55,7 @@ bool holds(const FloatBox& box, const Aabb& inner) {
   return all;
 }
 
-/// Checks that all that is below a place of a node lies in its box; marks what is there.
+/// Checks that all items below a place of a node lie in its box; marks the items that are there.
 void check_below(const std::vector<WideNode>& nodes, const WideNode& node, std::size_t place,
                  const Halves& parts, const FloatBox& box, std::vector<int>& found) {
   if (node.is_item(place)) {
@@ -101,7 +101,7 @@ TEST_CASE("bins are cut where both parts cost least, and nowhere when all are in
   const std::vector<Bin<Aabb>> bins{bin(0, 1, 3), bin(1, 2, 1), {}, bin(9, 10, 4)};
   const auto cut = cheapest_cut<Aabb>(bins, 8);
   CHECK(cut.bin == 1);
-  // Half areas of 2 × 1 × 1 and of 1 × 1 × 1.
+  // The half areas are those of 2 × 1 × 1 and of 1 × 1 × 1.
   CHECK(cut.cost == 5 * 4 + 3 * 4);
   CHECK(cheapest_cut<Aabb>(std::vector<Bin<Aabb>>{{}, bin(0, 1, 8), {}}, 8).cost == kInf);
 }

@@ -91,7 +91,7 @@ struct PinHole {
   }
 };
 
-/// Most pixels to be equal to 10^-6; a silhouette may pass within rounding of a pixel's centre.
+/// Most pixels must be equal to 10^-6; a silhouette may pass within rounding of a pixel's centre.
 void compare(const Scene& scene, const AnalyticScene& expected) {
   const Domain domain(compile_scene(scene));
   Film film(kWidth, kHeight, 1);
@@ -141,7 +141,7 @@ TEST_CASE("a still life is rendered as worked out in closed form") {
 }
 
 TEST_CASE("the same still life under maps that change nothing is the same picture") {
-  // Each solid made elsewhere, in another size or mirrored, and brought back.
+  // Each solid is made elsewhere, in another size or mirrored, and brought back.
   const AnalyticScene expected = still_life();
   Scene scene = scene_from(expected, above());
   Dice dice(4);
@@ -157,7 +157,7 @@ TEST_CASE("the same still life under maps that change nothing is the same pictur
 }
 
 TEST_CASE("solids cut from others are the same picture") {
-  // Each solid as the intersection of itself with a larger one, less one that it doesn't meet.
+  // Each solid is intersected with a larger one, and another is subtracted that it doesn't meet.
   const AnalyticScene expected = still_life();
   Scene scene = scene_from(expected, above());
   for (SceneObject& o : scene.objects) {

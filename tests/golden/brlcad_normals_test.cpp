@@ -49,7 +49,7 @@ struct Hit {
   Vec3 normal;
 };
 
-/// Where a line enters and leaves a box, with the axis of each.
+/// The parameters at which a line enters and leaves a box, with the axis of each face.
 struct BoxLine {
   double enter = -kInf, leave = kInf;
   int enter_axis = 0, leave_axis = 0;
@@ -78,7 +78,7 @@ Hit meet_ball(const Vec3& o, const Vec3& d) {
     return {enter, (1 / kRadius) * (o + enter * d)};
   }
   if (cut.leave >= leave) return {};
-  // The wall of the cut: out of the ball is into the cut.
+  // In the wall of the cut: the direction out of the ball is into the cut.
   return {cut.leave, axis_vector(cut.leave_axis, d[cut.leave_axis] > 0 ? -1 : 1)};
 }
 Hit meet_brick(const Vec3& o, const Vec3& d) {
@@ -87,7 +87,7 @@ Hit meet_brick(const Vec3& o, const Vec3& d) {
   return {b.enter, axis_vector(b.enter_axis, d[b.enter_axis] > 0 ? -1 : 1)};
 }
 
-/// rt's picture; `offset` is where in their cells the rays go.
+/// A picture as rt makes it; `offset` is the place in each cell through which rays go.
 Picture reference(double offset) {
   const Vec3 right{-0.5735764363510461, 0.8191520442889918, 0};
   const Vec3 up{-0.3461886090155389, -0.2424039172006126, 0.9063077870366499};

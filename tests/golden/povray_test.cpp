@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint32_t kSide = 128;
-/// In 1/65535: what two renderers may differ by for rounding alone.
+/// The difference, in 1/65535, that two renderers may have by rounding alone.
 constexpr int kTolerance = 4;
 
 int run(const std::string& command) {
@@ -35,7 +35,7 @@ int run(const std::string& command) {
 
 struct Golden {
   std::string scene;
-  /// Objects left out, since POV-Ray can't be compared with on them.
+  /// Objects that are left out, because POV-Ray treats them differently.
   std::vector<std::string> without;
   double most_percent;
 };
@@ -91,7 +91,7 @@ Picture our_picture(const Scene& scene) {
   return film.develop();
 }
 
-/// At most so many percent of the pixels differ by more than the tolerance in a channel.
+/// Checks that at most so many percent of pixels differ by more than the tolerance in a channel.
 void compare(const Scene& scene, double most_percent) {
   const PngImage theirs = povray_picture(scene);
   const Picture ours = our_picture(scene);

@@ -20,8 +20,8 @@ constexpr const char* kGood = R"({
   ]
 })";
 
-/// The good scene with a piece of it replaced, and what its one error must be: where, and words of
-/// why.
+/// The good scene with a piece of it replaced; the place of its one error, and words that the
+/// reason must contain.
 struct Mistake {
   const char* name;
   std::string from, to;
@@ -87,7 +87,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Refused with status 2 and only lines that say what is wrong.
+/// Checks for a refusal with status 2, and only lines that tell what is wrong.
 void check_refusal(const Sandbox& sandbox, const Outcome& o, std::size_t files) {
   CHECK(o.status == 2);
   CHECK(o.out.empty());

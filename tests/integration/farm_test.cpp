@@ -1,4 +1,4 @@
-// A farm in one terminal, its users in others.
+// A farm in one terminal, and its users in others.
 #include <signal.h>
 
 #include <httplib.h>
@@ -33,7 +33,7 @@ class Farm {
   Running up_;
 };
 
-/// Runs a command that must succeed; its output.
+/// Runs a command that must succeed; returns its output.
 std::string ok(Sandbox& sandbox, const Arguments& arguments) {
   const Outcome o = sandbox.run(arguments);
   INFO(arguments.front() << ": " << o.out << o.err);
@@ -134,8 +134,8 @@ TEST_CASE("nodes that may hold few rays render the same picture") {
     ok(sandbox, *arguments);
   }
   CHECK((file_bytes(sandbox / "here.exr") == file_bytes(sandbox / "there.exr")));
-  // So few that they are full much of the time; what a node adds to forty is its evaluators'
-  // packets and classes.
+  // So few rays that outboxes are full much of the time; beyond the forty, a node may hold the
+  // packets and classes of its evaluators.
   constexpr int kChildren = 4, kThreads = 2, kPacket = 64, kClasses = 2 * 5 * 4;
   constexpr int kBound = 40 + kThreads * (2 + (kPacket + kClasses) * kChildren);
   const nlohmann::json stats = sandbox.json("s.json");

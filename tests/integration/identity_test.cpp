@@ -15,7 +15,7 @@ constexpr const char* kSize = "96x64";
 /// For pictures whose pixels take many rays.
 constexpr const char* kSmallSize = "64x48";
 
-/// The bytes of the EXR that a render of the scene leaves.
+/// The bytes of the EXR that a render of the scene writes.
 std::string picture(Sandbox& sandbox, const std::string& scene, const char* size,
                     const Arguments& options) {
   Arguments arguments{"render", scene_file(scene).string(), "-o", "out.exr", "--size", size, "-q"};
@@ -28,7 +28,7 @@ std::string picture(Sandbox& sandbox, const std::string& scene, const char* size
   return bytes;
 }
 
-/// The scene's picture is that of `serial` in all of these ways.
+/// Checks that the scene's picture is that of `serial` in all of these ways.
 void check_ways(const std::string& scene, const std::vector<Arguments>& ways, const char* size,
                 const Arguments& also) {
   Sandbox sandbox;
@@ -134,7 +134,7 @@ TEST_CASE("a deadlock's report, row and bars show what the nodes did until then"
   REQUIRE(row != rows.end());
   REQUIRE((*row)["outcome"] == "deadlocked");
   CHECK((*row)["statistics"]["balance"]["blocked_fraction"] > 0.1);
-  // Its bars are drawn, and it is said why there is no picture.
+  // Its bars are drawn, and the reason why there is no picture is told.
   CHECK(file_bytes(sandbox / "bars.svg").find(">deadlocked<") != std::string::npos);
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
@@ -203,7 +203,7 @@ TEST_CASE("meshes look the same whatever computes them") {
   check_identity("meshes.json", kSize, {"--aov", "depth,normal,albedo,object"});
 }
 
-/// What importers make is rendered as it is read; who owns a model has few nodes or many.
+/// Checks that a model is rendered as it is imported, on few nodes and on many.
 void check_model(const std::string& model) {
   std::vector<Arguments> ways;
   for (const char* algorithm : {"roth", "macro"}) {
@@ -214,7 +214,7 @@ void check_model(const std::string& model) {
 }
 TEST_CASE("each solid that is read from BRL-CAD looks the same whatever computes it") {
   Sandbox sandbox;
-  // A solid that isn't taken is said.
+  // A solid that isn't read is told of.
   const Outcome o = sandbox.run({"check", scene_file("brlcad/solids.asc").string()});
   CHECK(o.err.empty());
   CHECK(o.out.find("27 objects") != std::string::npos);

@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// Nothing runs any more and nothing lies about, now or very soon.
+/// Checks that no process runs and no file is left, now or very soon.
 void check_gone(const Sandbox& sandbox, std::chrono::milliseconds limit) {
   const auto until = std::chrono::steady_clock::now() + limit;
   while (std::chrono::steady_clock::now() < until &&
@@ -36,7 +36,7 @@ void interrupt_render(const Arguments& how, int signal, std::chrono::millisecond
   INFO("signal " << signal << " after " << after.count() << " ms: " << o.out << o.err);
   check_gone(sandbox, 0ms);
   if (o.status == 0) {
-    // It was done already: then all of it.
+    // The render was done already: then all its files are there.
     CHECK(sandbox.files() == std::vector<std::string>{"out.exr", "out.json", "out.png"});
     return;
   }
@@ -100,7 +100,7 @@ TEST_CASE("a render that is killed takes its farm with it") {
 }
 
 TEST_CASE("the processes of a render are found while it runs") {
-  // Otherwise the other tests here would look for nothing.
+  // If they weren't found, the other tests here would check nothing.
   Sandbox sandbox;
   Running running = sandbox.start({"render", scene_file("mirrors.json").string(), "--size",
                                    "2000x2000", "--algorithm", "macro", "-n", "4"});

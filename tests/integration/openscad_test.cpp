@@ -1,4 +1,4 @@
-// Models from OpenSCAD, through to pictures.
+// Models from OpenSCAD, from the import to the picture.
 #include <sys/stat.h>
 
 #include "catch.hpp"
@@ -8,7 +8,7 @@
 namespace graycube {
 namespace {
 
-/// Renders the model on 8 nodes and here; the same picture, and something in it.
+/// Checks that the model has the same picture on 8 nodes and here, and that it shows something.
 void check_model(Sandbox& sandbox, const std::filesystem::path& model) {
   const Outcome checked = sandbox.run({"check", model.string()});
   INFO(model << ": " << checked.err);
@@ -54,7 +54,7 @@ TEST_CASE("OpenSCAD's own examples are rendered on 8 nodes") {
   }
 }
 
-/// All that the importer does by itself: exact sweeps, meshes, hulls, flat operations.
+/// Everything that the importer does by itself: exact sweeps, meshes, hulls, flat operations.
 constexpr const char* kEveryConstruct = R"(
 linear_extrude(height = 3, center = true) {
   difference() {
@@ -200,7 +200,7 @@ TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
 TEST_CASE("while OpenSCAD isn't at work an interrupt ends an importer at once") {
   Sandbox sandbox;
   FakeOpenscad fake(sandbox, "exit 0\n");
-  // Nobody writes to it, so reading it takes for ever.
+  // No process writes to it, so reading it never ends.
   REQUIRE(::mkfifo((sandbox / "pipe.csg").c_str(), 0600) == 0);
   const Outcome o =
       fake.run({"check", "pipe.csg"}, {"timeout", "--signal=INT", "--kill-after=20", "1"});
@@ -233,7 +233,7 @@ TEST_CASE(
   CHECK(sandbox.temporary_files().empty());
 }
 
-/// A model of every kind of number that has no end in six digits; modules of the user's, and of a
+/// A model of all kinds of numbers that six digits can't hold; with modules of the user's, and of a
 /// file that it uses.
 constexpr const char* kEndless = R"(
 use <lib.scad>
@@ -279,8 +279,8 @@ TEST_CASE(
     return;
   }
   Sandbox sandbox;
-  // Modules of the user's in the place of OpenSCAD's, numbers at random, what OpenSCAD doesn't
-  // take.
+  // The models have modules of the user's in the place of OpenSCAD's, random numbers, and arguments
+  // that OpenSCAD doesn't take.
   for (const char* model :
        {"module cube(s) { sphere(s / 3); } cube(1);", "translate(rands(0, 1, 3)) cube(1 / 3);",
         "echo(\"once\"); cube([1 / 3]); sphere(1 / 3);"}) {
@@ -301,7 +301,7 @@ TEST_CASE("a converted OpenSCAD model is the scene that is rendered") {
   const std::string size = "64x64";
   REQUIRE(sandbox.run({"render", "dice.json", "--size", size, "-o", "a.exr", "-q"}).status == 0);
   REQUIRE(sandbox.run({"render", model, "--size", size, "-o", "b.exr", "-q"}).status == 0);
-  // Square like the default, so framed alike.
+  // The picture is square like the default, and so framed alike.
   CHECK((read_exr(sandbox / "a.exr") == read_exr(sandbox / "b.exr")));
   REQUIRE(sandbox.run({"convert", model, "dice.pov"}).status == 0);
 }

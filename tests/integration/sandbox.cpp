@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr auto kPollInterval = 2ms;
 constexpr const char* kMark = "GRAYCUBE_TEST_SANDBOX=";
 
-/// Variables of the outer world that a test must not depend on.
+/// Whether the sandbox sets a variable of the outer environment, on which no test must depend.
 bool is_replaced(const std::string& variable) {
   for (const char* name : {"TMPDIR=", "XDG_RUNTIME_DIR=", "GRAYCUBE_FRONTAL=", kMark}) {
     if (variable.starts_with(name)) return true;
@@ -184,7 +184,7 @@ Running Sandbox::start_program(const std::string& path, const Arguments& argumen
   running.pid_ = ::fork();
   if (running.pid_ == 0) {
     ::setpgid(0, 0);
-    // Whatever the test's own parent ignores.
+    // These signals have their usual effect, even if the test's own parent ignores them.
     for (const int s : {SIGINT, SIGTERM, SIGHUP}) ::signal(s, SIG_DFL);
     sigset_t none;
     ::sigemptyset(&none);

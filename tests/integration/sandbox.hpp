@@ -1,5 +1,5 @@
-// Real processes, in folders of their own: run a command, look at what it says, at what it leaves
-// behind.
+// Real processes, in folders of their own: run a command, and look at its output and at the files
+// that it leaves behind.
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,7 @@ namespace graycube {
 using Arguments = std::vector<std::string>;
 using namespace std::chrono_literals;
 
-/// How a process ended, and what it said.
+/// A process's end, and its output.
 struct Outcome {
   /// The exit status; 128 + the signal's number if that ended it.
   int status = -1;
@@ -49,7 +49,7 @@ class Running {
   pid_t pid() const { return pid_; }
   void signal(int number) const;
   bool has_ended();
-  /// What it has said so far.
+  /// Its output so far.
   std::string out() const;
   std::string err() const;
   /// Waits until its output contains `text`; fails the test when it ends or the time is up before.
@@ -74,7 +74,7 @@ class Sandbox {
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
-  /// The current folder of what is started.
+  /// The current folder of the processes that are started.
   const std::filesystem::path& work() const { return work_; }
   std::filesystem::path operator/(const std::string& name) const { return work_ / name; }
   std::filesystem::path write(const std::string& name, const std::string& text) const;
@@ -84,7 +84,7 @@ class Sandbox {
   Running start(const Arguments& arguments);
   /// Runs `graycube` to its end.
   Outcome run(const Arguments& arguments, std::chrono::milliseconds limit = 60s);
-  /// Any other program, by its path.
+  /// Runs any other program, by its path.
   Outcome run_program(const std::string& path, const Arguments& arguments,
                       std::chrono::milliseconds limit = 60s);
 

@@ -27,7 +27,7 @@ long faults_of_writing(ZeroPages::Use use, std::size_t bytes) {
   return page_faults() - before;
 }
 
-/// Whether the system has large pages for who asks, here and now.
+/// Whether the system gives large pages to a process that asks, here and now.
 bool has_large_pages() {
   return faults_of_writing(ZeroPages::Use::kAllOver, 8 * kLargePage) < 4 * 512;
 }
@@ -52,7 +52,7 @@ TEST_CASE("zero pages are zero, and whose they become has what was written") {
 }
 
 TEST_CASE("only memory to be written all over lies in large pages") {
-  // Elsewhere each touch would take 2 MiB.
+  // With large pages, each touch would take 2 MiB.
   REQUIRE(faults_of_writing(ZeroPages::Use::kHereAndThere, 8 * kLargePage) >= 8 * 512);
   if (!has_large_pages()) WARN("this system has no large pages now");
 }
@@ -70,12 +70,12 @@ TEST_CASE("a kept heap serves all threads, and again what was freed") {
   const bool has_large = has_large_pages();
   const long at_first = page_faults();
   {
-    // The very first of it lies in a large page, too.
+    // The very first block lies in a large page, too.
     std::vector<std::vector<char>> blocks;
     for (int i = 0; i < 16; ++i) blocks.emplace_back(kLargePage / 32, 'v');
   }
   if (kIsOurHeap && has_large) REQUIRE(page_faults() - at_first < 64);
-  // What is touched ahead is there when it is needed.
+  // Memory that was touched ahead is there when it is needed.
   touch_heap_ahead(2 * kLargePage);
   const auto end_of_block = [] {
     const long faults = page_faults();
@@ -90,7 +90,7 @@ TEST_CASE("a kept heap serves all threads, and again what was freed") {
   fill();
   if (kIsOurHeap) REQUIRE(page_faults() - before < 64);
   std::thread(fill).join();
-  // What is more than was set aside, and what is asked for at once beyond any heap.
+  // More memory than was set aside, and a block that is larger than any heap.
   std::vector<std::vector<char>> many;
   for (int i = 0; i < 24; ++i) many.emplace_back(2 * kLargePage, 'y');
   REQUIRE(std::vector<char>(64 * kLargePage, 'z').back() == 'z');

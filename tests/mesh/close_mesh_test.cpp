@@ -1,4 +1,4 @@
-// From polygons to closed meshes.
+// Turns polygons into closed meshes.
 #include "mesh/close_mesh.hpp"
 
 #include <set>

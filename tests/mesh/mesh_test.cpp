@@ -12,7 +12,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// What all triangles count along the line, in the order in which the mesh has them.
+/// The sum of all triangles' counts along the line, in the mesh's order.
 int sum_of_counts(const TriangleMesh& mesh, const Ray& ray) {
   const csg::MeshLine line(ray);
   int sum = 0;
@@ -112,7 +112,7 @@ TEST_CASE("a mesh of a box has the box's spans, bit for bit, and its normals") {
     for (int r = 0; r < 20; ++r) {
       const Ray ray{dice.point(6), normalized(dice.point(2))};
       const Spans a = box.spans(ray), b = mesh.spans(ray);
-      // Rays that graze an edge may differ by nothing but that.
+      // Rays that graze an edge may cross a sliver in one case only.
       if (a.count == 1 && a.interval[0].leave - a.interval[0].enter < 1e-9) continue;
       REQUIRE(a.count == b.count);
       if (a.count == 0) continue;

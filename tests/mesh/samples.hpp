@@ -47,8 +47,8 @@ inline void append(PolygonMesh& to, const PolygonMesh& more, bool inside_out = f
   }
 }
 
-/// A prism of so many sides about z, its ends cut into triangles about their first corners, as most
-/// files have them.
+/// A prism of so many sides about z, its ends cut into triangles about their first corners, as in
+/// most files.
 inline PolygonMesh drum_polygons(double radius, double lo, double hi, std::uint32_t sides) {
   PolygonMesh mesh;
   for (const double z : {lo, hi}) {

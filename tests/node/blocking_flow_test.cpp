@@ -40,7 +40,7 @@ TEST_CASE("each ray is a message, and a full queue holds up all that is behind")
   CHECK(SentMail(f.mail).counts(BatchType::kRays) == std::vector<std::uint32_t>{1, 1});
   CHECK(f.flow.is_stalled());
   CHECK_FALSE(f.flow.is_empty());
-  // Room elsewhere is of no use.
+  // Room in another queue is of no use.
   CHECK_FALSE(f.flow.was_granted(1, kRayBytes, false, f.mail));
   CHECK(SentMail(f.mail).all.empty());
   CHECK(f.flow.was_granted(0, kRayBytes, false, f.mail));

@@ -18,7 +18,7 @@ TEST_CASE("a model is asked for once, and rays wait until it comes") {
   CHECK(SentMail(mail).told<control::Borrow>() == std::vector{control::Borrow{1, 0, 2, 250}});
   CHECK(borrowing.came(Rank{2}, 600).size() == 3);
   CHECK(borrowing.place_of(Rank{2}, shadow_ray(), mail) == Place::kHere);
-  // What is left of the room is less.
+  // The room that is left is smaller now.
   CHECK(borrowing.place_of(Rank{3}, shadow_ray(), mail) == Place::kWaits);
   CHECK(SentMail(mail).told<control::Borrow>() == std::vector{control::Borrow{1, 0, 3, 100}});
   control::NodeStats stats;

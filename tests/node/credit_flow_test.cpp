@@ -104,7 +104,7 @@ TEST_CASE("a class has so many places on a link, and they come back when its ray
 
 TEST_CASE("a full node's work is of one class, and what it sends on of the next") {
   Flow f;
-  // Eight go on credit, and one in its class's place.
+  // Eight rays go on credit, and one in its class's place.
   f.leave(19);
   f.sent(true);
   REQUIRE(f.flow.is_full());
@@ -114,7 +114,7 @@ TEST_CASE("a full node's work is of one class, and what it sends on of the next"
   const auto work = f.flow.take_class_work(here, f.mail);
   REQUIRE(work);
   CHECK(work->on_class == std::uint16_t{3});
-  // Its children's room is taken until it has ended.
+  // Room for its children is kept until its work has ended.
   CHECK(f.flow.add_class_rays(1, shadow_rays(1, 3)));
   CHECK_FALSE(f.flow.has_class_work());
   f.flow.class_work_ended(3, {});

@@ -8,7 +8,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// Rank 0 of so many nodes.
+/// Rank 0 of a farm with `nodes` nodes.
 struct Initiator {
   Mail mail = mail_of_square();
   Ending ending;
@@ -18,7 +18,7 @@ struct Initiator {
   void pass(bool is_passive, std::optional<std::uint64_t> ping = std::nullopt) {
     ending.pass(is_passive, ping, mail);
   }
-  /// The token comes back as it is.
+  /// Gives the token back as it is.
   bool comes_back(const Token& token) {
     return ending.on_token(encode_token({1, 0, 2, 7, 0}, token), kAnything, mail);
   }

@@ -1,5 +1,5 @@
-// When rays and credit go out: full batches, parts of them on quiet links, what is left when
-// nothing else is to do; and how a full node goes on.
+// When rays and credit go out: full batches, parts of batches on quiet links, and the rest when
+// there is nothing else to do; and how a full node goes on.
 
 #include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
@@ -16,7 +16,7 @@ constexpr std::uint32_t kSide = 64, kBatchRays = 400, kCreditRays = 3200;
 constexpr std::uint64_t kEighth = kCreditRays / 8;
 const Hypercube kPair = *Hypercube::of_size(2);
 
-/// Nothing but background: what rays cross, they leave.
+/// A scene of nothing but background: rays leave every region that they cross.
 Bytes nothing() {
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 64, "height": 64},
     "camera": {"type": "perspective", "eye": [0,0,-5], "look_at": [0,0,0], "up": [0,1,0], "fov": 40},
@@ -38,11 +38,11 @@ struct LeftNode : NodeAtWork {
     m.link_credit_bytes = kCreditRays * kRayBytes;
     return m;
   }
-  /// From the right: rays that end here, or go on to where they came from.
+  /// Receives rays from the right node that end here, or go back to it.
   void receive(std::size_t rays, bool go_back) {
     node.on_neighbour(encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(1, go_back))));
   }
-  /// The same on the credit of a class.
+  /// The same for rays on the credit of a class.
   void receive_on_class(std::size_t rays, std::uint16_t of_class, bool go_back) {
     node.on_neighbour(encode_rays(stamp_of(neighbour(0)), std::vector(rays, ray(of_class, go_back)),
                                   BatchType::kClassRays));
@@ -52,7 +52,7 @@ struct LeftNode : NodeAtWork {
     ray.hops = hops;
     ray.kind = RayKind::kShadow;
     ray.weight = {1, 1, 1};
-    // To the left of the picture is +x.
+    // +x points to the left of the picture.
     ray.ray = {{1, 0, 0}, {go_back ? -1.0 : 1.0, 0, 0}};
     ray.t_max = 5;
     return ray;
@@ -155,14 +155,14 @@ namespace {
 using Classes = std::vector<std::uint16_t>;
 constexpr std::uint32_t kFull = 10, kCreditOfFull = 4;
 
-/// With credit for four rays, full with ten in its outbox, and two places for each class.
+/// A node with credit for four rays, full with ten in its outbox, and two places for each class.
 struct FullNode : LeftNode {
   FullNode() : LeftNode(small()) {
     receive(kCreditOfFull + kFull, true);
     CHECK(work() == 1);
     const Sent sent(node);
     CHECK(sent.batches == std::vector<std::size_t>{kCreditOfFull});
-    // One goes to a place of its class, then the node isn't full any more; of two others one.
+    // One ray takes a place of its class: then the node isn't full. Of two more, one takes a place.
     CHECK(sent.class_rays == Classes{2});
     receive(2, true);
     CHECK(work() == 1);
@@ -206,13 +206,13 @@ TEST_CASE(
   CHECK(full.work_once());
   Sent sent(full.node);
   CHECK(sent.class_grants == Classes{3});
-  // What comes of them goes on in two places each of their own; a third of class 6 has none.
+  // Their children go on in two places of each class; a third of class 6 finds none.
   full.receive_on_class(1, 5, true);
   CHECK(full.work_once());
   full.receive_on_class(2, 5, true);
   CHECK(full.work_once());
   CHECK(Sent(full.node).class_grants == Classes{5, 5});
-  // There is one now in the outbox of class 6, and no room for what more of class 5 send on.
+  // One of class 6 is in the outbox now, and there is no room for children of more of class 5.
   full.receive_on_class(1, 5, true);
   CHECK_FALSE(full.work_once());
   CHECK(full.node.wait_reason() == WaitReason::kBlocked);

@@ -1,4 +1,4 @@
-// Neighbours that help each other: what a node says, gives away and takes.
+// Neighbours that help each other: what a node tells, gives away and takes.
 #include <algorithm>
 #include <set>
 
@@ -17,7 +17,7 @@ using namespace graycube::testing;
 namespace {
 
 constexpr std::uint32_t kSide = 256;
-/// Of each node.
+/// The number of tiles of each node.
 constexpr std::size_t kTiles = 64;
 const Hypercube kCube = *Hypercube::of_size(4);
 
@@ -66,7 +66,7 @@ struct Worker : NodeAtWork {
   }
 };
 
-/// What a node sends, sorted.
+/// The messages that a node sends, sorted by kind.
 struct Sent {
   std::vector<control::Share> wishes;
   std::vector<std::string> errors;
@@ -136,7 +136,7 @@ TEST_CASE(
   REQUIRE(own.size() == kTiles);
   owner.assign(own);
   owner.node.on_neighbour(encode_offer(owner.stamp_of(helper), BatchType::kIdle, 0));
-  // What a tile takes is not known yet.
+  // The work that a tile takes is not known yet.
   CHECK(Sent(owner.node).wishes.empty());
   std::vector<control::Share> wishes;
   int traced = 0;
@@ -156,7 +156,7 @@ TEST_CASE(
   for (const std::uint32_t tile : sent.tiles.front().second) {
     CHECK(std::find(own.end() - 16, own.end(), tile) != own.end());
   }
-  // One offer, one gift.
+  // Each offer gets one gift.
   CHECK(owner.work() == static_cast<int>(kTiles) - 16 - traced);
   CHECK(Sent(owner.node).tiles.empty());
 }
@@ -164,7 +164,7 @@ TEST_CASE(
 TEST_CASE(
     "who has done as much as a node will have done gets nothing of it, and who has done a little "
     "less gets little") {
-  // What the node does by itself.
+  // The work that the node has when it does everything by itself.
   Worker alone(Rank{0});
   alone.assign(tiles_of(Rank{0}));
   alone.work();
@@ -250,12 +250,12 @@ TEST_CASE(
 
   const std::uint32_t tile = tiles_of(owner).front();
   helper.node.on_neighbour(encode_assignment(helper.stamp_of(owner), std::vector{tile}));
-  // And maybe rays that left it for the node's own regions.
+  // There may also be rays that left it for the node's own regions.
   CHECK(helper.work() >= 1);
   const Sent sent(helper.node);
   CHECK(sent.tiles_with_credit == std::set{tile});
   CHECK(sent.errors.empty());
-  // What left the copy went across the bit that leads there from the owner, or stayed here.
+  // Rays that left the copy crossed the bit that leads there from the owner, or stayed here.
   for (const auto& [to, rays] : sent.rays) {
     for (const RayTask& ray : rays) {
       const Rank next = kCube.owner_of(ray.region.column, ray.region.row);

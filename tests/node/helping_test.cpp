@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kNoLimit = 1 << 20;
 
-/// Has traced ten tiles of 100 tests each, and its neighbour across bit 0 has done nothing.
+/// A node that has traced ten tiles of 100 tests each; its neighbour across bit 0 has done nothing.
 struct Owner {
   Mail mail = mail_of_square();
   Helping helping{2, {true, 1000}};

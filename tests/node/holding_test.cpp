@@ -25,7 +25,7 @@ control::Load scattered() {
   return load_of({kColumns, kRows, 2, edges(kColumns, 128), edges(kRows, 96)});
 }
 
-/// What rank 1 of eight holds of a small scene; `foreign`: foreign bounds too.
+/// The holding of rank 1 of eight in a small scene; with foreign bounds if `foreign`.
 Holding holding(const control::Load& load, bool foreign = false) {
   const Seat seat{kCube, Rank{1}};
   Model model = compile_scene(corner_scene());

@@ -61,7 +61,7 @@ TEST_CASE("batches of another job, epoch or process are not of now") {
   CHECK_FALSE(m.is_of_now(stamp));
   stamp.epoch = 1;
   CHECK(m.is_of_now(stamp));
-  // Of the next job the processes are not known yet.
+  // The processes of the next job are not known yet.
   m.begin(4, 0);
   CHECK(m.is_of_now({4, 0, 2, 9, 0}));
 }

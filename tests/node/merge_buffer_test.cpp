@@ -1,5 +1,5 @@
-// What a node sends home: light summed per pixel, credit per tile, nothing lost, whatever comes in
-// which order.
+// The light that a node sends home: summed per pixel, its credit per tile, and nothing is lost in
+// any order of arrival.
 #include "node/parts/merge_buffer.hpp"
 
 #include <map>

@@ -1,4 +1,4 @@
-// A node's brain and the messages that it would get from the frontal and from neighbours that
+// A node's brain, and the messages that it would get from the frontal and from neighbours, which
 // aren't there.
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace graycube::testing {
 
-/// Of every node.
+/// The start number of every node.
 inline constexpr std::uint32_t kIncarnation = 7;
 
-/// What the frontal says of a job whose macro-regions have these boundaries: square tiles, a window
-/// that holds them all, and no lack of credit.
+/// The frontal's message for a job whose macro-regions have these boundaries: square tiles, a
+/// window that holds them all, and no lack of credit.
 inline control::Load load_of(control::GridLayout grid) {
   control::Load load;
   load.job = 1;
@@ -52,7 +52,7 @@ class NodeAtWork {
   }
 
   Rank neighbour(std::uint32_t bit) const { return cube_.neighbour(rank_, bit); }
-  /// For that neighbour's next batch.
+  /// The stamp of that neighbour's next batch.
   BatchStamp stamp_of(Rank sender) {
     return {1, 0, sender.value, kIncarnation, sent_[sender.value]++};
   }
@@ -66,14 +66,14 @@ class NodeAtWork {
   }
   NodeAtWork(NodeAtWork&&) = default;
 
-  /// One piece of work; false when there is none.
+  /// Does one piece of work; false when there is none.
   bool work_once() {
     auto piece = node.take_work();
     if (!piece) return false;
     node.give_result(bench_.run(*std::move(piece)));
     return true;
   }
-  /// Does what there is to do; returns the number of pieces.
+  /// Does all work that there is; returns the number of pieces.
   int work() {
     int pieces = 0;
     while (work_once()) ++pieces;

@@ -1,5 +1,5 @@
-// Rays that begin where their node finished another, links away from their own macro-region's: they
-// are sent there.
+// Rays that begin where their node finished another ray, several links from their own
+// macro-region's node: they are sent to that node.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -20,7 +20,7 @@ constexpr std::uint32_t kSide = 64;
 const Hypercube kCube = *Hypercube::of_size(8);
 const Vec3 kFirstMirror{-6, 2, 5}, kSecondMirror{2, 2, 5}, kBall{2, 2, 9};
 
-/// A cube of side 2 about a point, from which all is cut away that lies beyond the point in a
+/// A cube of side 2 about a point, without the part that lies beyond the point in a
 /// direction.
 CsgNode mirror_at(const Vec3& p, const Vec3& towards) {
   const HalfSpaceShape cut{towards, dot(towards, p)};
@@ -61,7 +61,7 @@ Rank owner_at(const Vec3& p) {
   return kCube.owner_of(region.column, region.row);
 }
 
-/// With both mirrors, or all; and bounds around the rest.
+/// A slice with both mirrors, and the ball if `has_ball`; and foreign bounds of the rest.
 Bytes slice(bool has_ball) {
   const Model model = mirrors();
   const ModelContents contents{{true, true, has_ball}, {}};
@@ -119,7 +119,7 @@ TEST_CASE("a ray that begins in a macro-region links away is sent there, link by
   REQUIRE(sent.size() == 1);
   const Rank between = kCube.neighbour(first, kCube.first_bit(first, last));
   CHECK(sent.front().to == between);
-  // They have been at both mirrors.
+  // The rays have been at both mirrors.
   CHECK(sent.front().rays.size() > 50);
   for (const RayTask& ray : sent.front().rays) {
     REQUIRE(ray.depth == 2);

@@ -62,7 +62,7 @@ TEST_CASE("a seat's share of the grid is the regions that it owns") {
 TEST_CASE("rays are all of a node's regions unless one of them is not") {
   const Seat seat{kCube, Rank{0}};
   const Rank owner = seat.owner_of({1, 2});
-  // The grid is four by four nodes, so that the fifth column is the first's again.
+  // The grid is four by four nodes, so the fifth column belongs to the same nodes as the first.
   CHECK(seat.owns_all(owner, std::vector{ray_in(1, 2), ray_in(5, 6)}));
   CHECK_FALSE(seat.owns_all(owner, std::vector{ray_in(1, 2), ray_in(2, 2)}));
   CHECK(seat.owns_all(owner, {}));

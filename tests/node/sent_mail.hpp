@@ -1,4 +1,4 @@
-// What a part of a node has put into the mail, for tests.
+// Reads the mail that a part of a node has posted, for tests.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace graycube::testing {
 
-/// Rank 0's of a square of four nodes, in job 1.
+/// The stamp of rank 0 of a square of four nodes, in job 1.
 inline constexpr BatchStamp kFirst{1, 0, 0, 7, 0};
 inline constexpr BatchLimits kAnything{.pixel_count = 1 << 16,
                                        .tile_count = 1 << 10,
@@ -43,7 +43,7 @@ struct SentMail {
     for (const BatchHeader& h : headers()) types.push_back(h.type);
     return types;
   }
-  /// Records in each batch of a type.
+  /// The number of records in each batch of a type.
   std::vector<std::uint32_t> counts(BatchType type) const {
     std::vector<std::uint32_t> counts;
     for (const BatchHeader& h : headers()) {
@@ -51,7 +51,7 @@ struct SentMail {
     }
     return counts;
   }
-  /// Control messages of a kind.
+  /// The control messages of a type.
   template <typename T>
   std::vector<T> told() const {
     std::vector<T> told;

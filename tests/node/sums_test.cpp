@@ -1,4 +1,4 @@
-// A node in the tree of sums: what it does with the light that others send it.
+// A node in the tree of sums: how it passes on the light that others send it.
 
 #include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"

@@ -13,7 +13,7 @@ const TilePlan kPlan(ImageSize{16, 16, 1}, TileShape{4, 4});
 
 struct Queue {
   WorkQueue queue;
-  /// By link.
+  /// The number of rays whose credit became free, indexed by link.
   std::vector<std::size_t> free{0, 0};
   Pace pace;
 

@@ -18,7 +18,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-// As in fuzz_batch, so that the mutation tests start from accepted messages.
+// The same limits as in fuzz_batch, so that the mutation tests start from accepted messages.
 constexpr BatchLimits kLimits{
     .pixel_count = 4096, .tile_count = 64, .max_depth = 9, .columns = 4, .rows = 2, .nodes = 8};
 constexpr BatchStamp kStamp{
@@ -59,7 +59,7 @@ Contribution some_light(Random& random) {
   return {static_cast<std::uint32_t>(random.below(4096)), {value(), value(), value()}};
 }
 
-/// Dim or bright, for pixels apart and side by side.
+/// Light, dim or bright, of pixels apart and side by side.
 std::vector<Contribution> some_lights(Random& random, std::size_t count) {
   std::vector<Contribution> all;
   while (all.size() < count) {
@@ -237,7 +237,7 @@ TEST_CASE("runs of light that nobody would write are refused") {
   CHECK(error(with(good, 32, std::uint32_t{3})) == BatchError::kBadValue);
   CHECK(error(with(good, 32, std::uint32_t{7})) == BatchError::kBadLength);
   CHECK(error(with(good, 32, std::uint32_t{0})) == BatchError::kBadLength);
-  // No component needs its second byte any more.
+  // No component needs its second byte now.
   CHECK(error(with(good, 44 + 6 + 2, std::uint16_t{4})) == BatchError::kBadValue);
 }
 

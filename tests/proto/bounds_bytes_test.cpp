@@ -13,7 +13,7 @@ using namespace graycube::test;
 
 namespace {
 
-/// Of a slice behind its bounds.
+/// The bytes of a slice behind its bounds.
 const std::vector<std::byte> kRest(5, std::byte{7});
 
 WideNode empty_node() {
@@ -33,7 +33,7 @@ void put_box(WideNode& node, std::size_t place, float at,
   node.child[place] = child;
 }
 
-/// A chain of so many nodes, each with some boxes beside the next.
+/// A chain of so many nodes; each has some boxes beside the next node.
 std::vector<WideNode> chain(std::uint32_t count) {
   std::vector<WideNode> nodes(count, empty_node());
   for (std::uint32_t n = 0; n < count; ++n) {
@@ -83,7 +83,7 @@ TEST_CASE("foreign bounds that can't be walked are refused") {
     INFO(size << " of " << good.size() << " bytes");
     REQUIRE_FALSE(taken(std::span(good).first(size)));
   }
-  // Magic; more nodes than there are bytes; a node of no branches, and of nine.
+  // Broken are: the magic; more nodes than bytes; a node of no branches, and one of nine.
   constexpr std::size_t kFirstNode = 8;
   for (const auto& [at, value] :
        {std::pair{std::size_t{0}, 0}, {std::size_t{7}, 1}, {kFirstNode, 0}, {kFirstNode, 9}}) {

@@ -27,8 +27,8 @@ ControlMessage message_of(std::string_view text) {
   return std::get<ControlMessage>(result);
 }
 
-/// One to three characters replaced, inserted or taken out; those that mean something in JSON are
-/// likely.
+/// The text with one to three characters replaced, inserted or removed; characters that have a
+/// meaning in JSON are likely.
 std::string scribbled(std::string text, Random& random) {
   static constexpr std::string_view kInk = "0123456789.-eE\"\"{}[],:\\ tu\xC3\x01";
   for (std::uint64_t n = 1 + random.below(3); n > 0 && !text.empty(); --n) {

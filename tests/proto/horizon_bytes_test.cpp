@@ -28,9 +28,9 @@ LightHorizons some_horizons() {
   return LightHorizons({map, {}, map}, {{}, {}, depths});
 }
 
-/// Of a map: its unit, one run's two lengths, and all distances but the first, which never comes.
+/// Bytes of a map: unit, one run's two lengths, and all distances but the first, which never comes.
 constexpr std::size_t kMapBytes = 8 + 4 + 2 * (LightHorizons::kTexels - 1);
-/// Where the first light's map begins, and where the third's depths do.
+/// Offsets of the first light's map, and of the third light's depths.
 constexpr std::size_t kMapAt = kHorizonHeaderBytes + 1;
 constexpr std::size_t kDepthsAt = kHorizonHeaderBytes + 3 + 2 * kMapBytes + 1;
 
@@ -61,7 +61,7 @@ TEST_CASE("bytes that are no horizons are refused") {
     broken[at] ^= std::byte{0x42};
     CHECK_FALSE(decode_horizons(broken, 3));
   }
-  // Split, unit, clearance, the number of blocks, their order.
+  // The values changed are split, unit, clearance, the number of blocks, and their order.
   for (const auto& [at, value] : {std::pair{0, 0},
                                   {0, 33},
                                   {0, 4},
@@ -79,7 +79,7 @@ TEST_CASE("bytes that are no horizons are refused") {
     broken[kDepthsAt + static_cast<std::size_t>(at)] = std::byte(value);
     CHECK_FALSE(decode_horizons(broken, 3));
   }
-  // The unit becomes no number, negative, 0.
+  // The unit becomes NaN, negative, and 0.
   for (const auto& [at, value] : {std::pair{7, 0x7F}, {7, 0xBF}, {7, 0x00}}) {
     auto broken = bytes;
     broken[kMapAt + static_cast<std::size_t>(at)] = std::byte(value);
@@ -112,7 +112,7 @@ TEST_CASE("horizons with random bytes changed are refused, or are horizons") {
     if (random.below(4) == 0) bytes.resize(random.below(bytes.size()));
     const auto received = decode_horizons(bytes, 3);
     ++(received ? read : refused);
-    // What is read can be written, and read again.
+    // Horizons that were read can be written, and read again.
     if (received) REQUIRE(decode_horizons(encode_horizons(*received), 3));
   }
   CHECK(refused > 50);

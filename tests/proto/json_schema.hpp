@@ -24,14 +24,14 @@ inline bool has_type(const Json& value, const std::string& type) {
   return false;
 }
 
-/// Unicode characters of a UTF-8 string.
+/// The number of Unicode characters in a UTF-8 string.
 inline std::size_t characters(const std::string& text) {
   std::size_t count = 0;
   for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0) != 0x80 ? 1 : 0;
   return count;
 }
 
-/// Empty when `value` satisfies `schema`; else where it doesn't, and by which keyword.
+/// Empty when `value` satisfies `schema`; else the place where it doesn't, and the keyword.
 inline std::string violation(const Json& schema, const Json& value, const std::string& at = "") {
   static const std::set<std::string> kKnown{
       "$schema", "title",   "description", "type",     "const",      "enum",

@@ -44,7 +44,7 @@ Primitive some_primitive(Random& random, const Model& model) {
   return p;
 }
 
-/// Not closed, which a slice may be.
+/// A mesh that isn't closed, which a slice may hold.
 Mesh some_mesh(Random& random) {
   TriangleMesh m;
   for (std::uint64_t n = 1 + random.below(5); n > 0; --n) m.points.push_back(random.vec());

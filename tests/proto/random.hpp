@@ -16,14 +16,14 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// 0 … below − 1.
+  /// A number in 0 … below − 1.
   std::uint64_t below(std::uint64_t below) { return engine_() % below; }
   bool chance(std::uint64_t one_in) { return below(one_in) == 0; }
   std::uint64_t bits() { return engine_(); }
   double uniform(double lo, double hi) {
     return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
-  /// Finite; often a value at which careless code breaks.
+  /// A finite number; often one at which careless code breaks.
   double any_finite() {
     static constexpr double kOdd[] = {0.0,
                                       -0.0,

@@ -43,7 +43,7 @@ void each_object(const Json& schema, const Json& value, const Json::json_pointer
   }
 }
 
-/// Every value in `json` but the whole: leaves, objects and arrays.
+/// Pointers to every value in `json` but the whole: leaves, objects and arrays.
 std::set<std::string> all_pointers(const Json& json) {
   std::set<std::string> pointers;
   const Json leaves = json.flatten();
@@ -53,7 +53,7 @@ std::set<std::string> all_pointers(const Json& json) {
   return pointers;
 }
 
-/// Rules that tie fields together, which the schemas' words can't express.
+/// Fields that rules tie together, which the schemas' words can't express.
 const std::set<std::string> kTiedFields{
     "grid/scatter", "grid/column_edges", "grid/row_edges",     "grid/own_edges",    "endpoints",
     "rows",         "tiles_whole",       "jobs/0/tiles_whole", "jobs/1/tiles_whole"};

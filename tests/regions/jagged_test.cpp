@@ -26,7 +26,7 @@ void check_line(std::span<const std::int64_t> edges, std::int64_t side) {
   }
 }
 
-/// By part, loads of pixels that share their cell's load evenly.
+/// The load of each part, if pixels share their cell's load evenly.
 std::vector<double> loads_of(const LoadMap& map, const std::vector<std::int64_t>& x,
                              const std::vector<std::int64_t>& y, const JaggedCuts& cuts,
                              std::size_t columns) {
@@ -85,7 +85,7 @@ TEST_CASE("parts of a jagged cut are as heavy as each other, but for the width o
     INFO("seed " << seed);
     Dice dice(seed);
     LoadMap map(32, 32);
-    // Hills of work, and a floor of it.
+    // The load is a floor of work with hills on it.
     const double x0 = dice.between(0, 32), y0 = dice.between(0, 32);
     for (std::uint32_t r = 0; r < 32; ++r) {
       for (std::uint32_t c = 0; c < 32; ++c)

@@ -74,7 +74,7 @@ void for_each_region(const MacroGrid& grid, Visit&& visit) {
   }
 }
 
-/// Walks the ray from t = 0, checks what holds of every walk, and returns the region at the end.
+/// Walks the ray from t = 0, checks the rules of every walk, and returns the region at the end.
 RegionIndex walk(const MacroGrid& grid, const Ray& ray, RegionIndex start) {
   RegionIndex region = start;
   double t = 0;
@@ -94,7 +94,7 @@ RegionIndex walk(const MacroGrid& grid, const Ray& ray, RegionIndex start) {
     }
     if (!exit) break;
     REQUIRE((exit->next.column == region.column) != (exit->next.row == region.row));
-    // Each step goes from one cell to another across a plane: no such step ever comes twice, nor
+    // Each step goes from one cell to another across a plane: no step comes twice, nor
     // back.
     const bool in_columns = exit->next.row == region.row;
     const int from = in_columns ? region.column : region.row;
@@ -118,7 +118,7 @@ TEST_CASE("macro-regions partition space") {
       const auto grid = MacroGrid::regular(frame, shape.columns, shape.rows);
       const int points = shape.columns * shape.rows > 500 ? 30 : 300;
       for (int i = 0; i < points; ++i) {
-        // Far and near, in front, beside, behind.
+        // Points far and near, in front, beside and behind.
         const Vec3 p = frame.eye + dice.point(i % 3 == 0 ? 0.01 : 20);
         const RegionIndex holder = grid.region_of_point(p);
         int holders = 0;

@@ -26,7 +26,7 @@ void for_each_region(const MacroGrid& grid, const Visit& visit) {
   }
 }
 
-/// The whole object's counterpart in the restricted model, if it has a surface there.
+/// The position of the object's counterpart in the restricted model, if it has a surface there.
 std::optional<std::size_t> position_of(const Model& model, std::uint32_t id) {
   for (std::size_t i = 0; i < model.objects.size(); ++i) {
     if (model.objects[i].id == id) return i;
@@ -57,7 +57,7 @@ TEST_CASE("what a share needs of each object is all of it, a part or nothing") {
       (is_part ? parts : contents.is_whole[i] ? whole : nothing) += 1;
     }
     REQUIRE(part == contents.parts.size());
-    // Objects held whole take the place of their parts.
+    // Objects that are held whole take the place of their parts.
     contents.hold_whole(std::vector<bool>(model.objects.size(), true));
     REQUIRE(contents.parts.empty());
     REQUIRE(extract(model, contents) == model);
@@ -216,7 +216,7 @@ TEST_CASE("a node holds the meshes that its region may meet, and no others") {
       MacroGrid::regular(CameraFrame::from(scene.settings.camera, scene.settings.image), 2, 2);
   for_each_region(grid, [&](RegionIndex r) {
     const Model part = restrict_to_share(model, grid, only(r, grid));
-    // Its own, and the one in the middle.
+    // The part has its own mesh, and the one in the middle.
     REQUIRE(part.meshes.size() == 2);
     for (const Primitive& p : part.primitives) {
       CHECK(part.meshes[p.mesh].bounds() == p.bounds);

@@ -19,7 +19,7 @@ using testing::Dice;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A star-shaped outline about (x, y): never crosses itself.
+/// A star-shaped outline about (x, y), which never crosses itself.
 FlatLoop star(Dice& dice, double x, double y, double least, double most, int corners) {
   FlatLoop loop;
   for (int i = 0; i < corners; ++i) {
@@ -89,7 +89,7 @@ TEST_CASE("a spiral's pockets lie within pockets") {
   SECTION("too many of them are cut in two") { check_prism({spiral(60, 12)}, 64, dice, 20000); }
 }
 
-/// Crossings of each ray enter and leave in turn, as they must of a closed solid, and lie where the
+/// Crossings of each ray enter and leave in turn, as with any closed solid, and lie where the
 /// polygon's sides do.
 TEST_CASE("rays through a prism's corners and sides cross it in pairs") {
   const auto seed = GENERATE(range(1, 25));

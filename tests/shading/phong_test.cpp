@@ -1,4 +1,4 @@
-// Directions and the Phong model by hand.
+// Directions and the Phong model, worked out by hand.
 #include "shading/phong.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// In the x-y plane, so many degrees from the normal (0, 1, 0), coming down.
+/// A direction coming down in the x-y plane, so many degrees from the normal (0, 1, 0).
 Vec3 falling(double degrees) {
   const double a = degrees * kPi / 180;
   return {std::sin(a), -std::cos(a), 0};
@@ -51,11 +51,11 @@ TEST_CASE("a mirror turns the part along the normal round") {
 }
 
 TEST_CASE("refraction follows Snell's law") {
-  // 30° into glass of 1.5: sin = 1/3.
+  // 30° into glass of index 1.5: the sine becomes 1/3.
   const auto into_glass = refracted(falling(30), kUp, 1 / 1.5);
   REQUIRE(into_glass);
   CHECK(depth_angle(*into_glass) == Approx(19.47122063449069).epsilon(1e-12));
-  // And back: 19.47° from glass gives 30°.
+  // And back: 19.47° in glass becomes 30°.
   const auto out = refracted(falling(19.47122063449069), kUp, 1.5);
   REQUIRE(out);
   CHECK(depth_angle(*out) == Approx(30).epsilon(1e-12));

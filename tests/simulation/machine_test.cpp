@@ -1,4 +1,4 @@
-// What predictions are made of: costs per unit, cores, links.
+// The parts of predictions: costs per unit, cores, links.
 #include <random>
 
 #include "catch.hpp"

@@ -1,5 +1,5 @@
-// What a node holds is bounded by the windows of open tiles, however deep the rays' trees and
-// however slow the links.
+// The rays that a node holds are bounded by the windows of open tiles, however deep the rays' trees
+// are and however slow the links.
 #include <algorithm>
 #include <functional>
 #include <numeric>
@@ -15,7 +15,7 @@ using namespace graycube::simulation;
 namespace {
 
 constexpr std::uint32_t kSide = 16, kNodes = 8, kScatter = 4, kThreads = 2, kLights = 8;
-/// Rays of a link's credit; a batch has a quarter of it.
+/// Rays that a link's credit is for; a batch has a quarter of it.
 constexpr std::uint32_t kCredit = 64;
 
 /// Between two mirrors a wall of glass balls, and eight lights.
@@ -45,8 +45,8 @@ std::string hall_of_mirrors() {
          balls + "]}";
 }
 
-/// Rays that descend from each tile's primary rays, these included; most first. A tile is a
-/// macro-region's part of the picture, which is smaller than tiles could be.
+/// Rays that descend from each tile's primary rays, these included; the largest number first. A
+/// tile is a macro-region's part of the picture, which is smaller than tiles could be.
 std::vector<std::uint64_t> trees_of(const std::string& text) {
   ReadResult read = read_scene_text(text);
   REQUIRE(read.scene);
@@ -111,7 +111,7 @@ TEST_CASE(
       CHECK(n.outbox_peak <= bound);
       CHECK(n.queue_peak <= Hypercube::of_size(kNodes)->dimension() * kCredit);
     }
-    // Many times as much waits where the whole picture is open: it is the window that bounds it.
+    // Many times as much waits if the whole picture is open: so the window is the bound.
     CHECK(largest_outbox(wide) > 4 * largest_outbox(narrow));
   }
 }
@@ -120,8 +120,8 @@ TEST_CASE("between mirrors and glass, nodes that are full hold no more, whatever
   const std::string text = hall_of_mirrors();
   const Picture expected = serial_picture(text);
   constexpr std::uint64_t kMost = 64;
-  // What an evaluator adds: a part of it, and then a packet's rays or what its class keeps room
-  // for.
+  // An evaluator adds a part of the bound, and then a packet's rays, or those for which its class
+  // keeps room.
   constexpr std::uint64_t kBound =
       kMost + kThreads * (kMost / kWorksPerOutboxes + (Evaluator::kWaveRays + 1) * (kLights + 2));
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {

@@ -1,7 +1,7 @@
-// What nodes and the frontal say to each other, when and in which order, as one number: it changes
-// with any change of the brains' behaviour. Who changes that on purpose, or what tracing counts,
-// records the new numbers. GRAYCUBE_SEEDS=2000 compares so many seeds, GRAYCUBE_SEED=S prints the
-// number of that one.
+// All messages between nodes and the frontal, with their times and order, as one number, which
+// changes with any change of the brains' behaviour. A change of that on purpose, or of what tracing
+// counts, records the new numbers. GRAYCUBE_SEEDS=2000 compares so many seeds, GRAYCUBE_SEED=S
+// prints the number of that one.
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -33,7 +33,7 @@ class Digest {
   std::uint64_t value_ = 0xCBF29CE484222325;
 };
 
-/// Of all that is sent on a farm.
+/// A digest of all messages that are sent on a farm.
 class MessageLog {
  public:
   explicit MessageLog(Farm& farm) {
@@ -51,7 +51,7 @@ class MessageLog {
     digest_.add(comparable(message).frame);
     digest_.add(message.payload.bytes());
   }
-  /// Memory depends on the standard library.
+  /// The message without memory sizes, which depend on the standard library.
   static Message comparable(const Message& message) {
     if (looks_like_batch(message.frame)) return message;
     auto decoded = decode(message.text());
@@ -77,7 +77,7 @@ struct Help {
   std::uint64_t log = 0, tiles = 0, rays = 0;
 };
 
-/// Larger pictures, whose nodes help each other.
+/// Options for larger pictures, whose nodes help each other.
 Help help_of(std::uint64_t seed) {
   RandomFarmOptions how{
       .nodes = 2u << seed % 4, .threads = static_cast<std::uint32_t>(1 + seed % 3), .seed = seed};

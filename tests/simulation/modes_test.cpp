@@ -1,4 +1,4 @@
-// Every way in which macro can work, on simulated farms, by seed: the serial picture each time.
+// Every way in which macro can work, on simulated farms, by seed: each gives the serial picture.
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -44,7 +44,7 @@ nlohmann::json stats_of_failure(const Outcome& outcome) {
   return nlohmann::json::parse(outcome.failed->stats->text);
 }
 
-/// Rank 1 is not heard for long after some moment.
+/// A machine on which the frontal hears rank 1 late, from some moment on.
 class LateNode : public RandomMachine {
  public:
   explicit LateNode(std::uint64_t seed) : RandomMachine({.seed = seed}) {}
@@ -56,7 +56,7 @@ class LateNode : public RandomMachine {
   }
 
   double late_from_s = std::numeric_limits<double>::infinity();
-  /// When the frontal sent something to rank 0.
+  /// The moments at which the frontal sent something to rank 0.
   std::vector<double> told_s;
 };
 
@@ -74,7 +74,7 @@ TEST_CASE("a deadlock is told, with the other nodes' reports, when one node's do
     const Outcome heard = Farm({.nodes = 4}, first).render(text, options);
     if (!heard.failed) continue;
     ++deadlocks;
-    // The last that a node hears is `finish`, once for its report and once when the job has ended.
+    // The last message of a node is `finish`: once for its report, and once when the job has ended.
     REQUIRE(first.told_s.size() > 2);
     again.late_from_s = first.told_s[first.told_s.size() - 2];
     const Outcome outcome = Farm({.nodes = 4}, again).render(text, options);
@@ -158,7 +158,7 @@ TEST_CASE(
     CHECK(cycle.front() == cycle.back());
     const Hypercube cube = *Hypercube::of_size(nodes);
     for (std::size_t i = 1; i < cycle.size(); ++i) CHECK(cube.link_between(cycle[i - 1], cycle[i]));
-    // Each node has told how far it got.
+    // Each node has reported how far it got.
     const nlohmann::json stats = stats_of_failure(outcome);
     CHECK(stats["failed"] == why);
     CHECK(stats["balance"]["blocked_fraction"] > 0);

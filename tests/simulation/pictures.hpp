@@ -1,5 +1,5 @@
-// What the simulation tests share: a scene, its serial picture, and how a farm's is compared with
-// it.
+// Tools that the simulation tests share: a scene, its serial picture, and a comparison of a farm's
+// picture with it.
 #pragma once
 
 #include <string>

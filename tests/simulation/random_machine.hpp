@@ -12,7 +12,7 @@ namespace graycube::simulation {
 
 struct RandomTimes {
   std::uint64_t seed = 1;
-  /// Delays are drawn up to these, some links and evaluators much slower than others.
+  /// Delays are drawn up to these; some links and evaluators are much slower than others.
   double link_delay_s = 1e-3;
   double work_s = 1e-3;
 };
@@ -47,7 +47,7 @@ class RandomMachine : public Machine {
   std::map<Rank, double> slowness_;
 };
 
-/// What a test asks for, and a farm of it.
+/// The options of a test's farm.
 struct RandomFarmOptions {
   std::uint32_t nodes = 8, threads = 1;
   std::uint64_t seed = 1;

@@ -13,7 +13,7 @@
 
 namespace graycube::simulation {
 
-/// Of the tiny scene.
+/// The tiny scene's depth of rays and number of lights.
 inline constexpr std::uint32_t kDepth = 3, kLights = 2;
 
 /// A mirror that faces another, glass between them, and two lights, one of them there too.

@@ -1,5 +1,5 @@
-// Thousands of tiny renders, each on a farm, in a way and with delays that its seed decides: never
-// a deadlock, never an early end, the bounds on rays kept, and always the serial picture.
+// Thousands of tiny renders, each on a farm, in a way and with delays that its seed decides. There
+// is never a deadlock or an early end, rays keep their bounds, and the picture is the serial one.
 // GRAYCUBE_SEEDS=N runs N of them, GRAYCUBE_SEED=S only that one.
 #include <algorithm>
 #include <map>
@@ -23,15 +23,15 @@ struct Pictures {
       : text(tiny_scene(width, height)), expected(serial_picture(text)), pixels(width * height) {}
 };
 
-/// Rays that descend from one primary ray at most, it included: each but shadow rays sends two
-/// others and one to each light.
+/// The most rays that descend from one primary ray, itself included: each but a shadow ray sends
+/// out two others, and one to each light.
 constexpr std::uint64_t largest_tree() {
   return ((std::uint64_t{2} << kDepth) - 1) * (1 + kLights);
 }
 
-/// What a node may hold: in its inbox what its links' credit and its classes allow, in its outboxes
-/// what descends from the tiles that are open anywhere, and what it may hold before it is full,
-/// with what its evaluators add to that.
+/// Checks the rays that a node held: in its inbox at most what credit and classes of its links
+/// allow; in its outboxes at most what descends from all open tiles, and what they may hold before
+/// it is full, with what its evaluators add.
 void check_bounds(const Trial& t, const Outcome& outcome, std::uint64_t pixels) {
   if (t.job.algorithm != Algorithm::kMacro) return;
   const std::uint64_t links = Hypercube::of_size(t.farm.nodes)->dimension();
@@ -47,7 +47,7 @@ void check_bounds(const Trial& t, const Outcome& outcome, std::uint64_t pixels) 
     inbox = links == 0 ? 0 : std::max<std::uint64_t>(t.job.queue, links);
   REQUIRE(outcome.reports.size() == t.farm.nodes);
   for (const control::NodeStats& n : outcome.reports) {
-    // Rays that waited for a borrowed model lie there too.
+    // Rays that waited for a borrowed model are counted there, too.
     if (t.job.shadows != ShadowMode::kLocal) CHECK(n.queue_peak <= inbox);
     CHECK(n.outbox_peak <= pixels * largest_tree());
     const std::uint64_t most = t.farm.limits.outbox_rays;
@@ -87,14 +87,14 @@ TEST_CASE(
       check_same_picture(farm, outcome, 1, pictures.expected);
     }
     check_bounds(t, outcome, pictures.pixels);
-    // Two, two more once all tiles are whole, and now and then one for a ping.
+    // There are two rounds, two more once all tiles are whole, and now and then one for a ping.
     if (t.job.flow == FlowMode::kCredit)
       CHECK(outcome.rounds <= 5 + outcome.render_s / t.farm.heartbeat_s);
     rounds += outcome.rounds;
   }
   if (only != 0 || last < kSeeds) return;
-  // Grains, and shadows × partition × flow, each with either sums: the seeds reach them all, and
-  // where credit runs out and queues fill.
+  // The ways are grains, and shadows × partition × flow, each with either sums. The seeds reach
+  // them all, and cases in which credit runs out and queues fill.
   CHECK(ways.size() == 2 * (3 + 3 * 2 * 2));
   CHECK(deadlocks > 5);
   CHECK(on_class > 10 * last);

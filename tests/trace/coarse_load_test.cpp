@@ -24,7 +24,7 @@ TEST_CASE("a coarse render finds the work where the solids are") {
   const LoadMap load = coarse_load(Domain(model), grid, nullptr, Staying{}, 0).map;
   const RegionIndex at = grid.region_of_point({0, 0, 0});
   CHECK(load.at(at.column, at.row) > 1.5 * total(load) / 64);
-  // At least the primary rays.
+  // The load contains at least the primary rays.
   CHECK(total(load) > kLeastCoarsePixels / 2.0);
   CHECK(total(coarse_load(Domain(model), grid, nullptr, Staying{}, 1).map) > total(load));
 }
@@ -61,7 +61,7 @@ TEST_CASE("shadow rays traced where they begin are work for the region of their 
     REQUIRE(grid.may_touch(light.from, light.ray.ray.origin, 0, model.delta));
     REQUIRE(light.ray.region != light.from);
   }
-  // Where no primary or secondary ray comes, there is work only for rays on their way to a light.
+  // Cells that no primary or secondary ray enters have work only for rays on their way to a light.
   std::size_t idle_goes = 0, idle_begins = 0;
   for (std::size_t i = 0; i < goes.map.load.size(); ++i) {
     idle_goes += goes.map.load[i] == 0 ? 1 : 0;
@@ -111,8 +111,8 @@ TEST_CASE("balanced boundaries are drawn together where the work is") {
 }
 
 TEST_CASE("a coarse render knows that tori take longer than balls") {
-  // One of either, each in its half of the picture and as wide; no light, so that nothing else is
-  // traced.
+  // A torus and a ball, each in its half of the picture and as wide; no light, so that nothing else
+  // is traced.
   ReadResult read = read_scene_text(R"({"graycube": 1, "image": {"width": 128, "height": 64},
     "camera": {"type": "orthographic", "eye": [0,0,-9], "look_at": [0,0,0], "up": [0,1,0], "width": 8},
     "lights": [], "materials": {"m": {}},
@@ -160,7 +160,7 @@ TEST_CASE("between mirrors the coarse render ends early where secondary rays sta
           .map;
   const double all = total(load);
   CHECK(all > static_cast<double>(kLeastCoarseCrossings));
-  // A pixel takes thousands of rays, and of 1024 that there were without an end each would be
+  // A pixel takes thousands of rays: without a limit, each of the 1024 pixels would be
   // traced.
   CHECK(all < 40.0 * static_cast<double>(kLeastCoarseCrossings));
 }

@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// What a picture of one pixel says of a ray from `eye` along +z into a scene of objects.
+/// The picture of one pixel: a ray from `eye` along +z into a scene of objects.
 struct Probe {
   Probe(const std::string& eye, const std::string& objects, unsigned samples = 1,
         const std::string& inside = "exit") {

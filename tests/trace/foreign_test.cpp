@@ -1,4 +1,4 @@
-// Nodes that know of what they do not hold finish rays wherever these go: the picture is that of
+// Nodes that know where foreign objects are finish rays wherever these go: the picture is that of
 // the whole.
 #include <memory>
 
@@ -30,7 +30,7 @@ Nodes some_nodes(const Model& model, Dice& dice) {
   return {columns, rows, MacroGrid::regular(frame, columns * k, rows * k)};
 }
 
-/// Rays that leave a node's macro-regions of its own primary rays.
+/// Counts the rays that leave a node's macro-regions when it traces its own primary rays.
 std::size_t leaving(const Domain& domain, const MacroGrid& grid, const RegionShare& share) {
   Step step;
   Evaluator evaluator(domain);
@@ -67,12 +67,12 @@ TEST_CASE(
     "viewing rays") {
   std::uint64_t without = 0, with = 0, shadow_without = 0, shadow_with = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    // Without bounds nothing would be known of all others.
+    // Without bounds, nothing would be known of all other objects.
     Scene scene = RandomModel(seed, bounded()).scene();
     if (seed % 3 == 0) {
       for (PointLight& light : scene.settings.lights) light.position = 4.0 * light.position;
     }
-    // More generations: what a ray sends out that has left its macro-region begins there.
+    // More generations: a ray that has left its macro-region sends its children out there.
     scene.settings.max_depth = 4;
     const Model model = compile_scene(scene);
     const Harvest whole = trace_whole(model);
@@ -119,7 +119,7 @@ TEST_CASE("nodes whose own pixels are others than their regions' give the pictur
       }
     }
     INFO("seed " << seed << ", " << columns << " x " << rows << " nodes");
-    // Where nodes don't know what is foreign, what begins beside their regions leaves at once.
+    // If nodes don't know what is foreign, rays that begin beside their regions leave at once.
     Machine machine(model, grid, columns, rows,
                     {.has_horizons = dice.one_in(2), .has_bounds = !dice.one_in(4)}, dice, own);
     const Harvest parts = machine.trace(dice);

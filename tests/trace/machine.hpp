@@ -1,4 +1,4 @@
-// A machine of nodes without wires: domains that share out a grid's macro-regions, and rays handed
+// A machine of nodes without wires: domains share out a grid's macro-regions, and rays are handed
 // from one to the other.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace graycube::testing {
 
-/// What came back from all rays of a picture.
+/// The light and credit that came back from all rays of a picture.
 struct Harvest {
   std::vector<FixedRgb> light;
   std::vector<Credit> credit;
@@ -32,7 +32,7 @@ struct Harvest {
   void take(const Step& step) {
     for (const PixelReturn& r : step.returns) {
       REQUIRE(r.merged <= kMaxMergedContributions);
-      // A tile may be whole by now: for it any return is one too many.
+      // A tile may be whole by now: then any further return is one too many.
       REQUIRE((r.merged > 0 || !r.credit.is_zero()));
       light[r.pixel].add(r.light);
       credit[r.pixel].add(r.credit);
@@ -78,12 +78,12 @@ class Machine {
     }
   }
 
-  /// How nodes know of what they don't hold.
+  /// Which knowledge nodes have of objects that they don't hold.
   struct Knowledge {
     bool has_horizons = false, has_bounds = false;
   };
-  /// The same, where nodes also hold whole what dice say of the objects, and know what they don't
-  /// hold. With own pixels of theirs, regions aren't scattered.
+  /// The same, but nodes also hold some objects whole, as dice decide, and have `knows` of the
+  /// others. If nodes have own pixels, regions aren't scattered.
   Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows,
           Knowledge knows, Dice& dice, std::vector<std::int64_t> own_edges = {})
       : image_(model.settings.image),
@@ -120,7 +120,7 @@ class Machine {
   }
 
   static constexpr std::size_t kMuchRoom = std::size_t{1} << 20;
-  /// Objects of which nodes hold a part.
+  /// The number of objects of which nodes hold a part.
   std::size_t parts = 0;
 
   /// Rays wait in one queue for all regions. Those of the region of a ray at either end are taken
@@ -189,7 +189,7 @@ inline void check_equal(const Harvest& whole, const Harvest& parts, const ImageS
   CHECK(parts.rounding.non_finite == whole.rounding.non_finite);
 }
 
-/// Half of them have lights outside of everything, which see most.
+/// A random model; half of them have lights outside of all objects, which see most.
 inline Model model_with_lights(std::uint64_t seed) {
   RandomOptions options;
   options.unbounded = seed % 2 == 0;

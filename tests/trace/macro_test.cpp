@@ -107,7 +107,7 @@ TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {
     const RegionShare share{4, 2, 1, 0};
     std::shared_ptr<const Domain> domain =
         std::make_shared<Domain>(grid, share, restrict_to_share(model, grid, share));
-    // What the node makes of its own primary rays, when it borrows one model after another.
+    // The node traces its own primary rays, and borrows one model after another.
     const TilePlan plan(model.settings.image, {5, 3}, grid);
     std::vector<RayTask> waiting;
     Step step;

@@ -1,4 +1,4 @@
-// One primary ray, along +z from z = −10, into a small scene: what light comes back.
+// One primary ray, along +z from z = −10, into a small scene, and the light that comes back.
 #pragma once
 
 #include <cmath>
@@ -69,7 +69,7 @@ class Stage {
   Scene scene_;
 };
 
-/// Equal but for the rounding of some dozen contributions.
+/// Checks that light is equal but for the rounding of some dozen contributions.
 inline void check_light(const Rgb& found, const Rgb& expected) {
   INFO(found.r << ' ' << found.g << ' ' << found.b << " against " << expected.r << ' ' << expected.g
                << ' ' << expected.b);
@@ -85,7 +85,7 @@ inline Material black() {
   m.diffuse = 0;
   return m;
 }
-/// Shines with its colour, whatever the light.
+/// A material that shines with its colour, whatever the light.
 inline Material glowing(const Rgb& color) {
   Material m = black();
   m.color = color;

@@ -205,7 +205,7 @@ TEST_CASE("a refracted ray is displaced by a slab as Snell says") {
 }
 
 TEST_CASE("a camera inside glass refracts outwards") {
-  // From inside at 30° to the normal of index 1.5: sin goes to 0.75.
+  // The ray comes from inside, at 30° to the normal, with an index of 1.5: the sine becomes 0.75.
   Stage stage;
   stage.settings().background = {0, 0, 1};
   stage.add(block({-50, -50, -50}, {50, 50, 0}), glass(0.5, 1.5));

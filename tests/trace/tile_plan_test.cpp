@@ -1,4 +1,4 @@
-// Every pixel in exactly one tile.
+// Every pixel lies in exactly one tile.
 #include "trace/tile_plan.hpp"
 
 #include <vector>
@@ -135,7 +135,7 @@ TEST_CASE(
     std::vector<std::int64_t> own;
     for (std::uint32_t row = 0; row < rows; ++row) {
       for (std::uint32_t column = 1; column < columns; ++column) {
-        // Between 1 and the width, one fewer than that apart.
+        // The first is 1 or 2, and each further one is 1 or 2 more than the one before.
         own.push_back(column + static_cast<std::int64_t>(dice.below(2)) +
                       (column == 1 ? 0 : own.back() - column + 1));
       }

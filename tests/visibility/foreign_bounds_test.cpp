@@ -1,5 +1,5 @@
-// Where what a node does not hold may be: bounds must never say that a way is free which something
-// foreign crosses.
+// Foreign bounds tell where objects may be that a node does not hold: they must never say that a
+// way is free if something foreign crosses it.
 #include "visibility/foreign_bounds.hpp"
 
 #include "catch.hpp"
@@ -31,7 +31,7 @@ ModelContents some_contents(const Model& model, Dice& dice) {
   return contents;
 }
 
-/// What is not held whole: of the whole scene, and as far as a part of it is held, of that.
+/// The objects that are not held whole, as in the whole scene; and the parts that are held.
 struct Foreign {
   Model outside, parts;
   Foreign(const Model& model, const ModelContents& contents) {

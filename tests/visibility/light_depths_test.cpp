@@ -1,4 +1,4 @@
-// What depths promise, light or darkness, must be what brute force finds.
+// Brute force must find what depths promise, light or darkness.
 #include "visibility/light_depths.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr std::uint64_t kTexels = 60'000;
 
 PointLight light_at(const Vec3& p) { return {p, {1, 1, 1}, Falloff::kNone}; }
 
-/// Whether light comes from a point to another, as a shadow ray that starts there finds it.
+/// Whether light comes from `light` to `point`, as found by a shadow ray that starts at the point.
 bool light_comes(const SurfaceTree& tree, const Vec3& light, const Vec3& point) {
   const double distance = length(light - point);
   const double epsilon = 1e-9 * std::max(1.0, max_abs(point));
@@ -46,7 +46,7 @@ TEST_CASE("depths promise light and darkness only where it is") {
     RandomOptions options;
     options.unbounded = dice.one_in(3);
     std::vector<PointLight> lights;
-    // Far ones, near ones, ones inside solids.
+    // Lights far away, near, and inside solids.
     for (const double spread : {14.0, 6.0, 2.0}) lights.push_back(light_at(dice.point(spread)));
     const Scene scene = seen(RandomModel(seed, options).scene(), lights);
     const Model model = compile_scene(scene);
@@ -57,7 +57,7 @@ TEST_CASE("depths promise light and darkness only where it is") {
     for (std::size_t light = 0; light < lights.size(); ++light) {
       const Vec3& at = lights[light].position;
       for (int i = 0; i < 400; ++i) {
-        // Mostly towards the middle, where things are.
+        // Mostly towards the middle, where the solids are.
         const Vec3 towards = dice.one_in(4) ? at + dice.unit_vector() : dice.point(3);
         if (!(length(towards - at) > 0)) continue;
         const Vec3 d = normalized(towards - at);

@@ -12,7 +12,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// The distance from the light to the first crossing of anything in that direction.
+/// The distance from the light to the first crossing of any surface in that direction.
 double first_surface(const SurfaceTree& tree, const Vec3& light, const Vec3& direction) {
   TreeScratch scratch;
   const auto hit = tree.first_crossing({light, direction}, 0, kInf, scratch);
@@ -31,7 +31,7 @@ TEST_CASE("nothing lies between a light and its horizon") {
     Dice dice(seed);
     Scene scene = RandomModel(seed).scene();
     scene.settings.lights.clear();
-    // Far ones, near ones, ones inside solids.
+    // Lights far away, near, and inside solids.
     for (const double spread : {12.0, 4.0, 1.0})
       scene.settings.lights.push_back(light_at(dice.point(spread)));
     const Model model = compile_scene(scene);
@@ -40,7 +40,7 @@ TEST_CASE("nothing lies between a light and its horizon") {
     for (std::size_t light = 0; light < scene.settings.lights.size(); ++light) {
       for (int i = 0; i < 200; ++i) {
         Vec3 d = dice.unit_vector();
-        // Along the axes and the edges between texels and faces too.
+        // Some directions lie along the axes and the edges between texels and faces.
         if (dice.one_in(8)) d[static_cast<int>(dice.below(3))] = 0;
         if (dice.one_in(8))
           d = {std::round(d.x * 8) / 8, std::round(d.y * 8) / 8, std::round(d.z * 8) / 8};

@@ -1,5 +1,5 @@
-// What may stand between surfaces and lights: foreign horizons must never promise a way that
-// something foreign blocks.
+// Objects that may stand between surfaces and lights: foreign horizons must never promise a way
+// that something foreign blocks.
 #include "visibility/occluders.hpp"
 #include "geometry/infinity.hpp"
 
@@ -77,7 +77,7 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
         promised += distance > 0 ? 1 : 0;
         const double of_all = all.distance(light, d);
         beyond += distance > of_all ? 1 : 0;
-        // Where nothing is bounded they may be rounded to other units.
+        // If nothing is bounded, the distances may be rounded to other units.
         REQUIRE(distance >= 0.995 * of_all);
       }
     }
@@ -87,8 +87,8 @@ TEST_CASE("nothing that a node does not hold is nearer to a light than its forei
 }
 
 TEST_CASE("a part that a node holds counts as foreign, with the surfaces that it has there") {
-  // The light is within what is taken away, and sees nothing before that ends; the first box alone,
-  // held as a part, is nearer.
+  // The light is within the solid that is subtracted, and sees nothing before that ends; the first
+  // box alone, held as a part, is nearer.
   const Model model = lit_from_origin(
       {operation(Operation::kDifference, {node_of(BoxShape{{4, -1, -1}, {9, 1, 1}}),
                                           node_of(BoxShape{{-2, -2, -2}, {8, 2, 2}})})});
@@ -114,7 +114,7 @@ TEST_CASE("occluders are chosen as rays ask for them") {
   const OccluderQuery behind_two{0, texel_of({1, 0, 0}), 12};
   std::vector<bool> held(4);
   choose_occluders(occluders, {{behind_two}}, bytes, 1000, held);
-  // What lies farther from the light than the ray's surface, or elsewhere, is none.
+  // An object farther from the light than the ray's surface, or elsewhere, is no occluder.
   CHECK(held == std::vector<bool>{true, true, false, false});
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("texels of many directions are those of each, with any instruction set
         REQUIRE(texels[i] == texel_of(opposite));
       }
     }
-    // Whatever is no direction gets some texel.
+    // Vectors that are no direction get some texel.
     x.fill(std::nan(""));
     std::array<std::uint32_t, 64> texels;
     find_opposite_texels(x, y, z, x.size(), LightHorizons::kSide, texels);

@@ -10,7 +10,7 @@ namespace graycube {
 namespace {
 
 constexpr int kSides = 256;
-/// More than the facets' distance from their arc, which is 7.5e-5 radii, on both sides.
+/// More than twice the facets' distance from their arc, which is 7.5e-5 radii.
 constexpr double kNear = 4e-4;
 constexpr std::size_t kMaxShapes = 64;
 
@@ -28,7 +28,7 @@ FlatLoop circle(const FlatMap& map) {
   return loop;
 }
 
-/// Fine polygons; nothing when there is too much to them.
+/// Adds the shape as fine polygons; false when these have too many corners.
 bool add_fine(const FlatShape& shape, FlatLoops& result) {
   if (shape.kind == FlatShape::Kind::kPolygon) {
     result = shape.loops;
@@ -48,7 +48,7 @@ bool add_fine(const FlatShape& shape, FlatLoops& result) {
   return true;
 }
 
-/// The shapes as fine polygons, grown by what counts as near; none when there is too much to them.
+/// The shapes as fine polygons, and the distance that counts as near; none if there are too many.
 std::vector<FlatLoops> fine_polygons(std::span<const FlatShape> shapes, double& near) {
   if (shapes.size() > kMaxShapes) return {};
   std::vector<FlatLoops> polygons;

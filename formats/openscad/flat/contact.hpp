@@ -1,4 +1,4 @@
-// Whether flat shapes touch: growing and shrinking distribute over operations only where they
+// Whether flat shapes touch: growing and shrinking distribute over operations only if they
 // don't.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace graycube {
 
-/// Whether no two of the shapes come near one another. "Near" is what facets of 256 a circle can't
-/// tell.
+/// Whether no two of the shapes come near one another. "Near" is a distance that facets of 256 a
+/// circle can't tell from 0.
 bool are_apart(std::span<const FlatShape> shapes);
 
-/// Whether all shapes lie within the first, and near its outline nowhere.
+/// Whether all shapes lie within the first, and nowhere near its outline.
 bool are_within_first(std::span<const FlatShape> shapes);
 
 }  // namespace graycube

@@ -13,8 +13,8 @@ namespace {
 
 using Kind = FlatShape::Kind;
 
-/// Facets that offsets are compared with are this far off the arcs, in distances; what is wrong is
-/// wider than that.
+/// The facets of offsets used for comparison are this far off the arcs, in distances; anything
+/// missing is wider than kMissingWidth.
 constexpr double kFineFacets = 1e-4;
 constexpr double kMissingWidth = 1e-3;
 
@@ -65,7 +65,7 @@ bool are_few_and_sensible(std::span<const FlatDisk> disks) {
   return round <= kMaxRoundCorners && round * disks.size() <= kMaxFlatDiskPairs;
 }
 
-/// The image of the hull under the map.
+/// The hull of disks under the map.
 ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
   if (!are_few_and_sensible(disks)) return {};
   const FlatRoundHull hull = flat_round_hull(disks);
@@ -111,7 +111,7 @@ FlatShape united(std::vector<FlatShape> shapes) {
 ExactFlat offset_of_disk(const FlatShape& shape, double distance) {
   auto disk = disk_of(shape.disk, shape.sides);
   if (!disk) return {};
-  // What remains of the map is its rotation, so that only the radius changes.
+  // Only a rotation remains of the map, so that only the radius changes.
   if (!(disk->radius + distance > 0)) return {true, std::nullopt};
   disk->radius += distance;
   return {true, shape_of(*disk)};
@@ -146,8 +146,8 @@ FlatShape shape_of(RoundedPolygon rounded, int sides) {
   return result;
 }
 
-/// The moved outline; empty where it isn't known, or where it isn't the offset because parts of it
-/// meet. That is seen from Clipper's offset, with facets much finer than what could be missing.
+/// The moved outline; empty if it isn't known, or if it isn't the offset because parts of it meet.
+/// Clipper's offset shows that, with facets much finer than the parts that could be missing.
 RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_round) {
   if (shape.kind == Kind::kPolygon && !are_sensible(shape.loops)) return {};
   const RoundedPolygon given =
@@ -157,7 +157,7 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   if (!result) return {};
   const double fine = kFineFacets * std::fabs(distance);
   const FlatLoops before = outline_of(given, fine), after = outline_of(*result, fine);
-  // Sides that cross, however little, are parts that have met.
+  // If sides cross, however little, parts have met.
   if (!crossings_are_few(std::span(&after, 1)) || resolved_count(after) != after.size()) return {};
   const FlatLoops expected =
       offset_simple(before, distance, is_round ? FlatJoin::kRound : FlatJoin::kMiter, fine);
@@ -165,10 +165,10 @@ RoundedPolygon moved_outline(const FlatShape& shape, double distance, bool is_ro
   return *std::move(result);
 }
 
-/// Growing distributes over unions, shrinking over intersections and what is taken off: A − B
-/// shrunk is A shrunk − B grown. Shrinking distributes over a union of what is apart, and growing
-/// over holes that are apart and reach the outline nowhere.
-/// Where sharp corners stay sharp each outline moves by itself, which is the same as long as none
+/// Growing distributes over unions, shrinking over intersections and over subtraction: A − B
+/// shrunk is A shrunk − B grown. Shrinking distributes over a union of shapes that are
+/// apart, and growing over holes that are apart and reach the outline nowhere. If sharp
+/// corners stay sharp, each outline moves by itself, which is the same as long as no two
 /// meet.
 bool distributes(const FlatShape& shape, double distance, FlatCorners corners) {
   const std::span<const FlatShape> all(shape.children);
@@ -259,7 +259,7 @@ ExactFlat exact_flat_hull(std::span<const FlatShape> parts) {
     return is_known ? hull_of(disks, map) : ExactFlat{};
   };
   if (ExactFlat hull = as_seen_from({}, {}); hull.is_exact) return hull;
-  // Ellipses that are one map's images of circles.
+  // The disks are ellipses that are images of circles under one map.
   for (const FlatShape& part : parts) {
     const FlatShape* disk = first_disk(part);
     if (disk == nullptr || disk->disk.determinant() == 0) continue;
@@ -277,7 +277,7 @@ ExactFlat exact_offset(const FlatShape& shape, double distance, int sides, FlatC
   const bool is_round = corners == FlatCorners::kRound;
   RoundedPolygon rounded = moved_outline(shape, distance, is_round);
   std::vector<FlatDisk> disks = disks_of_convex(shape);
-  // Without sharp corners both kinds are the same.
+  // Without sharp corners both kinds of offset are the same.
   const auto is_smooth = [&](const FlatDisk& d) { return is_round || d.radius > 0; };
   if (!std::all_of(disks.begin(), disks.end(), is_smooth)) disks.clear();
   const auto stays = [&](const FlatDisk& d) { return d.radius + distance >= 0; };

@@ -1,4 +1,4 @@
-// hull() and offset() of flat shapes with what is round exact, where that has a form in disks and
+// hull() and offset() of flat shapes with round parts exact, if the result has a form in disks and
 // polygons.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace graycube {
 
-/// A result that may be empty; `is_exact` is false where there is no exact form, and then no shape.
+/// A result that may be empty; without an exact form `is_exact` is false, and there is no shape.
 struct ExactFlat {
   bool is_exact = false;
   std::optional<FlatShape> shape;
@@ -19,14 +19,14 @@ struct ExactFlat {
 /// The disks and points whose hull the shape is; empty where it isn't known to be convex.
 std::vector<FlatDisk> disks_of_convex(const FlatShape& shape);
 
-/// The disks and points whose hull is that of the shape under a map; false when it has others.
+/// Adds the disks and points whose hull is that of the shape under a map; false if it needs others.
 bool add_hull_disks(const FlatShape& shape, const FlatMap& map, std::vector<FlatDisk>& disks);
 
 ExactFlat hull_of_disks(const std::vector<FlatDisk>& disks);
 /// The hull of all shapes together.
 ExactFlat exact_flat_hull(std::span<const FlatShape> parts);
-/// offset(r = distance), or offset(delta = distance) where sharp corners stay sharp; what becomes
-/// round has `sides` sides in OpenSCAD.
+/// offset(r = distance), or offset(delta = distance), with which sharp corners stay sharp; corners
+/// that become round have `sides` sides in OpenSCAD.
 enum class FlatCorners : std::uint8_t { kRound, kSharp };
 ExactFlat exact_offset(const FlatShape& shape, double distance, int sides,
                        FlatCorners corners = FlatCorners::kRound);

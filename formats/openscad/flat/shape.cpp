@@ -69,7 +69,7 @@ class FlatReader {
     return operated(Kind::kUnion, std::move(parts), line);
   }
 
-  /// Evaluated by Clipper as far as nothing is round.
+  /// The operation's figure, evaluated by Clipper as far as nothing is round.
   std::optional<FlatShape> operated(Kind kind, std::vector<FlatShape> parts, int line) {
     if (parts.empty()) return std::nullopt;
     if (parts.size() == 1) return std::move(parts.front());
@@ -77,7 +77,7 @@ class FlatReader {
     const auto middle = std::stable_partition(parts.begin() + (kind == Kind::kDifference ? 1 : 0),
                                               parts.end(), is_round);
     std::vector<FlatLoops> straight;
-    // What is taken off may be united, too.
+    // Shapes that are subtracted may be united, too.
     const bool is_all_straight = std::none_of(parts.begin(), parts.end(), is_round);
     for (auto part = is_all_straight ? parts.begin() : middle; part != parts.end(); ++part) {
       straight.push_back(std::move(part->loops));
@@ -93,7 +93,7 @@ class FlatReader {
     return FlatShape{kind, {}, {}, 0, std::move(parts)};
   }
 
-  /// Nothing when the result is empty, or when there is too much of it, with an error.
+  /// The outlines; nothing when the result is empty or, with an error, has too many corners.
   std::optional<FlatLoops> combined_loops(FlatOperation operation,
                                           std::span<const FlatLoops> operands, int line) {
     std::size_t corners = 0;
@@ -318,7 +318,7 @@ class FlatReader {
     return of_loops(with_facets());
   }
 
-  /// Exact where each operand is convex, or all but one are circles; else by the program.
+  /// Exact if each operand is convex, or all but one are circles; else the program evaluates it.
   std::optional<FlatShape> minkowski(const ScadModule& module, const FlatMap& map) {
     if (import_.options.facets) return by_program(module, map);
     std::vector<FlatShape> parts = operands(module, {});

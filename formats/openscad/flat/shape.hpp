@@ -1,5 +1,5 @@
-// The two-dimensional part of a .csg file: squares, circles, polygons, what is made of them, and
-// what comes of the rest as polygons.
+// The two-dimensional part of a .csg file: squares, circles, polygons and operations on them as
+// figures, and all other modules as polygons.
 #pragma once
 
 #include <optional>
@@ -12,37 +12,37 @@
 
 namespace graycube {
 
-/// A figure that isn't empty. Circles and their images stay what they are; operations remain only
-/// above them.
+/// A figure that isn't empty. Circles and their images stay exact; operations remain only above
+/// them.
 struct FlatShape {
   enum class Kind : std::uint8_t { kPolygon, kDisk, kUnion, kIntersection, kDifference };
   Kind kind = Kind::kPolygon;
-  /// Of a polygon.
+  /// The outlines of a polygon.
   FlatLoops loops;
-  /// A disk is the image of the unit disk; OpenSCAD gives it so many sides.
+  /// A disk is the image of the unit disk under this map; OpenSCAD gives it `sides` sides.
   FlatMap disk;
   int sides = 0;
   std::vector<FlatShape> children{};
-  /// The disks and points whose hull a union is; empty where it isn't known to be one.
+  /// The disks and points whose hull a union is; empty if it isn't known to be a hull.
   std::vector<FlatDisk> hull{};
-  /// OpenSCAD's polygon for it where that isn't made of its children's.
+  /// The polygon that OpenSCAD makes of the shape, if that isn't made of its children's polygons.
   FlatLoops facets{};
-  /// The shape as a polygon with rounded corners; empty where it isn't known as one. Polygons are
-  /// such themselves.
+  /// The shape as a polygon with rounded corners; empty if it isn't known to be one. A shape of
+  /// kind kPolygon needs none.
   RoundedPolygon rounded{};
 
   bool has_curves() const;
 };
 
-/// The figure of a module under a map; nothing where it is empty or wrong, which is reported.
+/// The figure of a module under a map; nothing if it is empty, or wrong, which is reported.
 std::optional<FlatShape> flat_shape(const ScadModule& module, const FlatMap& map,
                                     ScadImport& import);
 /// The union of the modules in the list that have two dimensions.
 std::optional<FlatShape> flat_union(const std::vector<ScadModule>& modules, const FlatMap& map,
                                     ScadImport& import, int line);
 
-/// The figure with OpenSCAD's sides for what is round, resolved; nothing where it is empty. `line`
-/// for an error.
+/// The figure as outlines that don't cross, with OpenSCAD's sides for round parts; nothing if it is
+/// empty. Errors name `line`.
 std::optional<FlatLoops> polygon_of(const FlatShape& shape, ScadImport& import, int line);
 
 }  // namespace graycube

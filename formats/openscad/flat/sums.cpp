@@ -29,8 +29,8 @@ ExactFlat sum_of_disks(const std::vector<FlatDisk>& a, const std::vector<FlatDis
   return hull_of_disks(sums);
 }
 
-/// Any polygon and a convex figure: what the figure sweeps along each side, and the polygon moved
-/// to a point of the figure.
+/// The sum of any polygon and a convex figure: the figure swept along each side, and the polygon
+/// moved to a point of the figure.
 ExactFlat sum_of_polygon(const FlatShape& polygon, const std::vector<FlatDisk>& convex) {
   std::size_t corners = 0;
   for (const FlatLoop& loop : polygon.loops) corners += loop.size();

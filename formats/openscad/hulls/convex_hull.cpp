@@ -29,9 +29,9 @@ class Hull {
   Hull(const Hull&) = delete;
   Hull& operator=(const Hull&) = delete;
 
-  /// False for points in a plane.
+  /// Builds the hull; false for points in a plane.
   bool build(std::vector<Vec3>& points) {
-    // What Qhull has to say goes nowhere: its status tells enough.
+    // Qhull's messages are thrown away: its status tells enough.
     const std::unique_ptr<std::FILE, FileCloser> silence(std::fopen("/dev/null", "w"));
     if (!silence) return false;
     std::array<char, 10> command{"qhull Qt"};

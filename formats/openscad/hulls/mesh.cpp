@@ -15,8 +15,8 @@ namespace {
 using Face = std::vector<std::uint32_t>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Six significant digits are off by at most 5e-6 of a coordinate, of a point and of the plane it
-/// lies in.
+/// Numbers of six significant digits are off by at most 5e-6 of a coordinate; so are a point and
+/// the plane in which it lies.
 constexpr double kWrittenPrecision = 1e-5;
 /// A face narrower than this, relative to its length, has no normal.
 constexpr double kLeastFaceWidth = 1e-12;
@@ -26,8 +26,8 @@ struct FacePlane {
   double offset = 0;
   /// Twice the face's area.
   double area = 0;
-  /// How far a point may be off the plane for being rounded as written, and how much that adds per
-  /// distance from the face, whose own corners being rounded turns the plane.
+  /// How far a point may be off the plane because it was rounded when written; and how much more
+  /// per distance from the face, since the plane turns as the face's own corners were rounded.
   double tolerance = 0, slack = 0;
   Vec3 center;
   std::size_t face = 0;
@@ -39,7 +39,7 @@ bool before(const Vec3& a, const Vec3& b) {
   return a.z < b.z;
 }
 
-/// For every point the first one in the list with the same coordinates; OpenSCAD joins these, too.
+/// For every point the first in the list with the same coordinates; OpenSCAD joins these, too.
 std::vector<std::uint32_t> representatives(const std::vector<Vec3>& points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> representatives(const std::vector<Vec3>& points) {
   return result;
 }
 
-/// The faces with joined points, without those that fewer than three corners remain of.
+/// The faces with joined points, without faces that are left with fewer than three corners.
 std::vector<Face> joined_faces(const ScadMesh& mesh) {
   const std::vector<std::uint32_t> joined = representatives(mesh.points);
   std::vector<Face> faces;
@@ -68,7 +68,7 @@ std::vector<Face> joined_faces(const ScadMesh& mesh) {
   return faces;
 }
 
-/// An edge that isn't shared by exactly two faces, described; empty when there is none.
+/// A description of an edge that isn't shared by exactly two faces; empty when there is none.
 std::string open_edge(const std::vector<Face>& faces) {
   std::vector<Edge> edges;
   for (const Face& face : faces) {
@@ -90,8 +90,8 @@ std::string open_edge(const std::vector<Face>& faces) {
   return {};
 }
 
-/// The plane of a face by Newell's sum, which takes all corners alike; area 0 for a face without
-/// one.
+/// The plane of a face by Newell's sum, which weighs all corners alike; area 0 if the face has no
+/// plane.
 FacePlane plane_of(const std::vector<Vec3>& points, const Face& face, const Vec3& rounding) {
   FacePlane plane;
   const Vec3 origin = points[face[0]];
@@ -120,8 +120,8 @@ bool lies_in(const std::vector<Vec3>& points, const Face& face, const FacePlane&
   });
 }
 
-/// How far the points reach to the front of a plane and to its back, and whether that is more than
-/// rounding explains.
+/// How far points reach in front of a plane and behind it, and whether that is more than rounding
+/// explains.
 struct Excursion {
   double front = 0, back = 0;
   bool beyond_front = false, beyond_back = false;
@@ -149,7 +149,7 @@ std::vector<std::uint32_t> used_points(const std::vector<Face>& faces) {
   return used;
 }
 
-/// Planes of all faces that have one, the largest face first: its is the plane that rounding turns
+/// Planes of all faces that have one, the largest face first, as rounding turns its plane
 /// least.
 std::vector<FacePlane> face_planes(const std::vector<Vec3>& points,
                                    const std::vector<Face>& faces) {
@@ -201,7 +201,7 @@ ConvexPlanes convex_planes(const ScadMesh& mesh) {
     if (kept.empty() && std::max(reach.front, reach.back) <= plane.tolerance) {
       return {.planes = {}, .problem = {}, .flat = true};
     }
-    // A sliver whose corners' rounding hides its direction does no harm: nothing is cut off by it.
+    // A sliver's direction is hidden by its corners' rounding, but its plane cuts nothing off.
     settle(plane, reach.front > reach.back, mesh.points, used);
     const bool merged = std::any_of(kept.begin(), kept.end(), [&](const FacePlane& other) {
       return dot(other.normal, plane.normal) > 0 && lies_in(mesh.points, face, other);
@@ -221,8 +221,8 @@ ConvexPlanes convex_planes(const ScadMesh& mesh) {
 
 namespace {
 
-/// Rings of `sides` corners each, joined by quadrilaterals, the first and the last closed by a
-/// polygon.
+/// Rings of `sides` corners each, joined by quadrilaterals; polygons close the first and the
+/// last.
 ScadMesh stacked_rings(std::span<const std::pair<double, double>> radius_and_height, int sides) {
   ScadMesh mesh;
   const auto n = static_cast<std::uint32_t>(sides);

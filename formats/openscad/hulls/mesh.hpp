@@ -1,5 +1,5 @@
-// Closed polygon meshes, as OpenSCAD's polyhedron() and its few-sided cylinders and spheres have
-// them, and the half-spaces of those that are convex.
+// Closed polygon meshes, as of OpenSCAD's polyhedron() and its few-sided cylinders and spheres, and
+// the half-spaces of convex ones.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ PolygonMesh polygons_of(const ScadMesh& mesh);
 /// Convex solids of more faces become meshes: a ray tests every face of a polyhedron.
 inline constexpr std::size_t kMaxPolyhedronFaces = 64;
 
-/// Exactly one of: planes (outward unit normals), a problem, flat.
+/// Exactly one is set: planes (outward unit normals), a problem, or flat.
 struct ConvexPlanes {
   std::vector<HalfSpaceShape> planes;
   /// Why the mesh isn't the surface of a convex solid; follows "polyhedron() ".
@@ -37,12 +37,12 @@ struct ConvexPlanes {
 /// from the other points.
 ConvexPlanes convex_planes(const ScadMesh& mesh);
 
-/// What OpenSCAD builds for cylinder(): prisms, frusta and pyramids of `sides` ≥ 3 sides about z,
-/// the first corner at angle 0; one of the radii may be zero.
+/// The mesh that OpenSCAD builds for cylinder(): prisms, frusta and pyramids of `sides` ≥ 3 sides
+/// about z, the first corner at angle 0; one of the radii may be zero.
 ScadMesh faceted_cylinder(double z_low, double z_high, double r_low, double r_high, int sides);
 
-/// What OpenSCAD builds for sphere(): (sides + 1) / 2 rings of `sides` ≥ 3 corners at the polar
-/// angles 180° (i + ½) / rings, and a flat cap at each pole.
+/// The mesh that OpenSCAD builds for sphere(): (sides + 1) / 2 rings of `sides` ≥ 3 corners at the
+/// polar angles 180° (i + ½) / rings, and a flat cap at each pole.
 ScadMesh faceted_sphere(double radius, int sides);
 
 }  // namespace graycube

@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// Rounding, relative to the extent of all.
+/// Rounding errors, relative to the extent of all items.
 constexpr double kRounding = 1e-12;
 
 class Caps {
@@ -41,7 +41,7 @@ class Caps {
     return (!is_cut_low || holds_all(low_)) && (!is_cut_high || holds_all(high_));
   }
 
-  /// Wider than all, so that only its bottom and top cut, and these only where discs are.
+  /// Wider than all items, so that only its bottom and top cut, and these only where discs are.
   BoxShape box() const {
     const Vec3 middle = items_.front().round.center, wide{2 * extent_, 2 * extent_, 2 * extent_};
     BoxShape box{middle - wide, middle + wide};
@@ -122,7 +122,7 @@ std::optional<RoundSolid> capped_solid(std::span<const BallOrDisc> items, bool& 
   children.push_back({caps.box(), std::nullopt, kInheritMaterial});
   solid->node = {OperationNode{Operation::kIntersection, std::move(children)}, std::nullopt,
                  kInheritMaterial};
-  // Those of the balls' hull reach beyond the cuts.
+  // The corners of the balls' hull reach beyond the cuts.
   for (Vec3& corner : solid->corners)
     corner.z = std::clamp(corner.z, caps.box().min.z, caps.box().max.z);
   return solid;

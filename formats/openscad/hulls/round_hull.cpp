@@ -8,12 +8,12 @@
 namespace graycube {
 namespace {
 
-/// Rounding, relative to the extent of all points.
+/// Rounding errors, relative to the extent of all points.
 constexpr double kRounding = 1e-11;
 /// Planes that differ by less touch the same points.
 constexpr double kOnePlane = 1e-9;
 
-/// u = middle + x · across + y · upright for the points (x, y) of the unit circle.
+/// The directions u = middle + x · across + y · upright for points (x, y) of the unit circle.
 struct DirectionCircle {
   Vec3 middle, across, upright;
   Vec3 at(const FlatPoint& p) const { return middle + p.x * across + p.y * upright; }
@@ -124,8 +124,8 @@ class HullBuilder {
     return length(plus - guess) <= length(minus - guess) ? plus : minus;
   }
 
-  /// Of all that the plane touches, three far from one another give its numbers, so that each plane
-  /// is found once.
+  /// Three of the points that the plane touches, far from one another, determine its numbers, so
+  /// that each plane is found once.
   void add_plane(Vec3 u) {
     const double own = most_reach(u), allowed = kOnePlane * extent_;
     std::vector<std::size_t> touched;

@@ -17,7 +17,7 @@
 
 namespace graycube {
 
-/// A ball, a disc parallel to z = 0, or a point where the radius is 0.
+/// A ball, or a disc parallel to z = 0; with radius 0, a point.
 struct RoundPoint {
   Vec3 center;
   double radius = 0;
@@ -29,28 +29,28 @@ enum class RoundKind : std::uint8_t { kBalls, kDiscs };
 /// balls in `corners`.
 struct RoundHull {
   RoundKind kind = RoundKind::kBalls;
-  /// Those given that show, or could.
+  /// The given points that show in the hull, or could.
   std::vector<RoundPoint> points;
-  /// Pairs of numbers of points.
+  /// Pairs of indices into `points`.
   std::vector<std::pair<std::size_t, std::size_t>> bridges;
-  /// Numbers of balls; none of discs, which end their bridges.
+  /// Indices of balls in `points`; empty for discs, which end their bridges.
   std::vector<std::size_t> corners;
   /// The planes that touch three or more of the points but aren't level, unit normals outwards.
   std::vector<HalfSpaceShape> planes;
-  /// Where they touch, and what else belongs to the core.
+  /// The points at which the planes touch, and all others that belong to the core.
   std::vector<Vec3> core;
 };
 
-/// Points with a radius, all points, and the arcs that are cut for them at most.
+/// The most points with a radius, points in all, and arcs that are cut for them.
 inline constexpr std::size_t kMaxRoundPoints = 256;
 inline constexpr std::size_t kMaxHullPoints = std::size_t{1} << 12;
 inline constexpr std::size_t kMaxHullArcs = std::size_t{1} << 26;
 
-/// Nothing beyond these limits. Needs at least one point with a radius; every number finite, radii
-/// ≥ 0.
+/// Nothing beyond these limits. At least one point must have a radius; every number must be finite,
+/// and radii ≥ 0.
 std::optional<RoundHull> round_hull(RoundKind kind, std::vector<RoundPoint> points);
 
-/// Points that others' hull holds are left out where that is quickly seen.
+/// The points without those that lie in the hull of others, as far as that is quickly seen.
 std::vector<RoundPoint> without_hidden(RoundKind kind, std::vector<RoundPoint> points);
 
 }  // namespace graycube

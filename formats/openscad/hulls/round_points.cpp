@@ -1,4 +1,4 @@
-// Which balls, discs and points can't show in their hull.
+// Finds balls, discs and points that can't show in their hull.
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +8,11 @@
 namespace graycube {
 namespace {
 
-/// Rounding, relative to the extent of all points.
+/// Rounding errors, relative to the extent of all points.
 constexpr double kRounding = 1e-13;
 /// Groups of fewer points aren't worth a hull of their own.
 constexpr std::size_t kLeastGroup = 5;
-/// Triples of more points aren't looked at.
+/// With more points than this, triples aren't examined.
 constexpr std::size_t kMaxTriplePoints = 64;
 
 bool before(const RoundPoint& a, const RoundPoint& b) {
@@ -21,8 +21,8 @@ bool before(const RoundPoint& a, const RoundPoint& b) {
   return a.center.x != b.center.x ? a.center.x < b.center.x : a.center.y < b.center.y;
 }
 
-/// Of points of one radius those at the corners of the hull of their centres; all where these lie
-/// in a plane, but for the level planes of discs.
+/// Leaves only points at the corners of their centres' hull; all points must have one radius. All
+/// are left if the centres lie in a plane, unless it is a level plane of discs.
 std::vector<RoundPoint> corners_of_group(std::vector<RoundPoint> group) {
   if (group.size() < kLeastGroup) return group;
   const double radius = group.front().radius;
@@ -55,7 +55,7 @@ bool holds(RoundKind kind, const RoundPoint& outer, const RoundPoint& inner, dou
   return length(outer.center - inner.center) + inner.radius <= outer.radius + tolerance;
 }
 
-/// Whether the point is one between two others, or smaller.
+/// Whether the point is one between two others, or has a smaller radius there.
 bool lies_between(const RoundPoint& a, const RoundPoint& b, const RoundPoint& p, double tolerance) {
   const Vec3 d = b.center - a.center, e = p.center - a.center;
   const double share = dot(d, e) / dot(d, d);

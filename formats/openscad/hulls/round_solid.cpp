@@ -9,7 +9,7 @@
 namespace graycube {
 namespace {
 
-/// Corners count as lying in a plane within this, relative to the extent of all.
+/// Corners within this distance lie in a plane, relative to the extent of all.
 constexpr double kOnPlane = 1e-9;
 /// Triangles narrower than this, relative to their length, have no normal.
 constexpr double kLeastWidth = 1e-9;
@@ -18,7 +18,7 @@ CsgNode leaf(decltype(CsgNode::value) value) {
   return {std::move(value), std::nullopt, kInheritMaterial};
 }
 
-/// Between two balls: from one circle where the common tangent cone touches to the other.
+/// The solid between two balls, from circle to circle where the common tangent cone touches them.
 CsgNode bridge_of_balls(const RoundPoint& a, const RoundPoint& b) {
   if (a.radius == b.radius) return leaf(CylinderShape{a.center, b.center, a.radius});
   const Vec3 d = b.center - a.center;
@@ -29,8 +29,8 @@ CsgNode bridge_of_balls(const RoundPoint& a, const RoundPoint& b) {
                         b.radius * sine});
 }
 
-/// Between two discs at different heights: every level section is a disc between the two, so this
-/// is an upright cone, slanted.
+/// The solid between two discs at different heights: every level section is a disc between the two,
+/// so this is an upright cone, slanted.
 CsgNode bridge_of_discs(const RoundPoint& a, const RoundPoint& b) {
   const RoundPoint &low = a.center.z < b.center.z ? a : b, &high = a.center.z < b.center.z ? b : a;
   const Vec3 base = low.center, top{base.x, base.y, high.center.z};
@@ -51,7 +51,7 @@ double extent_of(const std::vector<Vec3>& points) {
 }
 
 /// The half-spaces of a hull: the planes that are known, and those of the triangles that lie in
-/// none of these.
+/// none of them.
 std::vector<HalfSpaceShape> planes_of(const ScadMesh& hull, std::vector<HalfSpaceShape> planes) {
   const double tolerance = kOnPlane * extent_of(hull.points);
   Vec3 middle;
@@ -71,7 +71,7 @@ std::vector<HalfSpaceShape> planes_of(const ScadMesh& hull, std::vector<HalfSpac
     HalfSpaceShape plane{normalized(normal), 0};
     if (dot(plane.normal, a - middle) < 0) plane.normal = -plane.normal;
     plane.normal = plane.normal + Vec3{};
-    // Outermost, so that it cuts nothing off.
+    // The plane goes through the outermost point, so that it cuts nothing off.
     plane.offset = dot(plane.normal, a);
     for (const Vec3& p : hull.points) plane.offset = std::max(plane.offset, dot(plane.normal, p));
     plane.offset += 0.0;
@@ -80,7 +80,7 @@ std::vector<HalfSpaceShape> planes_of(const ScadMesh& hull, std::vector<HalfSpac
   return planes;
 }
 
-/// A box where the planes are those of one.
+/// The polyhedron of the planes; a box if they are those of a box.
 CsgNode polyhedron(std::vector<HalfSpaceShape> planes) {
   BoxShape box;
   int sides = 0;
@@ -94,7 +94,7 @@ CsgNode polyhedron(std::vector<HalfSpaceShape> planes) {
   return leaf(PolyhedronShape{std::move(planes)});
 }
 
-/// Balls of different radii: their centres may lie beyond the hull of the points where planes
+/// Adds balls' centres: if radii differ, they may lie beyond the hull of the points that planes
 /// touch.
 void add_centers_outside(const RoundHull& hull, std::vector<Vec3>& core) {
   const ScadMesh mesh = convex_hull(core);

@@ -11,12 +11,12 @@ namespace graycube {
 
 struct RoundSolid {
   CsgNode node;
-  /// Those of its polyhedron.
+  /// The corners of the solid's polyhedron.
   std::vector<Vec3> corners;
 };
 
 /// Pieces overlap, and planes that they share are tangent where they meet. Nothing for a hull
-/// without volume, and beyond round_hull's limits, which `is_too_large` tells apart.
+/// without volume, and beyond round_hull's limits, which sets `is_too_large`.
 std::optional<RoundSolid> round_solid(RoundKind kind, std::vector<RoundPoint> points,
                                       bool& is_too_large);
 

@@ -6,9 +6,9 @@
 namespace graycube {
 namespace {
 
-/// From this many sides on a circle, cylinder or sphere stands for a round one.
+/// With at least so many sides, a circle, cylinder or sphere stands for a round one.
 constexpr double kLeastRoundSides = 9;
-/// Half of OpenSCAD's finest grid, in its own units.
+/// Half of OpenSCAD's finest grid, in OpenSCAD's units.
 constexpr double kLeastRadius = 0.00000095367431640625;
 constexpr double kPi = 3.14159265358979323846;
 

@@ -10,7 +10,7 @@
 
 namespace graycube {
 
-/// Reads one module's arguments. What is wrong is reported at once; `ok` tells in the end.
+/// Reads one module's arguments. Errors are reported at once; `ok` tells if there were any.
 class ScadArguments {
  public:
   ScadArguments(const ScadModule& module, OpenscadReport& report)
@@ -26,7 +26,7 @@ class ScadArguments {
     fail(std::string(name) + " must be a number");
     return otherwise;
   }
-  /// Two numbers; nothing, unreported, for anything else.
+  /// The value as two numbers; nothing, unreported, for anything else.
   static std::optional<FlatPoint> pair(const ScadValue& value) {
     const ScadList* list = value.list();
     if (list == nullptr || list->size() != 2) return std::nullopt;
@@ -41,7 +41,7 @@ class ScadArguments {
     fail(std::string(name) + " must be true or false");
     return false;
   }
-  /// Three numbers; nothing, unreported, for anything else.
+  /// The value as three numbers; nothing, unreported, for anything else.
   static std::optional<Vec3> vector(const ScadValue& value) {
     const ScadList* list = value.list();
     if (list == nullptr || list->size() != 3) return std::nullopt;
@@ -64,7 +64,7 @@ class ScadArguments {
     report_.error(module_.line, module_.name + "(): " + why);
     ok_ = false;
   }
-  /// True, with a warning, when this is nothing in OpenSCAD; also when an error was reported.
+  /// True, with a warning, if OpenSCAD makes nothing of this; true also after an error.
   bool empty_unless(bool solid, const char* why) {
     if (ok_ && !solid) report_.warning(module_.line, module_.name + "() is left out: " + why);
     return !ok_ || !solid;
@@ -84,8 +84,8 @@ ScadFineness fineness_of(ScadArguments& arguments);
 /// The sides of a circle of that radius in OpenSCAD: at least 3, at most kMaxOpenscadSides.
 int fragments(double radius, const ScadFineness& fineness);
 
-/// The sides that an explicit $fn below 9 asks for: then the corners are meant. 0 for something
-/// round.
+/// The sides that an explicit $fn below 9 asks for, because then the corners are intended; 0 if the
+/// solid is to be round.
 int asked_sides(const ScadFineness& fineness);
 
 }  // namespace graycube

@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::string_view kMagic = "graycube|";
 
-/// Its numbers are all to be spelled out but those of kOthers.
+/// Modules whose numbers are all to be spelled out, except in the arguments of kOthers.
 constexpr std::array<std::string_view, 11> kSpelledOut{
     "cube",    "sphere",     "cylinder",       "polyhedron",     "square", "circle",
     "polygon", "multmatrix", "linear_extrude", "rotate_extrude", "offset"};
-/// Whole numbers, or none that the importer uses.
+/// Arguments whose numbers are whole, or not used by the importer.
 constexpr std::array<std::string_view, 7> kOthers{"convexity", "slices",    "segments", "paths",
                                                   "faces",     "triangles", "timestamp"};
 constexpr std::array<std::string_view, 5> kFlatBySixDigits{"text", "projection", "import", "fill",
@@ -35,7 +35,7 @@ bool is_among(const std::array<std::string_view, N>& names, std::string_view nam
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What a note says.
+/// The contents of a note.
 struct Note {
   std::string_view module;
   struct List {
@@ -45,7 +45,7 @@ struct Note {
   std::vector<List> lists;
 };
 
-/// The text up to `end`, which is taken away with it; nothing without one.
+/// Takes the text up to `end`, and `end` with it; nothing if `end` doesn't occur.
 std::optional<std::string_view> take_until(std::string_view& text, char end) {
   const std::size_t at = text.find(end);
   if (at == std::string_view::npos) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<int> whole(std::string_view text) {
   return value;
 }
 
-/// Whole numbers, p with the sign of all; not a number where they are none of ours.
+/// The number that whole numbers spell out, p with its sign; NaN if they are no such number.
 double spelled_number(std::span<const int> parts) {
   if (parts.size() == 1) return parts[0];
   constexpr int kMost = 65536;
@@ -76,7 +76,7 @@ double spelled_number(std::span<const int> parts) {
   return (parts[1] < 0 ? -1 : 1) * std::ldexp(value, parts[0] - 12);
 }
 
-/// The numbers of `[1, [2, 3, 4, 5, 6], undef]`; a word that isn't whole is not a number.
+/// The numbers of `[1, [2, 3, 4, 5, 6], undef]`; a word that isn't a whole number gives NaN.
 std::vector<double> spelled_numbers(std::string_view list) {
   std::vector<double> numbers;
   std::vector<int> parts;
@@ -132,8 +132,8 @@ std::optional<Note> note_of(const ScadModule& module) {
   return words != nullptr ? note_in(*words) : std::nullopt;
 }
 
-/// The modules in a list, groups dissolved; one that has a note stays, and so do all where `notes`
-/// is false but groups.
+/// The modules in a list, with groups dissolved, since the two trees may group differently; a group
+/// that has a note stays whole.
 template <typename Module>
 void gather(Module& module, std::vector<Module*>& out) {
   if (module.name != "group" || note_of(module)) {
@@ -149,8 +149,8 @@ std::vector<Module*> gathered(List& modules, std::size_t from) {
   return out;
 }
 
-/// Whether six digits of `exact` are `written`, rounded either way where both are as near; or both
-/// are nothing beside numbers of the size of 1.
+/// Whether `exact` rounded to six digits is `written`, either way if both are as near; or both are
+/// as good as zero beside numbers of the size of 1.
 bool is_six_digits_of(double written, double exact) {
   constexpr double kNothing = 1e-14;
   if (written == exact || (std::fabs(written) <= kNothing && std::fabs(exact) <= kNothing))
@@ -159,8 +159,8 @@ bool is_six_digits_of(double written, double exact) {
   return std::fabs(written - exact) <= (1 + 1e-9) * half_unit(exact, kOpenscadDigits);
 }
 
-/// Puts numbers in the place of those of a value, in order; false when they don't agree or are too
-/// few.
+/// Replaces the numbers in a value, in order; false when the new ones don't agree with them or are
+/// too few.
 bool replace(ScadValue& value, const std::vector<double>& numbers, std::size_t& next) {
   if (auto* number = std::get_if<double>(&value.value)) {
     if (next == numbers.size() || !is_six_digits_of(*number, numbers[next])) return false;
@@ -177,14 +177,14 @@ bool spell_out(ScadModule& plain, const Note& note) {
   for (std::size_t i = 0; i < plain.arguments.size(); ++i) {
     ScadArgument& argument = plain.arguments[i];
     if (is_among(kOthers, argument.name)) continue;
-    // The only one without a name is multmatrix's.
+    // Only multmatrix's argument has no name.
     const std::string_view name =
         argument.name.empty() ? std::string_view("m") : std::string_view(argument.name);
     const auto list = std::find_if(note.lists.begin(), note.lists.end(),
                                    [&](const auto& l) { return l.name == name; });
     const static std::vector<double> kNone;
     const std::vector<double>& numbers = list != note.lists.end() ? list->numbers : kNone;
-    // Newer versions write one number for several that are equal.
+    // Newer versions of OpenSCAD write one number for several that are equal.
     const bool is_one =
         argument.value.number() != nullptr && numbers.size() > 1 &&
         std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) == numbers.end();

@@ -1,7 +1,7 @@
-// All digits of the numbers of an OpenSCAD model: .csg files have six. OpenSCAD evaluates the model
-// a second time with modules of ours in place of its own (`openscad -D`, which reaches used files,
-// too). Each leaves a text() behind that spells the numbers out in whole numbers; what they are is
-// then looked for in the plain .csg file.
+// All digits of the numbers of an OpenSCAD model, of which .csg files have six. OpenSCAD evaluates
+// the model a second time with modules of ours in place of its own (`openscad -D`, which reaches
+// used files, too). Each leaves a text() behind that spells the numbers out in whole numbers; these
+// are then matched with the numbers of the plain .csg file.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace graycube {
 
 /// Larger trees keep their six digits: OpenSCAD needs 0.1 ms more for every module (100 bytes).
 inline constexpr std::size_t kMaxSpelledOutBytes = std::size_t{4} << 20;
-/// Significant digits of numbers that are spelled out: sines and cosines are right in so many.
+/// Significant digits of numbers that are spelled out: sines and cosines are right to so many.
 inline constexpr std::uint32_t kSpelledOutDigits = 15;
 
 /// Definitions to evaluate a model with: `openscad -D DEFINITIONS -o MARKED.csg MODEL.scad`.

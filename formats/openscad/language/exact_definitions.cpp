@@ -1,17 +1,17 @@
-// The modules that take the place of OpenSCAD's own while it spells a model's numbers out.
+// Modules that take the place of OpenSCAD's own when it spells a model's numbers out.
 #include "formats/openscad/language/exact.hpp"
 
 namespace graycube {
 namespace {
 
-/// A number that isn't a whole one is written [e, p, q, r, s]: an exponent of two, and with the
-/// number's sign 12 + 16 + 16 + 16 binary digits, each of these at most five decimal digits. What
-/// is no number is undef. A note goes `graycube|MODULE|ARGUMENT=[NUMBER, …]|…`, with the names of a
-/// .csg file.
+/// A number that isn't whole is written [e, p, q, r, s]: an exponent of two, and with the number's
+/// sign 12 + 16 + 16 + 16 binary digits, each group at most five decimal digits. A value that is no
+/// number is undef. A note is `graycube|MODULE|ARGUMENT=[NUMBER, …]|…`, with the names of a .csg
+/// file.
 ///
-/// Arguments are taken as OpenSCAD 2021.01 takes them; where another version differs, the numbers
-/// don't agree with the plain file's, and it stays. A module that is given what it can't use spells
-/// out nothing that agrees.
+/// Arguments are taken as OpenSCAD 2021.01 takes them; if another version differs, the numbers
+/// don't agree with the plain file's, which then keeps its own. A module with arguments that it
+/// can't use spells out nothing that agrees.
 constexpr std::string_view kDefinitions = R"SCAD(
 function graycube_number(x) =
   !is_num(x) || x != x || abs(x) > 1e300 ? undef :

@@ -1,4 +1,4 @@
-// What all parts of an import share.
+// The state that all parts of an import share.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ struct ScadImport {
   OpenscadDelegate delegate;
   /// Significant digits of the matrices' numbers.
   std::uint32_t digits = kOpenscadDigits;
-  /// What was warned of once.
+  /// The warnings that are given only once, and have been.
   std::set<std::string> told;
 
   void warn_once(int line, const std::string& message) {
     if (told.insert(message).second) report.warning(line, message);
   }
-  /// Of a module that gives facets to what is round in it.
+  /// Warns that a module gives facets to the round solids in it.
   void warn_of_sides(const std::string& name, int line) {
     const char* around = options.facets   ? ""
                          : name == "hull" ? "; what is round around it is "

@@ -33,7 +33,7 @@ void ScadLexer::advance_to(std::size_t position) {
   position_ = position;
 }
 
-/// False with a bad token when a comment has no end.
+/// Skips blanks and comments; false, with a bad token, when a comment has no end.
 bool ScadLexer::skip_blanks(ScadToken& token) {
   while (true) {
     advance_to(std::min(text_.find_first_not_of(kBlanks, position_), text_.size()));
@@ -110,7 +110,7 @@ ScadToken ScadLexer::number() {
 }
 
 /// OpenSCAD writes strings as they are, quotes and line ends included, without escapes. So a string
-/// ends at the first quote that something that can follow a string follows.
+/// ends at the first quote before something that can follow a string.
 ScadToken ScadLexer::string() {
   ScadToken token;
   token.kind = ScadToken::Kind::kString;

@@ -25,7 +25,7 @@ struct ScadToken {
   bool is(std::string_view symbol) const { return kind == Kind::kSymbol && text == symbol; }
 };
 
-/// Splits a text that outlives it. Spaces and comments are skipped; every call but at the end
+/// Splits a text, which must outlive it. Spaces and comments are skipped; every call but at the end
 /// consumes something.
 class ScadLexer {
  public:
@@ -33,7 +33,7 @@ class ScadLexer {
 
   /// The next token; kEnd again and again at the end.
   ScadToken next();
-  /// What was wrong with the last token that was kBad.
+  /// The error in the last token that was kBad.
   const std::string& trouble() const { return trouble_; }
 
  private:

@@ -10,7 +10,7 @@
 namespace graycube {
 namespace {
 
-/// The entries as written, divided by the last one; perhaps singular.
+/// The entries as written, divided by the last one; the map may be singular.
 std::optional<Affine> written_matrix(const ScadModule& module, ScadArguments& arguments) {
   std::array<std::array<double, 4>, 4> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   if (const ScadValue* value = module.argument("m", 0)) {
@@ -64,7 +64,7 @@ std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digit
   const FlatMap flat = flat_part(*map);
   if (arguments.empty_unless(flat.determinant() != 0, "its matrix flattens everything in it"))
     return std::nullopt;
-  // Whatever it does to heights: turned about z, and scaled along z as in the plane, it may be a
+  // Heights don't matter: turned about z, and scaled along z as in the plane, the map may be a
   // rotation.
   const double a = flat.m[0][0], b = flat.m[1][0];
   const Affine upright{{{{a, flat.m[0][1], 0, flat.m[0][2]},

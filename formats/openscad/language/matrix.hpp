@@ -10,14 +10,14 @@
 
 namespace graycube {
 
-/// The map of a multmatrix(), a rotation where its so many digits can be one's; entries that are
-/// missing are those of the identity, and a fourth row [0, 0, 0, w] divides by w. Nothing with an
-/// error or, for a singular one, a warning.
+/// The map of a multmatrix(); a rotation, if its entries' `digits` digits can be those of one.
+/// Entries that are missing are those of the identity, and a fourth row [0, 0, 0, w] divides by w.
+/// Nothing with an error or, for a singular one, a warning.
 std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t digits,
                                       OpenscadReport& report);
 
-/// What a multmatrix() does to the plane z = 0, seen from above; nothing, with a warning, for a
-/// singular one.
+/// The map of the plane z = 0 that a multmatrix() gives, seen from above; nothing, with a warning,
+/// for a singular one.
 std::optional<FlatMap> flat_matrix(const ScadModule& module, std::uint32_t digits,
                                    OpenscadReport& report);
 

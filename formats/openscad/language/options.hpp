@@ -1,4 +1,4 @@
-// How a .csg file is read, and what with.
+// How a .csg file is read, and with which help.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace graycube {
 
-/// OpenSCAD as a program, for what the importer can't do.
+/// OpenSCAD as a program, for modules that the importer can't evaluate.
 class OpenscadProgram {
  public:
   enum class Format : std::uint8_t { kOff, kSvg };
   struct Result {
-    /// The file that it wrote; empty, without trouble, for an empty model.
+    /// The text of the file that it wrote; empty, without trouble, for an empty model.
     std::string text;
     /// Why there is no file.
     std::string trouble;
@@ -24,17 +24,17 @@ class OpenscadProgram {
   virtual Result evaluate(const std::string& csg, Format format) = 0;
 };
 
-/// What a .csg file doesn't say.
+/// Settings for things that a .csg file doesn't tell.
 struct OpenscadOptions {
   Frame frame{};
-  /// Everything round as OpenSCAD would make it of facets.
+  /// Whether round solids are made of facets, as OpenSCAD makes them.
   bool facets = false;
-  /// Evaluates text(), import() and what else needs it; null: they are errors.
+  /// Evaluates text(), import() and other modules that need it; if null, these are errors.
   OpenscadProgram* program = nullptr;
-  /// Where the names of files in the text start from.
+  /// The folder to which the names of files in the text are relative.
   std::string folder{};
-  /// What OpenSCAD evaluates the same model to with openscad_exact_definitions(): it has all digits
-  /// of the text's numbers. What doesn't agree with the text is ignored. Empty: there is none.
+  /// The same model's tree from OpenSCAD with openscad_exact_definitions(), with all digits of the
+  /// numbers. Those that don't agree with the text are ignored. Empty: there is none.
   std::string_view spelled_out{};
 };
 

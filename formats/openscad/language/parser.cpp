@@ -30,7 +30,7 @@ std::string described(const ScadToken& token) {
   return {};
 }
 
-/// The words that stand for values; no argument is called by one of these.
+/// The value that the word stands for; no argument is called by one of these words.
 std::optional<ScadValue> constant(std::string_view name) {
   if (name == "true") return ScadValue{true};
   if (name == "false") return ScadValue{false};
@@ -71,7 +71,7 @@ class Parser {
     if (token_.kind == Kind::kBad) return fail(lexer_.trouble() + hint);
     return fail("expected " + wanted + ", found " + described(token_) + hint);
   }
-  /// A limit is exceeded: what follows isn't looked at.
+  /// A limit is exceeded: the rest of the text isn't examined.
   bool stop(const std::string& message) {
     fail(message);
     stopped_ = true;

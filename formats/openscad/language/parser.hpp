@@ -1,4 +1,4 @@
-// The syntax tree of a .csg file: modules with arguments and children. What they mean is decided
+// The syntax tree of a .csg file: modules with arguments and children. Their meaning is decided
 // elsewhere.
 #pragma once
 
@@ -38,13 +38,13 @@ struct ScadModule {
   bool left_out = false;
   /// `!` in front: the rest of the file doesn't count.
   bool root = false;
-  /// 2 or 3; 0 where nothing in it tells.
+  /// The dimension of the solid or shape, 2 or 3; 0 if nothing in the module tells.
   int dimension = 0;
   std::vector<ScadArgument> arguments;
   std::vector<ScadModule> children;
 
   /// The last argument of this name, else the unnamed one number `position` (from 0; negative:
-  /// none); null when it isn't given or undef.
+  /// none); null when it isn't given or is undef.
   const ScadValue* argument(std::string_view argument_name, int position = -1) const;
 };
 

@@ -44,7 +44,7 @@ void write(const ScadModule& module, const std::string& folder, std::string& tex
   text += module.name + '(';
   bool first = true;
   for (const ScadArgument& argument : module.arguments) {
-    // Written for OpenSCAD's cache; it takes no such argument.
+    // The timestamp was written for OpenSCAD's cache; OpenSCAD takes no such argument.
     if (argument.name == "timestamp") continue;
     if (!std::exchange(first, false)) text += ", ";
     if (!argument.name.empty()) text += argument.name + " = ";
@@ -70,7 +70,7 @@ class PathData {
  public:
   explicit PathData(std::string_view text) : text_(text) {}
 
-  /// 0 at the end.
+  /// The next letter; 0 at the end.
   char letter() {
     skip();
     return at_ < text_.size() ? text_[at_++] : '\0';
@@ -142,7 +142,7 @@ std::variant<PolygonMesh, std::string> OpenscadDelegate::solid(const ScadModule&
   if (r.text.empty()) return PolygonMesh{};
   auto mesh = read_off(r.text);
   if (auto* fault = std::get_if<MeshFault>(&mesh)) return "OpenSCAD's mesh: " + fault->why;
-  // However they are written: they were computed from a .csg file's numbers.
+  // However many digits they have, they were computed from a .csg file's numbers.
   std::get<PolygonMesh>(mesh).digits = kOpenscadDigits;
   return std::get<PolygonMesh>(std::move(mesh));
 }

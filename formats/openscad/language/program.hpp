@@ -1,5 +1,5 @@
-// What the importer leaves to OpenSCAD itself: a part of a .csg file as text goes out, a mesh or a
-// polygon comes back.
+// The work that the importer leaves to OpenSCAD itself: a part of a .csg file goes out as text, a
+// mesh or a polygon comes back.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,23 @@
 
 namespace graycube {
 
-/// Modules as OpenSCAD reads them; the names of files in `file = …` are made absolute by `folder`,
-/// when it isn't empty.
+/// The text of a module as OpenSCAD reads it; the names of files in `file = …` are made absolute by
+/// `folder`, when it isn't empty.
 std::string scad_text(const ScadModule& module, const std::string& folder);
 
 /// The polygon of an SVG file that OpenSCAD wrote: its path's closed loops, y upwards. Nothing when
-/// it is none.
+/// the text is no such file.
 std::optional<FlatLoops> loops_of_svg(std::string_view text);
 
 /// Asks a program once for each different text.
 class OpenscadDelegate {
  public:
-  /// `program` may be null: then there is none.
+  /// `program` may be null: then there is no program to ask.
   OpenscadDelegate(OpenscadProgram* program, std::string folder)
       : program_(program), folder_(std::move(folder)) {}
 
   bool is_there() const { return program_ != nullptr; }
-  /// What it makes of a module, or why it makes nothing; empty solids are empty.
+  /// The mesh that the program makes of a module, or why there is none; it may be empty.
   std::variant<PolygonMesh, std::string> solid(const ScadModule& module);
   std::variant<FlatLoops, std::string> flat(const ScadModule& module);
 

@@ -14,20 +14,20 @@
 namespace graycube {
 namespace {
 
-/// A matrix that isn't orthogonal to this isn't looked at; six digits give 1e-5 at worst.
+/// A matrix less orthogonal than this is no rotation; six digits give errors of 1e-5 at most.
 constexpr double kLooseness = 1e-4;
-/// Entries below this, of the largest, are 0 that was reckoned.
+/// Entries smaller than this, relative to the largest, are zeros with rounding errors.
 constexpr double kNothing = 1e-15;
 /// How far, in halves of the largest entry's last digit, entries may be from those of a rotation
-/// that was made of them: each of several. Entries that are small beside others in a matrix with a
-/// 0 keep their own size besides.
+/// computed from the entries, of which each depends on several. Entries that are small beside
+/// others in a matrix with a 0 must also keep this share of their own size.
 constexpr double kMadeOfOthers = 4;
 constexpr double kShareOfSmall = 0.01;
-/// How far a round angle may be from one that was made of the entries, degrees.
+/// How far a round angle may be from the angle computed from the entries, in degrees.
 constexpr double kAngleDoubt = 2e-4;
 constexpr int kFinestPartOfTurn = 64;
-/// How far the ratio of two numbers may be from one that was made of the entries, and the largest
-/// whole number in it.
+/// How far the ratio of two numbers may be from the ratio computed from the entries, and the
+/// largest whole number in it.
 constexpr double kRatioDoubt = 1e-4;
 constexpr int kLargestInRatio = 20;
 constexpr double kDegrees = 57.295779513082321;
@@ -43,7 +43,7 @@ Affine linear_part(Affine map, double factor = 1) {
   return map;
 }
 
-/// The number of fewest digits, at most so many, within doubt of v.
+/// The number of fewest digits, at most `digits`, within `doubt` of v.
 double round_number(double v, double doubt, std::uint32_t digits) {
   double round = v;
   for (std::uint32_t n = 1; n <= digits; ++n) {
@@ -89,7 +89,7 @@ bool is_single_number_a_row(const Affine& map) {
   return true;
 }
 
-/// The factor of what is nearly a similarity.
+/// The factor of a map that is nearly a similarity.
 std::optional<double> rough_factor(const Affine& map) {
   double squares = 0;
   for (std::size_t j = 0; j < 3; ++j) squares += dot(column(map, j), column(map, j));
@@ -103,11 +103,11 @@ std::optional<double> rough_factor(const Affine& map) {
   return std::sqrt(square);
 }
 
-/// The angle of a direction from −180 to 180 degrees; not for (0, 0).
+/// The angle of a direction, from −180 to 180 degrees; the direction must not be (0, 0).
 double angle_of(double x, double y) {
   const double a = std::fabs(x), b = std::fabs(y);
   const double t = std::min(a, b) / std::max(a, b);
-  // To 0.25 degrees, and each correction by the tangent of what is left leaves a third of its cube.
+  // Right to 0.25 degrees; each correction by the tangent of the rest leaves a third of its cube.
   double angle = t * (45 + 15.64 * (1 - t));
   if (b > a) angle = 90 - angle;
   if (x < 0) angle = 180 - angle;
@@ -135,7 +135,7 @@ double round_angle(double angle) {
 /// A turn about x, then y, then z: OpenSCAD's rotate([x, y, z]).
 Affine round_turns(const Affine& r) {
   const double flat = std::sqrt(r.m[0][0] * r.m[0][0] + r.m[1][0] * r.m[1][0]);
-  // Where y is ±90° only the difference of x and z counts.
+  // If y is ±90°, only the difference of x and z matters.
   const bool is_upright = flat < 1e-5;
   const double z = is_upright ? 0 : angle_of(r.m[0][0], r.m[1][0]);
   const double y = angle_of(flat, -r.m[2][0]);
@@ -165,7 +165,7 @@ std::optional<Affine> round_turn(const Affine& r) {
   const double twice_cosine = r.m[0][0] + r.m[1][1] + r.m[2][2] - 1;
   Vec3 axis = twice_sine;
   if (twice_cosine < -1.5) {
-    // Little is left of the sine. R + Rᵀ − 2 cos is a multiple of the axis times itself.
+    // The sine is nearly zero. R + Rᵀ − 2 cos is a multiple of the axis times itself.
     std::size_t longest = 0;
     for (std::size_t j = 1; j < 3; ++j) {
       if (r.m[j][j] > r.m[longest][longest]) longest = j;
@@ -188,7 +188,7 @@ Affine product_of_two_turns(const Affine& r, std::size_t i, std::size_t j) {
   const double col = std::sqrt(r.m[i1][j] * r.m[i1][j] + r.m[i2][j] * r.m[i2][j]);
   const double p = r.m[i][j1] / row, q = r.m[i][j2] / row;
   const double u = r.m[i1][j] / col, v = r.m[i2][j] / col;
-  // Even permutations throughout, so that the block's sign is fixed by the determinant.
+  // The permutations are even throughout, so that the determinant fixes the block's sign.
   Affine turned;
   at(turned, i, j) = 0;
   at(turned, i, j1) = p;
@@ -229,7 +229,7 @@ std::optional<std::array<std::size_t, 2>> zero_in(const Affine& r) {
   return std::nullopt;
 }
 
-/// A rotation times the factor, with the translation that was written.
+/// A rotation times the factor, with the translation as written.
 Affine placed(const Affine& turned, double factor, const Affine& written) {
   Affine map = linear_part(turned, factor);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Where the parts of the OpenSCAD reader leave their errors and warnings.
+// Collects the errors and warnings of the parts of the OpenSCAD reader.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ class OpenscadReport {
   void warning(int line, const std::string& message);
   bool has_errors() const { return !errors_.empty(); }
 
-  /// The errors by line, those of one line in the order they were found; last, line 0, how many
-  /// more there were.
+  /// The errors by line, those of one line in the order in which they were found; then, with line
+  /// 0, how many more there were.
   std::vector<OpenscadError> take_errors();
   std::vector<std::string> take_warnings();
 

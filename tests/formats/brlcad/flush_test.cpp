@@ -1,4 +1,4 @@
-// Cuts that are flush with faces, in regions that are turned: as the same solids with longer cuts.
+// Cuts flush with faces, in turned regions, look like the same solids with longer cuts.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -15,7 +15,7 @@ using namespace graycube::testing;
 
 namespace {
 
-/// As BRL-CAD writes a matrix, in all digits.
+/// The matrix as BRL-CAD writes it, in all digits.
 std::string words_of(const Affine& map) {
   std::ostringstream out;
   out.precision(17);
@@ -26,9 +26,9 @@ std::string words_of(const Affine& map) {
   return out.str();
 }
 
-/// A plate of 100 × 60 × 8 mm with a bore, a slot and an oval hole, each reaching `beyond` out of
-/// it, and a boss on it; the group and the members are turned by different maps, whose product is
-/// `map`.
+/// A plate of 100 × 60 × 8 mm with a bore, a slot and an oval hole, each reaching `beyond`
+/// out of it, and a boss on it. The group is turned by `outer`, and its members by
+/// `inner`.
 std::string plate(const Affine& outer, const Affine& inner, double beyond) {
   std::ostringstream text;
   const double low = -beyond, high = 8 + beyond, h = high - low;
@@ -58,7 +58,7 @@ class Picture {
  public:
   explicit Picture(const std::string& text)
       : model_(compile_scene(scene_of(text))), tree_(SurfaceTree::build(model_)) {}
-  /// The least parameter at which the ray meets anything; infinite where it doesn't.
+  /// The least parameter at which the ray meets anything; infinite if it meets nothing.
   double first(const Ray& ray) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     const auto hit = tree_.first_crossing(ray, 0, kInfinite, scratch_);

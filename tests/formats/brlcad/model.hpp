@@ -1,4 +1,4 @@
-// Small BRL-CAD databases of the tests' own, in each format.
+// Small BRL-CAD databases for tests, in each format.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline std::string v4_solid(int type, const std::string& name, std::vector<doubl
 inline std::string v4_sphere(const std::string& name, double x, double y, double z, double r) {
   return v4_solid(19, name, {x, y, z, r, 0, 0, 0, r, 0, 0, 0, r});
 }
-/// A box: the first corner, then the others relative to it.
+/// A box, by its first corner and the other corners relative to it.
 inline std::string v4_box(const std::string& name, double x, double y, double z, double a, double b,
                           double c) {
   return v4_solid(20, name,
@@ -40,7 +40,7 @@ inline std::string v4_group(const std::string& name) {
 }
 inline const std::string kV4Head = "I 0 v4\nA model\n";
 
-/// Version 5, binary.
+/// Builds a binary database of version 5.
 class V5Binary {
  public:
   V5Binary() : bytes_(std::string("v\x01\0\0\0\0\x01\x35", 8)) {}
@@ -48,8 +48,8 @@ class V5Binary {
   void solid(const std::string& name, int minor, const std::vector<double>& numbers) {
     object(name, minor, doubles(numbers), {});
   }
-  /// Operations in postfix order: 1 a leaf, 2 union, 3 intersection, 4 difference; none: all
-  /// united.
+  /// Writes a combination. Operations are in postfix order: 1 a leaf, 2 union, 3 intersection, 4
+  /// difference; if there are none, all members are united.
   void comb(const std::string& name, const std::vector<std::string>& members,
             const std::string& postfix, const std::vector<std::array<double, 16>>& matrices = {},
             const std::vector<int>& matrix_of = {}, const std::string& attributes = {}) {
@@ -66,7 +66,7 @@ class V5Binary {
     for (const auto& m : matrices) body += doubles({m.begin(), m.end()});
     object(name, 31, body + leaves + postfix, attributes);
   }
-  /// Lengths of objects, names and bodies take 1, 2, 4 or 8 bytes: 0 … 3.
+  /// The code 0 … 3 of the width of all lengths of objects, names and bodies: 1, 2, 4 or 8 bytes.
   unsigned width_code = 0;
   const std::string& bytes() const { return bytes_; }
 

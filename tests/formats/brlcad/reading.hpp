@@ -1,4 +1,4 @@
-// What the tests ask of a BRL-CAD database.
+// Short names for what tests ask of a BRL-CAD database.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ inline Scene scene_of(const std::string& bytes, std::vector<std::string> objects
   BrlcadResult result = read_brlcad(bytes, options);
   for (const auto& e : result.errors) UNSCOPED_INFO(e.where << ": " << e.text);
   REQUIRE(result.scene);
-  // What a farm gets is the scene's text.
+  // A farm gets the scene as text.
   const ReadResult again = read_scene_text(write_scene_text(*result.scene));
   for (const auto& e : again.errors) UNSCOPED_INFO(e.pointer << ": " << e.message);
   REQUIRE(again.scene);
@@ -28,7 +28,7 @@ inline Scene scene_of(const std::string& bytes, std::vector<std::string> objects
   return std::move(*result.scene);
 }
 
-/// WHERE: WHAT of the first error.
+/// The first error as "WHERE: WHAT".
 inline std::string error_of(const std::string& bytes, std::vector<std::string> objects = {}) {
   BrlcadOptions options;
   options.objects = std::move(objects);

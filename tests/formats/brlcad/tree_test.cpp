@@ -53,7 +53,7 @@ TEST_CASE("trees of 100 000 members are read, however they lean") {
       read_brlcad_database("put r comb region yes tree " + minus + "\n", report);
   REQUIRE_FALSE(report.has_errors());
   CHECK(std::get<BrlcadComb>(database.find("r")->value).tree->children.size() == kMembers);
-  // And so is the scene that they make.
+  // The scene that they make must take only linear time, too.
   const std::string sphere = "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n";
   const Scene scene = scene_of(sphere + "put r comb region yes tree " + repeated("{u {l s} ") +
                                "{l s}" + repeated("}") + "\n");

@@ -25,7 +25,7 @@ class RandomScene {
       scene_.materials.push_back({name("material", i), material()});
     const auto shapes = below(4);
     for (std::size_t i = 0; i < shapes; ++i) {
-      // A shape may use those before it.
+      // A shape may use the shapes before it.
       CsgNode node = tree(2);
       scene_.shapes.push_back({name("shape", i), std::move(node)});
     }
@@ -38,7 +38,7 @@ class RandomScene {
 
  private:
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
-  /// All 53 bits in use, over many magnitudes.
+  /// A positive number with all 53 bits in use, of many magnitudes.
   double positive() {
     return std::ldexp(1 + std::generate_canonical<double, 53>(random_),
                       static_cast<int>(below(40)) - 20);
@@ -89,7 +89,7 @@ class RandomScene {
             fraction(), positive(), static_cast<ShadingModel>(below(3))};
   }
 
-  /// Scales, mirrors and shears, never far from the identity.
+  /// A map that scales, mirrors and shears, always well away from singular.
   Affine transform() {
     Affine map;
     for (std::size_t row = 0; row < 3; ++row)

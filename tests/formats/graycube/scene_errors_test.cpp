@@ -1,4 +1,4 @@
-// Every kind of error a scene file can hold: a snippet, where it is complained of, and in which
+// Every kind of error that a scene file can hold: a snippet, the place of the error, and its
 // words.
 #include <algorithm>
 #include <string>
@@ -24,7 +24,7 @@ std::string listed(const std::vector<SceneError>& errors) {
   return text;
 }
 
-/// Exactly the expected errors, in this order.
+/// Checks for exactly the expected errors, in this order.
 void check_errors(const std::string& text, const std::vector<Expectation>& expected) {
   const ReadResult result = read_scene_text(text);
   INFO(text);
@@ -43,13 +43,13 @@ struct Case {
   std::string fragment;
 };
 
-/// Each JSON value in the place of a top-level key.
+/// Puts each JSON value in the place of a top-level key.
 void check_key(const std::string& key, const std::vector<Case>& cases) {
   for (const auto& c : cases)
     check_errors(SceneText().with(key, c.json).text(), {{c.pointer, c.fragment}});
 }
 
-/// Each JSON value as the CSG node of an object; pointers count from there.
+/// Puts each JSON value in the place of an object's CSG node; pointers count from there.
 void check_csg(const std::vector<Case>& cases) {
   for (const auto& c : cases)
     check_errors(SceneText::of_csg(c.json).text(), {{"/objects/0/csg" + c.pointer, c.fragment}});
@@ -289,7 +289,7 @@ TEST_CASE("duplicate keys are refused wherever they stand") {
             {{R"({"red": {}, "red": {}})", "/materials/red", "duplicate key \"red\""}});
   check_key("shapes", {{R"({"a": )" + kSphere + R"(, "a": )" + kSphere + "}", "/shapes/a",
                         "duplicate key \"a\""}});
-  // Written differently, the same key.
+  // The same key is written in another way.
   check_key("materials", {{R"({"red": {}, "r\u0065d": {}})", "/materials/red", "duplicate key"}});
 }
 

@@ -1,4 +1,4 @@
-// Scenes in CBOR mean what they mean in JSON, and what isn't theirs is refused with its place.
+// Scenes in CBOR mean what they mean in JSON, and other values are refused with their place.
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -143,7 +143,7 @@ TEST_CASE("whatever happens to a scene in CBOR, it is read or refused") {
     INFO("seed " << seed);
     const bool taken = fuzz_cbor(bytes);
     accepted += taken ? 1 : 0;
-    // However it was read: nlohmann's own documents are the judge.
+    // Whichever reader read it, nlohmann's own documents are the judge.
     if (taken) CHECK_FALSE(nlohmann::json::from_cbor(bytes, true, false).is_discarded());
   }
   CHECK((accepted > 600 && accepted < 2900));

@@ -14,7 +14,7 @@ using namespace graycube;
 
 namespace {
 
-/// The tree as the library would have it, to compare with what the library read itself.
+/// The tree as the library's own document, to compare it with what the library read itself.
 nlohmann::json to_library(const JsonTree& tree, JsonIndex at) {
   switch (tree.kind(at)) {
     case JsonKind::kNull: return nullptr;

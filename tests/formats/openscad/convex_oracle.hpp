@@ -25,8 +25,8 @@ inline Vec3 support_point(RoundKind kind, const std::vector<RoundPoint>& points,
 
 enum class Side { kInside, kOutside, kNear };
 
-/// Frank & Wolfe's method, 1956, for the nearest point: outside is proven by a plane, inside by
-/// coming within `margin`.
+/// Frank & Wolfe's method, 1956, for the nearest point: a plane proves that p is outside; coming
+/// within `margin` of it, that it is inside.
 inline Side side_of_hull(RoundKind kind, const std::vector<RoundPoint>& points, const Vec3& p,
                          double margin) {
   Vec3 x = points.front().center;
@@ -50,7 +50,7 @@ inline std::vector<RoundPoint> random_rounds(std::mt19937_64& random, std::size_
   std::vector<RoundPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
     Vec3 c{place(random), place(random), place(random)};
-    // Grids and common heights bring planes that touch many.
+    // Grids and common heights give planes that touch many points.
     if (choice(random) < 3) c = {std::round(c.x), std::round(c.y), std::round(c.z)};
     if (kind == RoundKind::kDiscs && choice(random) < 4) c.z = 2.0 * level(random);
     const int which = choice(random);

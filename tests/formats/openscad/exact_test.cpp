@@ -13,7 +13,7 @@ namespace {
 
 using namespace graycube::testing;
 
-/// As the definitions write a number: an exponent, and 12 + 16 + 16 + 16 binary digits.
+/// A number as the definitions write it: an exponent, and 12 + 16 + 16 + 16 binary digits.
 std::string spelled(double v) {
   if (v == std::floor(v) && std::fabs(v) < 1e5) return std::to_string(static_cast<int>(v));
   const int exponent = std::ilogb(v);
@@ -32,7 +32,7 @@ std::string spelled(std::initializer_list<double> list) {
   return text + "]";
 }
 
-/// What a module of ours evaluates to.
+/// The tree to which a module of ours evaluates, with its note.
 std::string note(const std::string& module, const std::string& lists,
                  const std::string& children = "") {
   return "group() { group() { text(text = \"graycube|" + module + "|" + lists +
@@ -117,7 +117,7 @@ TEST_CASE("a tree of another shape, or of other numbers, is ignored as a whole")
   stays(plain, note("cube", "size=[[9999999999, 5461, 21845, 21845, 21760], 2, 3]|"));
   stays(plain, note("cube", "size"));
   stays(plain, note("cube", ""));
-  // All or nothing: the first would do.
+  // All numbers are improved or none: the first cube alone would match.
   stays(plain + plain, cube + note_of_cube(0.5, 2, 3));
   stays(plain + shift("0.142857", plain), cube + note_of_shift(0.2, 0, 0, cube));
   stays(plain + "difference() { cube(1); cube(1); }",

@@ -1,4 +1,4 @@
-// What is round takes the facets of the hull that it is flush with.
+// Round solids take the facets of the hull with which they are flush.
 #include <limits>
 #include <random>
 #include <string>
@@ -15,7 +15,7 @@ using namespace graycube::testing;
 
 const std::string kPost = "cylinder($fn = 40, h = 8, r1 = 10, r2 = 10); ";
 const std::string kBall = "sphere($fn = 24, r = 6); ";
-/// A cylinder across: with one that stands upright there is no exact hull.
+/// A cylinder that lies across: with an upright one, there is no exact hull.
 const std::string kAcross =
     "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
     "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); ";
@@ -25,7 +25,7 @@ const std::string kTurned =
     "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
 const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
 
-/// Of so many rays at random through the origin's neighbourhood, how many meet anything.
+/// The number of rays at random through the origin's neighbourhood that meet anything.
 int rays_that_hit(const std::string& text) {
   INFO(text);
   const Model model = compile_scene(scene_of(text));
@@ -61,7 +61,7 @@ TEST_CASE("nothing is left of a round part that a faceted hull of it is taken fr
     const std::string hull = "hull() { " + part + kAcross + "} ";
     for (const std::string& turn : {std::string{}, kTurned}) {
       CHECK(rays_that_hit(turn + "difference() { " + part + hull + "}") == 0);
-      // As exact as it is, it is there.
+      // With the hull moved aside, nothing is cut off, and the part is there as it was.
       CHECK(rays_that_hit(turn + "difference() { " + part + kAside + hull + "}") > 100);
     }
   }
@@ -74,7 +74,7 @@ TEST_CASE("a bore goes by the facets of its boss whatever its ends, and however 
       "cylinder($fn = 40, h = 3, r1 = 10, r2 = 10, center = false); ";
   CHECK(rays_that_hit("difference() { " + lower + hull + "}") == 0);
   CHECK_FALSE(has_round("difference() { " + hull + lower + "}"));
-  // Half a facet on it is another solid.
+  // Turned by half a facet it is another solid.
   const std::string half_turned =
       "multmatrix([[0.996917, -0.0784591, 0, 0], [0.0784591, 0.996917, 0, 0], [0, 0, 1, 0]]) ";
   CHECK(has_round("difference() { " + hull + half_turned + lower + "}"));
@@ -86,7 +86,7 @@ TEST_CASE("hulls that could be exact take the facets of those that they are flus
   CHECK(has_round(slot));
   const std::string both = "difference() { hull() { " + kPost + kAcross + "} " + slot + "} ";
   CHECK_FALSE(has_round(both));
-  // The slot's other end, too, and what is flush with that.
+  // The slot's other end counts, too, and so does a solid that is flush with it.
   CHECK_FALSE(has_round(both + kAside + kPost));
   CHECK(rays_that_hit("difference() { " + kPost + "union() { " + both + slot + "} }") == 0);
 }

@@ -1,4 +1,4 @@
-// Files of this folder.
+// Reads files of this folder.
 #pragma once
 
 #include <filesystem>

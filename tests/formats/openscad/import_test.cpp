@@ -196,7 +196,7 @@ TEST_CASE("matrices multiply from the outside in") {
 }
 
 TEST_CASE("without OpenSCAD what needs it is an error naming its line") {
-  // The sum of a cube and a sphere in line 12 doesn't need it.
+  // The sum of a cube and a sphere in line 12 doesn't need the program.
   const std::vector<std::string> expected{
       "25: text() needs the program openscad, which is not there"};
   CHECK(errors_of(fixture("for_openscad.csg")) == expected);

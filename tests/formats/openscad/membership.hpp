@@ -12,7 +12,7 @@ namespace graycube::testing {
 
 inline bool holds(const CsgNode& node, const Vec3& world);
 
-/// For the shapes that the OpenSCAD reader makes.
+/// An oracle for the shapes that the OpenSCAD reader makes.
 struct Holds {
   Vec3 p;
 

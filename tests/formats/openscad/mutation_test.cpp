@@ -18,7 +18,7 @@ std::size_t below(Random& random, std::size_t count) {
   return static_cast<std::size_t>(random() % count);
 }
 
-/// A digit or any byte changed, a piece dropped, a piece copied elsewhere, or a token put in.
+/// Changes a digit or any byte, drops a piece, copies a piece elsewhere, or inserts a token.
 void mutate(std::string& text, Random& random) {
   static const std::vector<std::string> tokens{"(",
                                                ")",
@@ -74,8 +74,8 @@ void mutate(std::string& text, Random& random) {
   }
 }
 
-/// The promise of OpenscadResult; what the renderer relies on is what the scene file's reader
-/// checks.
+/// Whether the result keeps the promise of OpenscadResult; the scene file's reader checks the rules
+/// on which the renderer relies.
 bool is_sound(const OpenscadResult& result) {
   if (result.scene.has_value() != result.errors.empty()) return false;
   if (result.errors.size() > kMaxOpenscadErrors + 1) return false;
@@ -118,7 +118,7 @@ TEST_CASE("thousands of damaged files are read without harm, and both ends occur
   CHECK(refused > 400);
 }
 
-/// Flat shapes and what is made of them.
+/// Flat shapes and operations on them.
 constexpr const char* kFlatFile =
     R"(linear_extrude(height = 3, center = true, twist = 0, scale = [1, 1]) {
 	difference() {

@@ -35,8 +35,8 @@ TEST_CASE("flat shapes grow by exact arcs") {
 }
 
 TEST_CASE("flat shapes shrink by exact arcs") {
-  // What is left is all whose distance from the outside is more than 1: the outside is what is near
-  // the angle's boundary.
+  // All points remain whose distance from the outside is more than 1: the outside begins at the
+  // angle's boundary.
   const Scene scene = scene_of("linear_extrude(height = 3) offset(r = -1) " + kAngle + ";");
   for (const auto& [p, inside] : {std::pair{Vec3{1.01, 1.01, 1}, true},
                                   {Vec3{0.99, 2, 1}, false},
@@ -66,7 +66,7 @@ TEST_CASE("an offset in and out again rounds the corners that point outwards") {
 bool in_rounded_angle(const Vec3& p, double radius, bool rounds_outer, bool fills_inner) {
   if (p.z < 0 || p.z > 3) return false;
   const auto beyond_arc = [&](double x, double y, int towards_x, int towards_y) {
-    // The square between the corner and the arc's centre, but for the disk.
+    // The square between the corner and the arc's centre, without the disk.
     const double dx = towards_x * (p.x - x), dy = towards_y * (p.y - y);
     return dx >= 0 && dx <= radius && dy >= 0 && dy <= radius &&
            std::hypot(dx - radius, dy - radius) > radius;
@@ -188,7 +188,7 @@ TEST_CASE("a slit that an offset closes stays closed") {
   const Scene scene = scene_of(text);
   CHECK((any_object_holds(scene, {4, 2, 1}) && any_object_holds(scene, {1, 2, 1}) &&
          !any_object_holds(scene, {-0.5, 2, 1})));
-  // Just so.
+  // The slit is only just narrow enough here.
   CHECK_FALSE(warnings_of("linear_extrude(height = 3) offset(r = -1) offset(r = 1) polygon(points "
                           "= [[0, 0], [10, 0], [10, 4], "
                           "[0, 4], [0, 2.999], [8, 2.999], [8, 1], [0, 1]]);")

@@ -17,7 +17,7 @@ using namespace graycube::testing;
 
 constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
 
-/// As a text of six digits has it.
+/// The number as a text of six digits has it.
 double six_digits(double v) {
   char text[40];
   const char* end =
@@ -54,11 +54,11 @@ double unevenness(const Affine& map, double factor = 1) {
   return most;
 }
 
-/// rotate([x, y, z]) of OpenSCAD.
+/// The map of OpenSCAD's rotate([x, y, z]).
 Affine turns(double x, double y, double z) {
   return compose(rotation(kZ, z), compose(rotation(kY, y), rotation(kX, x)));
 }
-/// mirror(n).
+/// The map of OpenSCAD's mirror(n).
 Affine mirror(const Vec3& n) {
   Affine map;
   for (int i = 0; i < 3; ++i) {
@@ -113,7 +113,7 @@ TEST_CASE("any rotation becomes one to the last bits, as near as its digits") {
   const auto seed = GENERATE(range(1, 2000));
   INFO("seed " << seed);
   Numbers numbers(static_cast<std::uint64_t>(seed));
-  // Mostly with a turn of nothing, a quarter, or next to nothing.
+  // Mostly turns by 0, by a quarter, or by next to nothing.
   const auto angle = [&] {
     const int kind = numbers.whole(0, 5);
     return kind == 0   ? 0
@@ -136,7 +136,7 @@ TEST_CASE("any rotation becomes one to the last bits, as near as its digits") {
 TEST_CASE("what is no rotation stays as it is written") {
   Numbers numbers(7);
   for (int i = 0; i < 500; ++i) {
-    // Sheared, or scaled unevenly, by a little more than six digits can't tell.
+    // Sheared, or scaled unevenly, by a little more than six digits can hide.
     Affine change;
     const double little = numbers.between(1.2e-5, 1e-3);
     change.m[static_cast<std::size_t>(numbers.whole(0, 2))]

@@ -50,7 +50,7 @@ void check_points(RoundKind kind, std::uint64_t seed) {
     const Side side = side_of_hull(kind, points, p, 1e-4);
     if (side == Side::kNear) continue;
     ++sure;
-    // Coming near is being inside but for the margin.
+    // A point that comes near counts as inside, except within the margin.
     const bool is_inside = any_object_holds(*scene, p);
     if (is_inside != (side == Side::kInside) && side_of_hull(kind, points, p, 1e-6) == side)
       ++wrong;
@@ -68,7 +68,7 @@ TEST_CASE("a point is in the hull of level discs exactly when no plane keeps it 
   for (std::uint64_t seed = 0; seed < 300; ++seed) check_points(RoundKind::kDiscs, seed);
 }
 
-/// From inside outwards, membership ends once, and where the oracle says.
+/// Checks that along rays from inside outwards, membership ends once, at the oracle's surface.
 void check_rays(RoundKind kind, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto points = random_rounds(random, 2 + seed % 8, kind);

@@ -1,4 +1,4 @@
-// hull() and minkowski() of what is round, as OpenSCAD means them.
+// hull() and minkowski() of round solids, as OpenSCAD means them.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Scenes that are all within a distance of something.
+// Scenes that must be everything within a distance of a solid.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline double from_box(const Vec3& p, const Vec3& lo, const Vec3& hi) {
   return length(d);
 }
 
-/// For a solid that is the scene itself: more than the rounding that is allowed.
+/// A radius for a solid that is the scene itself: more than the rounding that is allowed.
 inline constexpr double kItself = 2e-9;
 
 /// The scene must be everything within `radius` of the solid.

@@ -10,7 +10,7 @@ namespace {
 
 using testing::scene_of;
 
-/// Where a point is in the picture: −1 … 1 from left to right and from bottom to top. By the scene
+/// A point's place in the picture: −1 … 1 from left to right and from bottom to top. By the scene
 /// file's contract: right-handed, an eye on −z that looks along +z with y up has +x to its left.
 struct Picture {
   const RenderSettings& settings;
