@@ -34,6 +34,9 @@ void divide_row(Affine& map, std::size_t row, double by) {
 /// Makes a cone whose ends are equal a cylinder, an elliptic torus that is round a torus, and
 /// brings a quadric that is a cylinder to one form; all up to `tolerance` (scene units).
 void simplify(Primitive& p, double tolerance) {
+  if (p.kind != PrimitiveKind::kCone && p.kind != PrimitiveKind::kEllipticTorus &&
+      p.kind != PrimitiveKind::kQuadric)
+    return;
   // The tolerance in the frame, across the axis.
   const double local = tolerance * larger(length(p.to_local.row(0)), length(p.to_local.row(1)));
   // Surfaces known worse than this (those beyond the range of floats, for example) are left alone.

@@ -9,6 +9,7 @@
 #include "coincidence/exactness.hpp"
 #include "csg/build_primitive.hpp"
 #include "csg/tree.hpp"
+#include "geometry/infinity.hpp"
 #include "overloaded.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
@@ -155,7 +156,8 @@ class Compiler {
   void include(const Aabb& bounds) {
     for (int a = 0; a < 3; ++a) {
       for (const double x : {bounds.lo[a], bounds.hi[a]}) {
-        if (std::isfinite(x)) largest_ = std::fmax(largest_, std::fabs(x));
+        const double size = std::fabs(x);
+        if (size > largest_ && size < kInf) largest_ = size;
       }
     }
   }
