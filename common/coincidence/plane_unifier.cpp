@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coincidence/faces.hpp"
+#include "geometry/infinity.hpp"
 
 namespace graycube::csg {
 
@@ -20,7 +21,8 @@ double number_tolerance(double distance, double direction, double reach) {
 
 /// The largest absolute coordinate of the bounds; 0 if they are infinite.
 double reach_of(const Aabb& bounds) {
-  return bounds.is_finite() ? larger(max_abs(bounds.lo), max_abs(bounds.hi)) : 0.0;
+  const double most = larger(max_abs(bounds.lo), max_abs(bounds.hi));
+  return most < kInf ? most : 0.0;
 }
 
 }  // namespace

@@ -88,8 +88,12 @@ std::optional<double> Affine::similarity_scale() const {
 }
 
 bool Affine::is_finite() const {
-  return graycube::is_finite(row(0)) && graycube::is_finite(row(1)) &&
-         graycube::is_finite(row(2)) && graycube::is_finite(translation());
+  // Infinities and NaN less themselves are NaN, and so is every sum with one.
+  double sum = 0;
+  for (const auto& row : m) {
+    for (const double x : row) sum += x - x;
+  }
+  return sum == 0;
 }
 
 Affine compose(const Affine& then, const Affine& first) {
