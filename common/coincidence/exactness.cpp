@@ -92,9 +92,16 @@ MeasuredMap compose(const MeasuredMap& then, const Affine& first) {
   return r;
 }
 
-Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share) {
+MeasuredMap moving_all_alike(MeasuredMap map, double share, double map_share) {
+  for (auto& row : map.magnitude.m) row[3] *= share / map_share;
+  return map;
+}
+
+Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share,
+                       double map_share) {
   Exactness e;
-  const Vec3 position = share * map.magnitude.point(reach);
+  const Vec3 position =
+      share * map.magnitude.vector(reach) + map_share * map.magnitude.translation();
   e.along = {static_cast<float>(position.x), static_cast<float>(position.y),
              static_cast<float>(position.z)};
   e.direction = static_cast<float>(share * turn * map.turn);

@@ -34,6 +34,9 @@ struct MeasuredMap {
   /// Nothing is composed yet.
   bool is_identity = true;
 };
+/// The same map; how far it moves what is under it is measured as if known to `share` where it is
+/// known to `map_share`: since it moves everything alike, nothing comes apart by its rounding.
+MeasuredMap moving_all_alike(MeasuredMap map, double share, double map_share);
 /// The map that applies `first`, then `then`.
 MeasuredMap compose(const MeasuredMap& then, const Affine& first);
 
@@ -51,6 +54,8 @@ struct Exactness {
 
 /// The exactness of a shape whose points have local coordinates of at most `reach` along each axis,
 /// and whose directions are known `turn` ≥ 1 times worse than its numbers, to a `share` of these.
-Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share);
+/// How far the map moves it is known to `map_share` ≤ share.
+Exactness exactness_of(const MeasuredMap& map, const Vec3& reach, double turn, double share,
+                       double map_share);
 
 }  // namespace graycube

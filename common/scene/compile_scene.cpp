@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "check.hpp"
 #include "coincidence/coincidence.hpp"
@@ -47,6 +51,15 @@ std::size_t leaf_count(const Scene& scene) {
   return sum;
 }
 
+/// Whether all objects are under one and the same map.
+bool has_one_root_map(const Scene& scene) {
+  return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+    const auto& own = object.csg.transform;
+    const auto& first = scene.objects.front().csg.transform;
+    return own && first && *own == *first;
+  });
+}
+
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene), share_(share_of_digits(scene.digits)) {}
@@ -71,13 +84,18 @@ class Compiler {
     MeasuredMap to_world;
     MaterialIndex material = kInheritMaterial;
     bool inverted = false;
+    /// The node is a root, and its map, whose digits are few, is that of all roots.
+    bool is_around_all = false;
   };
 
   void add_object(const SceneObject& object) {
     Object out;
     out.id = static_cast<std::uint32_t>(model_.objects.size());
     out.first_node = static_cast<std::uint32_t>(model_.nodes.size());
-    emit(object.csg, {.to_world = {}, .material = object.material, .inverted = false});
+    emit(object.csg, {.to_world = {},
+                      .material = object.material,
+                      .inverted = false,
+                      .is_around_all = has_one_rounded_root_map_});
     out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
     out.bounds = bounds_of(model_.tree(out), model_.primitives);
     model_.objects.push_back(out);
@@ -85,6 +103,8 @@ class Compiler {
 
   void emit(const CsgNode& node, Context context) {
     if (node.transform) context.to_world = compose(context.to_world, *node.transform);
+    if (std::exchange(context.is_around_all, false))
+      context.to_world = moving_all_alike(context.to_world, kRoundedShare, share_);
     if (node.material != kInheritMaterial) context.material = node.material;
     std::visit(
         Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
@@ -137,7 +157,7 @@ class Compiler {
     model_.primitives.push_back(primitive);
     include(primitive.bounds);
     const LeafReach reach = reach_of(leaf, primitive, context.to_world.map);
-    unifier_.add(exactness_of(context.to_world, reach.most, reach.turn, share_of(leaf)));
+    unifier_.add(exactness_of(context.to_world, reach.most, reach.turn, share_of(leaf), share_));
   }
 
   double share_of(const CsgNode& leaf) const {
@@ -209,6 +229,7 @@ class Compiler {
 
   const Scene& scene_;
   double share_;
+  bool has_one_rounded_root_map_ = share_ > kRoundedShare&& has_one_root_map(scene_);
   Model model_;
   CoincidenceUnifier unifier_{model_};
   /// The largest finite coordinate of the primitives' bounds so far.

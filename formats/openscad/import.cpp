@@ -47,6 +47,25 @@ bool any_transparent(const std::vector<Part>& parts, const std::vector<NamedMate
                      [&](MaterialIndex i) { return materials[i].material.transmit > 0; });
 }
 
+/// The solid under a map of its root's own.
+CsgNode under(const Affine& map, CsgNode solid) {
+  if (!solid.transform) {
+    solid.transform = map;
+    return solid;
+  }
+  OperationNode alone{Operation::kUnion, {}};
+  alone.children.push_back(std::move(solid));
+  return {std::move(alone), map, kInheritMaterial};
+}
+
+/// Whether it lies so far from the origin that the rounding of how far exceeds that of its own
+/// numbers.
+bool is_far(const Reach& reach) {
+  constexpr double kFar = 4;
+  const Aabb box = reach.box();
+  return !box.is_empty() && max_abs(box.center()) > kFar * max_abs(box.hi - box.lo);
+}
+
 std::vector<SceneObject> objects_of(std::vector<Part> parts,
                                     const std::vector<NamedMaterial>& materials) {
   std::vector<SceneObject> objects;
@@ -88,14 +107,23 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
     std::vector<ScadModule> only{*root};
     modules = std::move(only);
   }
-  auto [parts, materials] = openscad_parts(modules, options, digits, report);
+  OpenscadParts found = openscad_parts(modules, options, digits, false, report);
   Scene scene;
   scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
   if (report.has_errors()) return scene;
+  if (scene.digits > 0 && is_far(reach_of(found.parts))) {
+    OpenscadReport told_already;
+    found = openscad_parts(modules, options, digits, true, told_already);
+  }
+  auto& [parts, materials, around_all] = found;
   scene.settings = framed_settings(reach_of(parts), options.frame);
   scene.materials = std::move(materials);
   if (parts.empty()) report.warning(0, "the model is empty");
   scene.objects = objects_of(std::move(parts), scene.materials);
+  if (around_all) {
+    for (SceneObject& object : scene.objects)
+      object.csg = under(*around_all, std::move(object.csg));
+  }
   return scene;
 }
 

@@ -35,8 +35,11 @@ Affine lifted(const FlatMap& map) {
 
 struct Surroundings {
   Affine to_world;
+  /// What of it isn't around all parts.
+  Affine to_rest;
   ScadColor color;
-  bool transformed = false;
+  /// Nothing of the file stands beside what is in here, and matrices that do so are kept apart.
+  bool is_around_all = false;
 };
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
@@ -92,16 +95,26 @@ class Importer {
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
                std::vector<Part>& parts) {
     const int dimension = dimension_of(modules);
+    const auto is_left = [](const ScadModule& module) { return !module.left_out; };
+    Surroundings inner = around;
+    inner.is_around_all =
+        around.is_around_all && std::count_if(modules.begin(), modules.end(), is_left) == 1;
     for (const ScadModule& module : modules) {
-      if (fits(module, dimension)) add(module, around, parts);
+      if (fits(module, dimension)) add(module, inner, parts);
     }
   }
+  std::optional<Affine> around_all() const { return around_all_; }
   std::vector<NamedMaterial> take_materials() { return palette_.take(); }
 
  private:
   void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     if (module.left_out) return;
     const std::string& name = module.name;
+    if (around.is_around_all && !is_gathering(name)) {
+      Surroundings inner = around;
+      inner.is_around_all = false;
+      return add(module, inner, parts);
+    }
     if (module.dimension == 2 && !is_gathering(name)) {
       add_slab(module, around, parts);
     } else if (name == "group" || name == "union" || name == "render") {
@@ -151,12 +164,16 @@ class Importer {
     if (!map) return;
     Surroundings inner = around;
     inner.to_world = compose(around.to_world, *map);
-    inner.transformed = inner.to_world != Affine{};
     if (!inner.to_world.inverse()) {
       report_.warning(
           module.line,
           "multmatrix() is left out: with those around it, it flattens everything in it");
       return;
+    }
+    if (around.is_around_all) {
+      around_all_ = inner.to_world;
+    } else {
+      inner.to_rest = compose(around.to_rest, *map);
     }
     add_all(module.children, inner, parts);
   }
@@ -333,16 +350,16 @@ class Importer {
 
   /// Places a leaf; spheres under rotations stay spheres.
   static void place(CsgNode& leaf, const Surroundings& around) {
-    if (!around.transformed) return;
+    if (around.to_rest == Affine{}) return;
     auto* sphere = std::get_if<SphereShape>(&leaf.value);
     const std::optional<double> scale =
-        sphere != nullptr ? around.to_world.similarity_scale() : std::nullopt;
+        sphere != nullptr ? around.to_rest.similarity_scale() : std::nullopt;
     if (scale) {
-      *sphere = {around.to_world.point(sphere->center), *scale * sphere->radius};
+      *sphere = {around.to_rest.point(sphere->center), *scale * sphere->radius};
     } else if (leaf.transform) {
-      leaf.transform = compose(around.to_world, *leaf.transform);
+      leaf.transform = compose(around.to_rest, *leaf.transform);
     } else {
-      leaf.transform = around.to_world;
+      leaf.transform = around.to_rest;
     }
   }
 
@@ -353,35 +370,21 @@ class Importer {
   ScadImport import_;
   FacetedRounds faceted_;
   Palette palette_;
+  std::optional<Affine> around_all_;
 };
 
 }  // namespace
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, OpenscadReport& report) {
+                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report) {
   Importer importer(reach_directions(options.frame), options, digits,
                     FacetedRounds(modules, options, digits), report);
   OpenscadParts result;
-  importer.add_all(modules, {}, result.parts);
+  Surroundings none;
+  none.is_around_all = keeps_apart;
+  importer.add_all(modules, none, result.parts);
   result.materials = importer.take_materials();
-  return result;
-}
-
-Reach reach_of(const std::vector<Part>& parts) {
-  Reach reach = Reach::nothing();
-  for (const Part& part : parts) reach = union_of(reach, part.reach);
-  return reach;
-}
-
-Part united(std::vector<Part> parts) {
-  if (parts.size() == 1) return std::move(parts.front());
-  Part result{{}, reach_of(parts), 0, parts.front().line, "union"};
-  std::vector<CsgNode> children;
-  for (Part& part : parts) {
-    result.levels = std::max(result.levels, part.levels + 1);
-    children.push_back(std::move(part.node));
-  }
-  result.node = operation(Operation::kUnion, std::move(children));
+  result.around_all = importer.around_all();
   return result;
 }
 

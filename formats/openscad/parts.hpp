@@ -9,30 +9,21 @@
 
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
-#include "formats/view/framing.hpp"
+#include "formats/openscad/part.hpp"
 
 namespace graycube {
-
-/// A solid in world coordinates, one operand of the operation around it.
-struct Part {
-  CsgNode node;
-  Reach reach;
-  std::uint32_t levels = 1;
-  int line = 0;
-  std::string module;
-};
 
 /// The result of openscad_parts: the file is the union of the parts. Every leaf has a material.
 /// Rotations were recovered from matrices of `digits` digits.
 struct OpenscadParts {
   std::vector<Part> parts;
   std::vector<NamedMaterial> materials;
+  /// The map of the matrices that stand around all parts, where it is kept apart: it counts for no
+  /// tolerance, since its rounded numbers move all parts alike. Reaches are in the world.
+  std::optional<Affine> around_all;
 };
+/// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, OpenscadReport& report);
-
-Reach reach_of(const std::vector<Part>& parts);
-/// The union of at least one part, as one part.
-Part united(std::vector<Part> parts);
+                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report);
 
 }  // namespace graycube

@@ -210,7 +210,7 @@ TEST_CASE(
   CHECK(share_of_digits(40) == kRoundedShare);
   // A part of 100 mm, and one of 100 m.
   const auto reach_of = [](double size) {
-    return exactness_of({}, {size, size, size}, 1, share_of_digits(0)).distance();
+    return exactness_of({}, {size, size, size}, 1, share_of_digits(0), kRoundedShare).distance();
   };
   CHECK(reach_of(100) == Approx(7.1e-13).epsilon(0.01));
   CHECK(reach_of(1e5) == Approx(7.1e-10).epsilon(0.01));
@@ -220,7 +220,7 @@ TEST_CASE("what a map goes out to and comes back from counts for how exact it is
   MeasuredMap map = compose(MeasuredMap{}, translation({1e6, 0, 0}));
   map = compose(map, translation({-1e6, 0, 0}));
   CHECK(map.map == Affine{});
-  const Vec3 position = exactness_of(map, {1, 1, 1}, 1, kRoundedShare).position();
+  const Vec3 position = exactness_of(map, {1, 1, 1}, 1, kRoundedShare, kRoundedShare).position();
   CHECK(position.x > 1e6 * kRoundedShare);
   CHECK(position.y < 2 * kRoundedShare);
 }
@@ -286,7 +286,7 @@ TEST_CASE(
         model_of({build_cone({}, {reach, 0, 0}, reach, {reach, 0, reach}, reach * (1 - 1e-15)),
                   build_cone({}, {-reach, 0, 0}, reach, {-reach, 0, reach}, 0.5 * reach)});
     const Exactness exactness =
-        exactness_of({}, {2 * reach, 2 * reach, 2 * reach}, 1, kRoundedShare);
+        exactness_of({}, {2 * reach, 2 * reach, 2 * reach}, 1, kRoundedShare, kRoundedShare);
     unify_coincident_surfaces(model, std::vector<Exactness>(2, exactness));
     CHECK(model.primitives[0].kind ==
           (reach == 1 ? PrimitiveKind::kCylinder : PrimitiveKind::kCone));

@@ -83,7 +83,7 @@ float developed(std::int64_t fixed, std::uint32_t rays) {
 }  // namespace
 
 TEST_CASE("the order in which light arrives does not show in the picture") {
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
     CAPTURE(seed);
     std::mt19937_64 engine(seed);
     auto arrivals = random_arrivals(engine, 6 * 4, 5000);
