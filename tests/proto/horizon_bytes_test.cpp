@@ -56,7 +56,7 @@ TEST_CASE("bytes that are no horizons are refused") {
   auto longer = bytes;
   longer.push_back({});
   CHECK_FALSE(decode_horizons(longer, 3));
-  for (const std::size_t at : {0, 4, 8, 12}) {  // magic, side, lights, whether there is a map
+  for (const std::size_t at : {0u, 4u, 8u, 12u}) {  // magic, side, lights, whether there is a map
     auto broken = bytes;
     broken[at] ^= std::byte{0x42};
     CHECK_FALSE(decode_horizons(broken, 3));

@@ -14,12 +14,6 @@
 using namespace graycube;
 using namespace graycube::testing;
 
-namespace {
-
-constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-}  // namespace
-
 TEST_CASE("a version 4 text is read, its members bound as u - + bind") {
   // a u (b − c + d): c is taken from b only, d restricts b only.
   const std::string text = kV4Head + v4_box("a", 0, 0, 0, 1, 1, 1) + v4_box("b", 5, 0, 0, 4, 4, 4) +
