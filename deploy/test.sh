@@ -51,7 +51,7 @@ case $what in
   --ci)
     build_and_test smoke
     say "Fuzzing"
-    bash tests/fuzz/run.sh build/smoke/bin 10
+    GRAYCUBE_FUZZ_SEED=1 bash tests/fuzz/run.sh build/smoke/bin 10
     ;;
   --sanitizers)
     build_and_test asan

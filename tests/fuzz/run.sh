@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes every importer and decoder for some seconds each: tests/fuzz/run.sh BIN SECONDS [NAME…]
+# With GRAYCUBE_FUZZ_SEED=N the inputs tried are the same each time, as far as the seconds reach.
 # BIN holds the executables of a build with -DGRAYCUBE_FUZZ=ON. What a harness learns goes to a temporary folder;
 # an input that breaks something stays in the current folder, as NAME-crash-…, NAME-timeout-… or NAME-oom-…, and
 # belongs into corpus/NAME with the fix.
@@ -30,6 +31,7 @@ for name in "${names[@]}"; do
     scene_json) seeds+=("$top/scenes") ;;
   esac
   options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=1536 -malloc_limit_mb=512 -max_len="$longest"
+    -seed="${GRAYCUBE_FUZZ_SEED-0}"
     -print_final_stats=1 -artifact_prefix="$name-")
   [[ -f $here/dictionaries/$name.dict ]] && options+=(-dict="$here/dictionaries/$name.dict")
   mkdir -p "$learnt/$name"
