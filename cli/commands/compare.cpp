@@ -1,6 +1,5 @@
 // graycube compare: renders one scene in every way, and prints one table.
 #include <chrono>
-#include <cstdio>
 
 #include "cli/commands/commands.hpp"
 #include "cli/display/bars_svg.hpp"
@@ -87,12 +86,6 @@ ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
   return row;
 }
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string table_of(const std::vector<ComparedRow>& rows) {
   const Figures serial = figures_of(rows.front().statistics);
   std::vector<std::vector<std::string>> cells{{"WAY", "WALL s", "CPU s", "CPU/SERIAL", "EFFICIENCY",
@@ -107,13 +100,13 @@ std::string table_of(const std::vector<ComparedRow>& rows) {
       const auto memory = static_cast<double>(f.largest_memory_bytes);
       const auto whole = static_cast<double>(serial.largest_memory_bytes);
       line.insert(line.end(),
-                  {number("%.2f", f.wall_s), number("%.2f", f.cpu_s),
-                   number("%.2f", serial.cpu_s > 0 ? f.cpu_s / serial.cpu_s : 0),
-                   number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
+                  {number_text("%.2f", f.wall_s), number_text("%.2f", f.cpu_s),
+                   number_text("%.2f", serial.cpu_s > 0 ? f.cpu_s / serial.cpu_s : 0),
+                   number_text("%.2f", f.efficiency), number_text("%.1f", 100 * f.blocked_fraction),
                    std::to_string(f.forwarded), std::to_string(f.messages),
-                   number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
-                   number("%.1f", whole > 0 ? 100 * memory / whole : 0), std::to_string(f.rounds),
-                   std::to_string(f.queue_peak)});
+                   number_text("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
+                   number_text("%.1f", whole > 0 ? 100 * memory / whole : 0),
+                   std::to_string(f.rounds), std::to_string(f.queue_peak)});
     }
     line.push_back(to_string(row.outcome));
   }

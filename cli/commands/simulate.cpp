@@ -180,12 +180,6 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
   return row;
 }
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
   std::vector<std::vector<std::string>> cells{{"NODES", "TIME s", "SPEED-UP", "EFFICIENCY",
                                                "BLOCKED %", "HOST LINK %", "CPU s", "MESSAGES",
@@ -198,17 +192,17 @@ std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
       const Figures f = figures_of(r.row.statistics);
       const bool ended =
           r.row.outcome == RowOutcome::kSame || r.row.outcome == RowOutcome::kDifferent;
-      line.insert(
-          line.end(),
-          {number("%.4g", r.time_s),
-           ended ? number("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
-           number("%.2f", f.efficiency), number("%.1f", 100 * f.blocked_fraction),
-           number("%.1f", 100 * r.host_load), number("%.4g", f.cpu_s), std::to_string(f.messages),
-           number("%.1f", 1e-6 * static_cast<double>(f.message_bytes)), std::to_string(f.rounds),
-           std::to_string(f.queue_peak)});
+      line.insert(line.end(),
+                  {number_text("%.4g", r.time_s),
+                   ended ? number_text("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
+                   number_text("%.2f", f.efficiency), number_text("%.1f", 100 * f.blocked_fraction),
+                   number_text("%.1f", 100 * r.host_load), number_text("%.4g", f.cpu_s),
+                   std::to_string(f.messages),
+                   number_text("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
+                   std::to_string(f.rounds), std::to_string(f.queue_peak)});
     }
     line.push_back(to_string(r.row.outcome));
-    line.push_back(number("%.2f", r.predicted_over_measured));
+    line.push_back(number_text("%.2f", r.predicted_over_measured));
   }
   std::string text = table_text(cells);
   for (const SimulatedRow& r : rows) {

@@ -1,6 +1,7 @@
 #include "cli/display/table.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "check.hpp"
 
@@ -31,6 +32,12 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
+  return text;
+}
+
+std::string number_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
