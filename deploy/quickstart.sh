@@ -13,7 +13,7 @@ bash deploy/install_packages.sh --user
 
 say "Building in build/release"
 # A compiler that we don't know yet may warn of more: for users that is no error.
-cmake --preset release -DGRAYCUBE_TESTS=OFF -DGRAYCUBE_WERROR=OFF --log-level=WARNING
+cmake --preset release -DGRAYCUBE_TESTS=OFF --log-level=WARNING
 cmake --build --preset release --parallel "$(nproc)" -- --quiet
 
 say "Rendering scenes/engine_block.json: 1024 x 768 pixels of 3 x 3 rays each, on 8 nodes"
