@@ -23,6 +23,13 @@ bool is_looked_into(const std::string& name) {
          name == "difference" || name == "intersection" || name == "hull";
 }
 
+/// Asked first, since matrices take long to read: their rotations are recovered.
+bool has_hull(const std::vector<ScadModule>& modules) {
+  return std::any_of(modules.begin(), modules.end(), [](const ScadModule& module) {
+    return module.name == "hull" || has_hull(module.children);
+  });
+}
+
 Vec3 across(const Vec3& v, const Vec3& along) { return v - dot(along, v) * along; }
 
 /// Calls visit(module, to_world) for each module within that is_looked_into() doesn't name.
@@ -54,7 +61,7 @@ struct FacetedRounds::Hull {
 FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
                              std::uint32_t digits)
     : digits_(digits), share_(digits == kOpenscadDigits ? 1e-5 : 1e-9) {
-  if (options.facets) return;
+  if (options.facets || !has_hull(modules)) return;
   std::vector<Hull> hulls;
   find_hulls(modules, {}, hulls);
   OpenscadReport unread;
