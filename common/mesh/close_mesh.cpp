@@ -5,11 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "mesh/cut_face.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/join_points.hpp"
 
 namespace graycube {
 namespace {
@@ -134,11 +136,13 @@ MeshFault open_fault(const TriangleMesh& mesh, const MeshEdges& edges, const Mes
   const std::string many =
       counted(edges.unbalanced_count(), "edge", "edges") + " of " + std::to_string(edges.count());
   if (uses.forward + uses.backward == 1) {
-    return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)"};
+    return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)",
+            true};
   }
   return {"not a closed surface: " + where + " is used by " + std::to_string(uses.forward) +
-          " of its faces one way and by " + std::to_string(uses.backward) + " the other (" + many +
-          " are wrong)"};
+              " of its faces one way and by " + std::to_string(uses.backward) + " the other (" +
+              many + " are wrong)",
+          true};
 }
 
 /// Drops the points that no triangle uses, and numbers the others in the order of their first use.
@@ -157,20 +161,46 @@ void renumber(TriangleMesh& mesh) {
   mesh.points = std::move(points);
 }
 
+/// Turns faces until every edge is used as often one way as the other, or says why that can't be
+/// done.
+std::optional<MeshFault> fault_of_edges(TriangleMesh& mesh) {
+  if (MeshEdges(mesh.triangles).unbalanced_count() == 0) return std::nullopt;
+  const auto contradiction = agree_on_orientation(mesh.triangles);
+  if (contradiction) {
+    return MeshFault{"the surface has no inside: its faces can't be turned to agree at " +
+                     text_of_edge(mesh, *contradiction)};
+  }
+  const MeshEdges edges(mesh.triangles);
+  if (edges.unbalanced_count() == 0) return std::nullopt;
+  return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
+}
+
+/// The mesh with points that differ by rounding made one; without triangles if nothing is left.
+TriangleMesh joined_within_rounding(TriangleMesh mesh) {
+  double largest = 0;
+  for (const Vec3& p : mesh.points) largest = std::max(largest, max_abs(p));
+  std::vector<std::uint32_t> all(mesh.points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const auto number = joined_points(mesh.points, all, kRoundingShare * largest);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& i : t) i = number[i];
+  }
+  std::erase_if(mesh.triangles, has_equal_corners);
+  return mesh;
+}
+
 /// Makes the orientation consistent and outward, or says why that can't be done.
 std::variant<TriangleMesh, MeshFault> oriented(TriangleMesh mesh) {
   std::erase_if(mesh.triangles, has_equal_corners);
   if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
-  MeshEdges edges(mesh.triangles);
-  if (edges.unbalanced_count() > 0) {
-    const auto contradiction = agree_on_orientation(mesh.triangles);
-    if (contradiction) {
-      return MeshFault{"the surface has no inside: its faces can't be turned to agree at " +
-                       text_of_edge(mesh, *contradiction)};
+  // A mesh that is closed keeps all of its points, however close they are.
+  if (MeshEdges(mesh.triangles).unbalanced_count() > 0) {
+    TriangleMesh joined = joined_within_rounding(mesh);
+    if (fault_of_edges(mesh)) {
+      if (joined.triangles.empty()) return MeshFault{"no face encloses anything"};
+      if (auto fault = fault_of_edges(joined)) return *std::move(fault);
+      mesh = std::move(joined);
     }
-    edges = MeshEdges(mesh.triangles);
-    if (edges.unbalanced_count() > 0)
-      return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
   }
   if (volume(mesh) < 0) turn_inside_out(mesh);
   renumber(mesh);

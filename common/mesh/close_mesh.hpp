@@ -30,13 +30,16 @@ struct PolygonMesh {
 /// Why polygons don't enclose a solid; begins in lower case, for "mesh: …".
 struct MeshFault {
   std::string why;
+  /// Edges are open, which mesh/repair_mesh.hpp may mend.
+  bool is_open = false;
 };
 
 /// The closed mesh: points with bitwise equal coordinates become one (−0 is 0), points that no face
 /// uses and triangles with two equal corners are dropped. Every edge must be used by as many faces
 /// one way as the other. If that fails but every edge has two faces, faces are turned to agree with
-/// their neighbours. A mesh whose volume is negative is turned inside out as a whole. A result
-/// given to this function again comes back unchanged.
+/// their neighbours. If that fails, too, points that differ by no more than kRoundingShare
+/// (mesh/join_points.hpp) of the largest coordinate are one. A mesh whose volume is negative is
+/// turned inside out as a whole. A result given to this function again comes back unchanged.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
