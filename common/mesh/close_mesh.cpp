@@ -10,6 +10,7 @@
 
 #include "mesh/cut_face.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/weld.hpp"
 
 namespace graycube {
 namespace {
@@ -177,11 +178,8 @@ std::variant<TriangleMesh, MeshFault> oriented(TriangleMesh mesh) {
   return mesh;
 }
 
-}  // namespace
-
-std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
-  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
-  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+/// The mesh of faces and points that are in order.
+std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygons) {
   Welder weld(polygons.points);
   std::vector<std::uint32_t> corners = polygons.corners;
   for (std::uint32_t& c : corners) c = weld[c];
@@ -198,6 +196,30 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
     begin = end;
   }
   return oriented(std::move(mesh));
+}
+
+/// The largest coordinate of a corner.
+double size_of(const PolygonMesh& polygons) {
+  double size = 0;
+  for (const std::uint32_t i : polygons.corners) size = std::max(size, max_abs(polygons.points[i]));
+  return size;
+}
+
+}  // namespace
+
+std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons, double join_within) {
+  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
+  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+  auto as_written = cut_and_oriented(polygons);
+  if (std::holds_alternative<TriangleMesh>(as_written)) return as_written;
+  for (const double tolerance : {kWeldTolerance * size_of(polygons), join_within}) {
+    PolygonMesh joined = polygons;
+    const std::vector<std::uint32_t> first = first_within(polygons.points, tolerance);
+    for (std::uint32_t& corner : joined.corners) corner = first[corner];
+    auto closed = cut_and_oriented(joined);
+    if (std::holds_alternative<TriangleMesh>(closed)) return closed;
+  }
+  return as_written;
 }
 
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
