@@ -11,6 +11,7 @@
 #include "formats/openscad/flat/sums.hpp"
 #include "formats/openscad/language/arguments.hpp"
 #include "formats/openscad/language/matrix.hpp"
+#include "formats/openscad/language/module_kinds.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {
@@ -58,6 +59,7 @@ class FlatReader {
     if (name == "hull") return hull(module, map);
     if (name == "fill") return filled(module, map);
     if (name == "minkowski") return minkowski(module, map);
+    if (name == "projection" && dimension_of(module.children) == 0) return std::nullopt;
     return by_program(module, map);
   }
 
@@ -291,9 +293,9 @@ class FlatReader {
 
   /// Exact if each operand is convex, or all but one are circles; else the program evaluates it.
   std::optional<FlatShape> minkowski(const ScadModule& module, const FlatMap& map) {
-    if (import_.options.facets) return by_program(module, map);
     std::vector<FlatShape> parts = operands(module, {});
     if (parts.empty()) return std::nullopt;
+    if (parts.size() > 1 && import_.options.facets) return by_program(module, map);
     FlatShape sum = std::move(parts.front());
     for (std::size_t i = 1; i < parts.size(); ++i) {
       auto next = exact_flat_sum(sum, parts[i]);
