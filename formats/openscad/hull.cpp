@@ -27,7 +27,7 @@ bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
                 std::vector<Vec3>& corners) {
   if (is_container(module.name)) return corners_of_all(module.children, map, import, corners);
   if (module.name == "multmatrix") {
-    const auto inner = openscad_matrix(module, import.digits, import.report);
+    const auto inner = openscad_matrix_of_corners(module, import.digits, import.report);
     return !inner || corners_of_all(module.children, compose(map, *inner), import, corners);
   }
   if (module.name == "linear_extrude" || module.name == "rotate_extrude") {
@@ -37,6 +37,10 @@ bool corners_of(const ScadModule& module, const Affine& map, ScadImport& import,
     return true;
   }
   if (!is_openscad_primitive(module)) return false;
+  if (module.name == "polyhedron") {
+    for (const Vec3& p : polyhedron_corners(module, import.report)) corners.push_back(map.point(p));
+    return true;
+  }
   if (module.name == "sphere" || module.name == "cylinder") {
     import.warn_of_sides("hull", module.line);
   }

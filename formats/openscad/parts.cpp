@@ -11,7 +11,9 @@
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
+#include "formats/openscad/language/known_arguments.hpp"
 #include "formats/openscad/language/matrix.hpp"
+#include "formats/openscad/language/module_kinds.hpp"
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/rounds.hpp"
 #include "formats/openscad/sweep.hpp"
@@ -38,6 +40,10 @@ struct Surroundings {
   /// What of it isn't around all parts.
   Affine to_rest;
   ScadColor color;
+  /// What tools cut is green where no colour says otherwise; what is cut from a tool isn't.
+  ScadFace face = ScadFace::kOuter;
+  /// Within a render() all is one solid, in the colour around it.
+  bool is_one_solid = false;
   /// Nothing of the file stands beside what is in here, and matrices that do so are kept apart.
   bool is_around_all = false;
 };
@@ -54,32 +60,12 @@ std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
   return taken;
 }
 
-/// Whether the module only gathers or places the modules in it, whatever its dimension.
-bool is_gathering(const std::string& name) {
-  return name == "group" || name == "union" || name == "render" || name == "multmatrix" ||
-         name == "color";
-}
-
-/// Whether the program `openscad` must evaluate it; other modules don't occur in .csg files.
-bool is_for_program(const std::string& name) {
-  return name == "resize" || name == "import" || name == "surface" || name == "hull" ||
-         name == "roof" || name == "fill" || name == "intersection_for";
-}
-
 std::uint32_t levels_of(const CsgNode& node) {
   std::uint32_t most = 0;
   if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
     for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
   }
   return most + 1;
-}
-
-/// The dimension, 2 or 3, of the first module that has one.
-int dimension_of(const std::vector<ScadModule>& modules) {
-  for (const ScadModule& module : modules) {
-    if (!module.left_out && module.dimension != 0) return module.dimension;
-  }
-  return 0;
 }
 
 class Importer {
@@ -115,10 +101,17 @@ class Importer {
       inner.is_around_all = false;
       return add(module, inner, parts);
     }
+    // No shape is in it, unless there is a module that isn't known.
+    if (is_empty_without_shapes(name) && module.dimension == 0)
+      return add_all(module.children, around, parts);
     if (module.dimension == 2 && !is_gathering(name)) {
       add_slab(module, around, parts);
-    } else if (name == "group" || name == "union" || name == "render") {
+    } else if (name == "group" || name == "union") {
       add_all(module.children, around, parts);
+    } else if (name == "render") {
+      Surroundings inner = around;
+      inner.is_one_solid = true;
+      add_all(module.children, inner, parts);
     } else if (name == "multmatrix") {
       add_transformed(module, around, parts);
     } else if (name == "color") {
@@ -129,7 +122,9 @@ class Importer {
       add_intersection(module, around, parts);
     } else if (is_openscad_primitive(module)) {
       add_primitive(module, around, parts);
-    } else if (name == "linear_extrude" || name == "rotate_extrude") {
+    } else if (is_extrusion(name) && module.argument("file") != nullptr) {
+      add_by_program(module, around, parts);
+    } else if (is_extrusion(name)) {
       if (auto solid = openscad_sweep(module, import_))
         add_solid(std::move(*solid), {}, module, around, parts);
     } else if (name == "hull") {
@@ -182,8 +177,14 @@ class Importer {
     const std::optional<ScadColor> color = openscad_color(module, report_);
     if (!color) return;
     Surroundings inner = around;
-    if (!around.color.is_valid()) inner.color = *color;
+    if (!around.color.is_valid() && !around.is_one_solid) inner.color = *color;
     add_all(module.children, inner, parts);
+  }
+
+  static Surroundings as_tool(Surroundings around) {
+    if (!around.is_one_solid)
+      around.face = around.face == ScadFace::kOuter ? ScadFace::kCut : ScadFace::kOuter;
+    return around;
   }
 
   /// Operands are gathered at the end of `parts`. If the difference subtracts nothing, its operands
@@ -195,7 +196,7 @@ class Importer {
     bool is_first = true;
     for (const ScadModule& child : module.children) {
       if (child.left_out || !fits(child, 3)) continue;
-      add(child, around, parts);
+      add(child, is_first ? around : as_tool(around), parts);
       if (std::exchange(is_first, false)) rest = parts.size();
     }
     if (rest == first) taken_from(parts, first);
@@ -259,7 +260,7 @@ class Importer {
   void add_primitive(const ScadModule& module, const Surroundings& around,
                      std::vector<Part>& parts) {
     const bool facets = import_.options.facets || faceted_.contains(module, around.to_world);
-    std::optional<ScadSolid> solid = openscad_primitive(module, report_, facets);
+    std::optional<ScadSolid> solid = openscad_primitive(module, report_, facets, import_.digits);
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
   }
 
@@ -299,7 +300,7 @@ class Importer {
       return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
     }
     ScadArguments arguments(module, report_);
-    auto solid = polyhedral_solid(std::move(mesh), arguments);
+    auto solid = polyhedral_solid(std::move(mesh), arguments, precision_of(import_.digits));
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
   }
 
@@ -312,7 +313,8 @@ class Importer {
     import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
     auto result = import_.delegate.solid(module);
     if (const auto* trouble = std::get_if<std::string>(&result)) {
-      return report_.error(module.line, module.name + "(): " + *trouble);
+      return report_.leave_out(module.name + "() by openscad", module.line,
+                               module.name + "() is left out: " + *trouble);
     }
     const PolygonMesh& mesh = std::get<PolygonMesh>(result);
     auto solid = mesh_leaf(mesh, module, report_);
@@ -344,7 +346,7 @@ class Importer {
                            "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
     }
     place(solid, around);
-    solid.material = palette_.index_of(around.color);
+    solid.material = palette_.index_of(around.color, around.face);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
   }
 
@@ -382,6 +384,7 @@ OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const Opens
   OpenscadParts result;
   Surroundings none;
   none.is_around_all = keeps_apart;
+  warn_of_unknown_arguments(modules, report);
   importer.add_all(modules, none, result.parts);
   result.materials = importer.take_materials();
   result.around_all = importer.around_all();

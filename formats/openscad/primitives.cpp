@@ -5,14 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "formats/openscad/hulls/mesh.hpp"
+#include "formats/openscad/polyhedron.hpp"
 #include "geometry/aabb.hpp"
 
 namespace graycube {
 namespace {
-
-/// Meshes of more faces are not tested for being convex.
-constexpr std::size_t kMaxTestedFaces = 4 * kMaxPolyhedronFaces;
 
 bool positive(double v) { return std::isfinite(v) && v > 0; }
 
@@ -77,79 +74,7 @@ std::optional<ScadSolid> cylinder(ScadArguments& arguments, bool facets) {
   return round_solid(ConeShape{{0, 0, low}, r1, {0, 0, high}, r2});
 }
 
-bool read_points(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
-  if (list.size() > kMaxOpenscadPoints) {
-    arguments.fail("more than " + std::to_string(kMaxOpenscadPoints) + " points");
-    return false;
-  }
-  for (const ScadValue& value : list) {
-    const std::optional<Vec3> point = ScadArguments::vector(value);
-    if (!point || !(max_abs(*point) <= kMaxOpenscadCoordinate) || !is_finite(*point)) {
-      arguments.fail("point " + std::to_string(mesh.points.size()) +
-                     " is not three numbers of sensible size");
-      return false;
-    }
-    mesh.points.push_back(*point);
-  }
-  return true;
-}
-
-bool read_faces(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
-  if (list.size() > kMaxOpenscadFaces) {
-    arguments.fail("more than " + std::to_string(kMaxOpenscadFaces) + " faces");
-    return false;
-  }
-  for (const ScadValue& value : list) {
-    const ScadList* corners = value.list();
-    std::vector<std::uint32_t> face;
-    bool ok = corners != nullptr && corners->size() <= kMaxOpenscadPoints;
-    for (std::size_t i = 0; ok && i < corners->size(); ++i) {
-      const double* index = (*corners)[i].number();
-      ok = index != nullptr && *index >= 0 && *index < static_cast<double>(mesh.points.size()) &&
-           *index == std::floor(*index);
-      if (ok) face.push_back(static_cast<std::uint32_t>(*index));
-    }
-    if (!ok) {
-      arguments.fail("face " + std::to_string(mesh.faces.size()) +
-                     " is not a list of numbers of points");
-      return false;
-    }
-    mesh.faces.push_back(std::move(face));
-  }
-  return true;
-}
-
-std::optional<ScadSolid> polyhedron(ScadArguments& arguments) {
-  const ScadList* points = arguments.list("points", 0);
-  const ScadList* faces = arguments.list("faces", 1);
-  ScadMesh mesh;
-  if (points == nullptr || faces == nullptr || !read_points(*points, mesh, arguments) ||
-      !read_faces(*faces, mesh, arguments)) {
-    return std::nullopt;
-  }
-  return polyhedral_solid(std::move(mesh), arguments);
-}
-
 }  // namespace
-
-std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments) {
-  if (mesh.faces.size() <= kMaxTestedFaces) {
-    ConvexPlanes convex = convex_planes(mesh);
-    if (convex.problem.empty() && convex.planes.size() <= kMaxPolyhedronFaces) {
-      if (arguments.empty_unless(!convex.flat, "it encloses no volume")) return std::nullopt;
-      CsgNode leaf{PolyhedronShape{std::move(convex.planes)}, std::nullopt, kInheritMaterial};
-      return ScadSolid{std::move(leaf), std::move(mesh.points)};
-    }
-  }
-  auto closed = closed_mesh(polygons_of(mesh));
-  if (auto* fault = std::get_if<MeshFault>(&closed)) {
-    arguments.fail("its faces enclose no solid: " + fault->why);
-    return std::nullopt;
-  }
-  CsgNode leaf{MeshShape{std::get<TriangleMesh>(std::move(closed))}, std::nullopt,
-               kInheritMaterial};
-  return ScadSolid{std::move(leaf), std::move(mesh.points)};
-}
 
 bool is_openscad_primitive(const ScadModule& module) {
   return module.name == "cube" || module.name == "sphere" || module.name == "cylinder" ||
@@ -157,12 +82,12 @@ bool is_openscad_primitive(const ScadModule& module) {
 }
 
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
-                                            bool facets) {
+                                            bool facets, std::uint32_t digits) {
   ScadArguments arguments(module, report);
   if (module.name == "cube") return cube(module, arguments);
   if (module.name == "sphere") return sphere(arguments, facets);
   if (module.name == "cylinder") return cylinder(arguments, facets);
-  return polyhedron(arguments);
+  return polyhedron(arguments, digits);
 }
 
 std::optional<ScadRound> openscad_round(const ScadModule& module) {

@@ -12,22 +12,34 @@
 namespace graycube {
 
 /// A leaf in its own coordinates, its material still to be set; and its corners, unless it is
-/// round.
+/// round: those that its faces use.
 struct ScadSolid {
   CsgNode leaf;
   std::vector<Vec3> corners;
 };
 
-/// A convex solid of few faces as half-spaces, any other as a mesh; nothing, reported, when its
-/// faces enclose none.
-std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments);
+/// A convex solid of few faces as half-spaces, any other as a mesh; nothing, with a warning, when
+/// its faces enclose none. Corners may be off their places by the precision, a part of their
+/// coordinates.
+std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments,
+                                          double precision = kSixDigitPrecision);
+/// The precision of what is computed from numbers of so many digits.
+double precision_of(std::uint32_t digits);
+
+/// Corners that OpenSCAD's grid makes one.
+inline constexpr double kOpenscadGrid = 0.00000095367431640625;
 
 bool is_openscad_primitive(const ScadModule& module);
 
 /// The primitive's solid. Nothing, with a warning, when OpenSCAD would leave it out (size 0, a
 /// negative radius, not finite); nothing, with an error, when the arguments make no sense here.
+/// `digits` are those of the file's numbers.
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
-                                            bool facets = false);
+                                            bool facets = false,
+                                            std::uint32_t digits = kOpenscadDigits);
+
+/// The corners of a polyhedron()'s faces, which may enclose nothing.
+std::vector<Vec3> polyhedron_corners(const ScadModule& module, OpenscadReport& report);
 
 /// A sphere, or a cylinder as wide at both ends, that may stay round.
 struct ScadRound {

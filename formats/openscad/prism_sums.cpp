@@ -53,7 +53,7 @@ FlatShape rectangle(const Vec3& lo, const Vec3& hi) {
 
 bool add_primitive(const ScadModule& module, const Affine& map, ScadImport& import,
                    Operand& operand) {
-  const auto solid = openscad_primitive(module, import.report);
+  const auto solid = openscad_primitive(module, import.report, false, import.digits);
   if (!solid) return true;
   if (const auto* sphere = std::get_if<SphereShape>(&solid->leaf.value)) {
     const auto scale = map.similarity_scale();

@@ -74,9 +74,16 @@ RoundItem disc(const Vec3& center, double radius, const Affine& map) {
 
 bool add_primitive(const ScadModule& module, const Affine& map, PieceUse use, ScadImport& import,
                    std::vector<RoundPiece>& pieces) {
-  const auto solid = openscad_primitive(module, import.report, import.options.facets);
-  if (!solid) return true;
   RoundPiece piece;
+  if (use == PieceUse::kHull && module.name == "polyhedron") {
+    for (const Vec3& corner : polyhedron_corners(module, import.report))
+      piece.push_back({Kind::kPoint, {corner, 0}, map});
+    if (!piece.empty()) pieces.push_back(std::move(piece));
+    return true;
+  }
+  const auto solid =
+      openscad_primitive(module, import.report, import.options.facets, import.digits);
+  if (!solid) return true;
   if (const auto* sphere = std::get_if<SphereShape>(&solid->leaf.value)) {
     piece.push_back({Kind::kBall, {sphere->center, sphere->radius}, map});
   } else if (const auto* cylinder = std::get_if<CylinderShape>(&solid->leaf.value)) {
@@ -186,8 +193,11 @@ bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadI
                 std::vector<RoundPiece>& pieces) {
   if (is_container(module.name)) return add_all(module.children, map, use, import, pieces);
   if (module.name == "multmatrix") {
-    const auto inner = openscad_matrix(module, import.digits, import.report);
-    return !inner || add_all(module.children, compose(map, *inner), use, import, pieces);
+    const auto inner = openscad_matrix_of_corners(module, import.digits, import.report);
+    if (!inner) return true;
+    // What is flattened counts in hulls only.
+    if (use == PieceUse::kConvex && !inner->inverse()) return false;
+    return add_all(module.children, compose(map, *inner), use, import, pieces);
   }
   if (module.name == "hull") return add_hull(module.children, map, import, pieces);
   if (module.name == "minkowski") return add_sum(module, map, use, import, pieces);

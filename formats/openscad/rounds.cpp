@@ -64,7 +64,7 @@ ExactSolid solid_of_points(const RoundPiece& items, const ScadModule& module, Sc
   ScadMesh mesh = convex_hull(corners);
   if (mesh.faces.empty()) return EmptySolid{};
   ScadArguments arguments(module, import.report);
-  auto solid = polyhedral_solid(std::move(mesh), arguments);
+  auto solid = polyhedral_solid(std::move(mesh), arguments, precision_of(import.digits));
   if (!solid) return EmptySolid{};
   return RoundSolid{std::move(solid->leaf), std::move(solid->corners)};
 }

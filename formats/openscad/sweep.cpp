@@ -8,6 +8,7 @@
 #include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
 #include "formats/openscad/language/arguments.hpp"
+#include "formats/openscad/primitives.hpp"
 #include "formats/openscad/sweep_arguments.hpp"
 #include "formats/openscad/sweep_mesh.hpp"
 #include "geometry/portable_math.hpp"
@@ -74,7 +75,7 @@ std::optional<CsgNode> extruded_mesh(const FlatLoops& part, double low, double h
   sweep.high = high;
   const auto meshes = swept(part, sweep);
   if (!meshes || meshes->size() != 1) {
-    import.report.warning(line, "a figure is left out: its outlines cross");
+    import.report.leave_out("crossing figure", line, "a figure is left out: its outlines cross");
     return std::nullopt;
   }
   ScadModule extrusion;
@@ -284,9 +285,10 @@ std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high,
 std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module,
                                  OpenscadReport& report) {
   if (mesh.face_ends.empty()) return std::nullopt;
-  auto closed = closed_mesh(mesh);
+  auto closed = closed_mesh(mesh, kOpenscadGrid);
   if (auto* fault = std::get_if<MeshFault>(&closed)) {
-    report.error(module.line, module.name + "(): its faces enclose no solid: " + fault->why);
+    report.leave_out(module.name + "() not closed", module.line,
+                     module.name + "() is left out: its faces enclose no solid: " + fault->why);
     return std::nullopt;
   }
   return leaf(MeshShape{std::get<TriangleMesh>(std::move(closed)), mesh.digits});

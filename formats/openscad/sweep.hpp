@@ -40,7 +40,7 @@ std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& imp
 std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,
                                         int line);
 
-/// A closed mesh as a leaf; nothing when it is empty, or, with an error, when it isn't closed.
+/// A closed mesh as a leaf; nothing when it is empty, or, with a warning, when it isn't closed.
 std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& module,
                                  OpenscadReport& report);
 

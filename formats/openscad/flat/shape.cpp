@@ -6,10 +6,12 @@
 
 #include "flat/flush.hpp"
 #include "flat/offset.hpp"
+#include "formats/openscad/flat/polygon_arguments.hpp"
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/sums.hpp"
 #include "formats/openscad/language/arguments.hpp"
 #include "formats/openscad/language/matrix.hpp"
+#include "formats/openscad/language/module_kinds.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {
@@ -38,7 +40,7 @@ class FlatReader {
 
   std::optional<FlatShape> shape(const ScadModule& module, const FlatMap& map) {
     const std::string& name = module.name;
-    if (module.left_out) return std::nullopt;
+    if (module.left_out || module.dimension == 0) return std::nullopt;
     if (name == "group" || name == "union" || name == "color" || name == "render") {
       return united(module.children, map, module.line);
     }
@@ -55,7 +57,9 @@ class FlatReader {
     if (name == "polygon") return polygon(module, arguments, map);
     if (name == "offset") return offset_of(module, arguments, map);
     if (name == "hull") return hull(module, map);
+    if (name == "fill") return filled(module, map);
     if (name == "minkowski") return minkowski(module, map);
+    if (name == "projection" && dimension_of(module.children) == 0) return std::nullopt;
     return by_program(module, map);
   }
 
@@ -185,58 +189,12 @@ class FlatReader {
 
   std::optional<FlatShape> polygon(const ScadModule& module, ScadArguments& arguments,
                                    const FlatMap& map) {
-    const ScadValue* value_of_points = module.argument("points", 0);
-    if (arguments.empty_unless(value_of_points != nullptr, "it has no points")) return std::nullopt;
-    const ScadList* list = arguments.list("points", 0);
-    if (list == nullptr) return std::nullopt;
-    FlatLoop points;
-    for (const ScadValue& value : *list) {
-      const auto p = ScadArguments::pair(value);
-      if (!p || !(std::max(std::fabs(p->x), std::fabs(p->y)) <= kMaxOpenscadCoordinate)) {
-        arguments.fail("point " + std::to_string(points.size()) +
-                       " is not two numbers of sensible size");
-        return std::nullopt;
-      }
-      points.push_back(*p);
-    }
     FlatLoops loops;
-    if (const ScadValue* paths = module.argument("paths", 1)) {
-      if (!read_paths(*paths, points, arguments, loops)) return std::nullopt;
-    } else {
-      loops.push_back(std::move(points));
-    }
+    if (!read_polygon(module, arguments, loops)) return std::nullopt;
     std::erase_if(loops, [](const FlatLoop& loop) { return loop.size() < 3; });
     if (arguments.empty_unless(!loops.empty(), "it has fewer than three corners"))
       return std::nullopt;
     return of_loops(loops, map, module.line);
-  }
-
-  static bool read_paths(const ScadValue& value, const FlatLoop& points, ScadArguments& arguments,
-                         FlatLoops& loops) {
-    const ScadList* paths = value.list();
-    const ScadList alone{value};
-    // A single path may stand without a list around it.
-    if (paths != nullptr && !paths->empty() && paths->front().number() != nullptr) paths = &alone;
-    if (paths == nullptr) {
-      arguments.fail("paths must be lists of numbers of points");
-      return false;
-    }
-    for (const ScadValue& path : *paths) {
-      const ScadList* corners = path.list();
-      FlatLoop& loop = loops.emplace_back();
-      bool good = corners != nullptr;
-      for (std::size_t i = 0; good && i < corners->size(); ++i) {
-        const double* index = (*corners)[i].number();
-        good = index != nullptr && *index >= 0 && *index < static_cast<double>(points.size());
-        if (good) loop.push_back(points[static_cast<std::size_t>(*index)]);
-      }
-      if (!good) {
-        arguments.fail("path " + std::to_string(loops.size() - 1) +
-                       " is not a list of numbers of points");
-        return false;
-      }
-    }
-    return true;
   }
 
   std::optional<FlatShape> offset_of(const ScadModule& module, ScadArguments& arguments,
@@ -288,6 +246,21 @@ class FlatReader {
     return mapped(map, *std::move(shape));
   }
 
+  /// OpenSCAD's of 2022 and later: without the holes.
+  std::optional<FlatShape> filled(const ScadModule& module, const FlatMap& map) {
+    import_.warn_once(module.line,
+                      "fill() is done here, as OpenSCAD 2025 does it: older ones don't know it");
+    const auto inner = united(module.children, {}, module.line);
+    if (!inner) return std::nullopt;
+    if (inner->kind == Kind::kDisk) return mapped(map, *inner);
+    if (inner->has_curves()) import_.warn_of_sides(module.name, module.line);
+    const auto loops = polygon_of(*inner, import_, module.line);
+    if (!loops) return std::nullopt;
+    FlatLoops outlines;
+    for (FlatRegion& region : regions_of(*loops)) outlines.push_back(std::move(region.outline));
+    return of_loops(outlines, map, module.line);
+  }
+
   std::vector<FlatShape> operands(const ScadModule& module, const FlatMap& map) {
     std::vector<FlatShape> parts;
     for (const ScadModule& child : module.children) {
@@ -320,9 +293,9 @@ class FlatReader {
 
   /// Exact if each operand is convex, or all but one are circles; else the program evaluates it.
   std::optional<FlatShape> minkowski(const ScadModule& module, const FlatMap& map) {
-    if (import_.options.facets) return by_program(module, map);
     std::vector<FlatShape> parts = operands(module, {});
     if (parts.empty()) return std::nullopt;
+    if (parts.size() > 1 && import_.options.facets) return by_program(module, map);
     FlatShape sum = std::move(parts.front());
     for (std::size_t i = 1; i < parts.size(); ++i) {
       auto next = exact_flat_sum(sum, parts[i]);
@@ -342,7 +315,8 @@ class FlatReader {
     import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a polygon");
     auto result = import_.delegate.flat(module);
     if (const auto* trouble = std::get_if<std::string>(&result)) {
-      import_.report.error(module.line, module.name + "(): " + *trouble);
+      import_.report.leave_out(module.name + "() by openscad", module.line,
+                               module.name + "() is left out: " + *trouble);
       return std::nullopt;
     }
     return of_loops(std::get<FlatLoops>(result), map, module.line);

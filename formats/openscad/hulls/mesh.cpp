@@ -15,9 +15,6 @@ namespace {
 using Face = std::vector<std::uint32_t>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Numbers of six significant digits are off by at most 5e-6 of a coordinate; so are a point and
-/// the plane in which it lies.
-constexpr double kWrittenPrecision = 1e-5;
 /// A face narrower than this, relative to its length, has no normal.
 constexpr double kLeastFaceWidth = 1e-12;
 
@@ -151,13 +148,13 @@ std::vector<std::uint32_t> used_points(const std::vector<Face>& faces) {
 
 /// Planes of all faces that have one, the largest face first, as rounding turns its plane
 /// least.
-std::vector<FacePlane> face_planes(const std::vector<Vec3>& points,
-                                   const std::vector<Face>& faces) {
+std::vector<FacePlane> face_planes(const std::vector<Vec3>& points, const std::vector<Face>& faces,
+                                   double precision) {
   Vec3 rounding;
   for (const Face& face : faces) {
     for (const std::uint32_t i : face) {
       for (int a = 0; a < 3; ++a)
-        rounding[a] = std::max(rounding[a], kWrittenPrecision * std::fabs(points[i][a]));
+        rounding[a] = std::max(rounding[a], precision * std::fabs(points[i][a]));
     }
   }
   std::vector<FacePlane> planes;
@@ -182,14 +179,14 @@ void settle(FacePlane& plane, bool turn, const std::vector<Vec3>& points,
 
 }  // namespace
 
-ConvexPlanes convex_planes(const ScadMesh& mesh) {
+ConvexPlanes convex_planes(const ScadMesh& mesh, double precision) {
   const std::vector<Face> faces = joined_faces(mesh);
   if (faces.empty()) return {.planes = {}, .problem = {}, .flat = true};
   if (std::string edge = open_edge(faces); !edge.empty()) return {{}, std::move(edge), false};
   const std::vector<std::uint32_t> used = used_points(faces);
 
   std::vector<FacePlane> kept;
-  for (FacePlane& plane : face_planes(mesh.points, faces)) {
+  for (FacePlane& plane : face_planes(mesh.points, faces, precision)) {
     const Face& face = faces[plane.face];
     if (!lies_in(mesh.points, face, plane)) {
       return {{}, "has a face that is not flat", false};
@@ -249,6 +246,18 @@ ScadMesh stacked_rings(std::span<const std::pair<double, double>> radius_and_hei
 }
 
 }  // namespace
+
+std::vector<Vec3> used_points(const ScadMesh& mesh) {
+  std::vector<bool> is_used(mesh.points.size());
+  std::vector<Vec3> used;
+  for (const Face& face : mesh.faces) {
+    for (const std::uint32_t i : face) {
+      if (!is_used[i]) used.push_back(mesh.points[i]);
+      is_used[i] = true;
+    }
+  }
+  return used;
+}
 
 PolygonMesh polygons_of(const ScadMesh& mesh) {
   PolygonMesh polygons;

@@ -31,11 +31,19 @@ struct ConvexPlanes {
   bool flat = false;
 };
 
+/// How far coordinates may be off, as a part of them: once they were written with six digits (a
+/// point and the plane in which it lies are each off by up to 5e-6), and if they only were
+/// computed.
+inline constexpr double kSixDigitPrecision = 1e-5;
+inline constexpr double kComputedPrecision = 1e-12;
+
 /// The planes of a convex mesh, coplanar faces merged. Every index must be in range, every
 /// coordinate finite and at most kMaxOpenscadCoordinate. Points count as lying on a plane within
-/// the rounding of the six digits that OpenSCAD writes; which side of a face is outside is seen
-/// from the other points.
-ConvexPlanes convex_planes(const ScadMesh& mesh);
+/// the precision; which side of a face is outside is seen from the other points.
+ConvexPlanes convex_planes(const ScadMesh& mesh, double precision = kSixDigitPrecision);
+
+/// The points that faces use, in the order of their first use.
+std::vector<Vec3> used_points(const ScadMesh& mesh);
 
 /// The mesh that OpenSCAD builds for cylinder(): prisms, frusta and pyramids of `sides` ≥ 3 sides
 /// about z, the first corner at angle 0; one of the radii may be zero.

@@ -64,6 +64,17 @@ class ScadArguments {
     report_.error(module_.line, module_.name + "(): " + why);
     ok_ = false;
   }
+  /// The part is missing because of this; `kind` is what parts that are missing for the same reason
+  /// have in common.
+  void leave_out(const std::string& kind, const std::string& why) {
+    report_.leave_out(module_.name + "() " + kind, module_.line,
+                      module_.name + "() is left out: " + why);
+    ok_ = false;
+  }
+  /// A warning about what is ignored; the part stays.
+  void ignore(const std::string& kind, const std::string& what) {
+    report_.warning(module_.name + "() " + kind, module_.line, module_.name + "(): " + what);
+  }
   /// True, with a warning, if OpenSCAD makes nothing of this; true also after an error.
   bool empty_unless(bool solid, const char* why) {
     if (ok_ && !solid) report_.warning(module_.line, module_.name + "() is left out: " + why);

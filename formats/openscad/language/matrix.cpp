@@ -29,7 +29,7 @@ std::optional<Affine> written_matrix(const ScadModule& module, ScadArguments& ar
     }
   }
   if (arguments.ok() && (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0)) {
-    arguments.fail("a fourth row other than [0, 0, 0, w] is not supported");
+    arguments.ignore("fourth row", "the first three entries of a matrix's fourth row are ignored");
   }
   Affine map;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -53,6 +53,14 @@ std::optional<Affine> openscad_matrix(const ScadModule& module, std::uint32_t di
       arguments.empty_unless(map->inverse().has_value(), "its matrix flattens everything in it")) {
     return std::nullopt;
   }
+  return recovered_rotation(*map, digits);
+}
+
+std::optional<Affine> openscad_matrix_of_corners(const ScadModule& module, std::uint32_t digits,
+                                                 OpenscadReport& report) {
+  ScadArguments arguments(module, report);
+  const auto map = written_matrix(module, arguments);
+  if (!map || !map->inverse()) return map;
   return recovered_rotation(*map, digits);
 }
 

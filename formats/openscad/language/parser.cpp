@@ -257,6 +257,8 @@ void note_dimensions(std::vector<ScadModule>& modules) {
     for (const ScadModule& child : module.children) {
       if (module.dimension == 0 && !child.left_out) module.dimension = child.dimension;
     }
+    // A roof stands on what is flat.
+    if (module.name == "roof" && module.dimension == 2) module.dimension = 3;
   }
 }
 

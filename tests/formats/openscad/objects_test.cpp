@@ -78,7 +78,35 @@ TEST_CASE("what a coloured cutter leaves has the cutter's colour, each leaf its 
   CHECK(scene.objects[0].material == kInheritMaterial);
   const auto& root = std::get<OperationNode>(scene.objects[0].csg.value);
   CHECK(scene.materials[root.children[0].material].name == "color 1");
-  CHECK(scene.materials[root.children[1].material].name == "default");
+  CHECK(scene.materials[root.children[1].material].name == "cut");
+}
+
+TEST_CASE("what a tool without a colour cuts is green, as in OpenSCAD's preview") {
+  const Scene scene =
+      scene_of("difference() { cube(9); difference() { cube(5); sphere(3); cube(2); } }");
+  const auto& root = std::get<OperationNode>(scene.objects[0].csg.value);
+  const auto& tool = std::get<OperationNode>(root.children[1].value);
+  const auto name = [&](const CsgNode& leaf) { return scene.materials[leaf.material].name; };
+  CHECK(name(root.children[0]) == "default");
+  CHECK(name(tool.children[0]) == "cut");
+  // What is cut from the tool stays of the solid.
+  CHECK(name(tool.children[1]) == "default");
+  const Rgb green = scene.materials[tool.children[0].material].material.color;
+  CHECK(green.r == Approx(0.33716362));
+  CHECK(green.g == Approx(0.59720179));
+  CHECK(green.b == Approx(0.08228271));
+}
+
+TEST_CASE(
+    "a colour around a difference is also that of the cut, one inside a render() counts not") {
+  CHECK(scene_of("color([1, 0, 0, 1]) difference() { cube(3); sphere(1); }").materials.size() == 1);
+  const Scene one = scene_of("render() difference() { color([1, 0, 0, 1]) cube(3); sphere(1); }");
+  REQUIRE(one.materials.size() == 1);
+  CHECK(one.materials[0].name == "default");
+  const Scene tool =
+      scene_of("difference() { cube(9); render() difference() { cube(5); sphere(3); } }");
+  REQUIRE(tool.materials.size() == 2);
+  CHECK(tool.materials[1].name == "cut");
 }
 
 TEST_CASE("what is read can be written as a scene file and passes all checks of its reader") {

@@ -119,9 +119,9 @@ TEST_CASE("braces that don't match are errors") {
 }
 
 TEST_CASE("errors inside a broken module's children are found as well") {
-  const auto errors = errors_of("union(a = b + c) {\n  minkowski();\n}");
+  const auto errors = errors_of("union(a = b + c) {\n  resized();\n}");
   REQUIRE(errors.size() == 2);
-  CHECK(errors[1].starts_with("2: minkowski()"));
+  CHECK(errors[1].starts_with("2: resized()"));
 }
 
 TEST_CASE("source code of OpenSCAD gets a hint how to make a .csg file of it") {
@@ -171,9 +171,9 @@ TEST_CASE("a file past the limits of size, modules or values is refused") {
 }
 
 TEST_CASE("past the cap errors are only counted") {
-  const auto errors = errors_of(repeated("minkowski();\n", 150));
+  const auto errors = errors_of(repeated("resized();\n", 150));
   REQUIRE(errors.size() == kMaxOpenscadErrors + 1);
-  CHECK(errors[99].starts_with("100: minkowski()"));
+  CHECK(errors[99].starts_with("100: resized()"));
   CHECK(errors[100] == "0: and 50 more errors");
 }
 

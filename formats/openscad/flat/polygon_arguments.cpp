@@ -1,0 +1,80 @@
+#include "formats/openscad/flat/polygon_arguments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+bool read_points(const ScadList& list, ScadArguments& arguments, FlatLoop& points) {
+  for (const ScadValue& value : list) {
+    const auto p = ScadArguments::pair(value);
+    if (!p || !(std::max(std::fabs(p->x), std::fabs(p->y)) <= kMaxOpenscadCoordinate)) {
+      arguments.leave_out("point", "point " + std::to_string(points.size()) +
+                                       " is not two numbers of sensible size");
+      return false;
+    }
+    points.push_back(*p);
+  }
+  return true;
+}
+
+/// Numbers of points that aren't there are passed over, as OpenSCAD does; false if something is no
+/// number.
+bool read_path(const ScadList& corners, const FlatLoop& points, FlatLoop& loop,
+               bool& has_strangers) {
+  for (const ScadValue& corner : corners) {
+    const double* index = corner.number();
+    if (index == nullptr) return false;
+    if (*index >= 0 && *index < static_cast<double>(points.size())) {
+      loop.push_back(points[static_cast<std::size_t>(*index)]);
+    } else {
+      has_strangers = true;
+    }
+  }
+  return true;
+}
+
+bool read_paths(const ScadValue& value, const FlatLoop& points, ScadArguments& arguments,
+                FlatLoops& loops) {
+  const ScadList* paths = value.list();
+  const ScadList alone{value};
+  // A single path may stand without a list around it.
+  if (paths != nullptr && !paths->empty() && paths->front().number() != nullptr) paths = &alone;
+  if (paths == nullptr) {
+    arguments.leave_out("paths", "paths must be lists of numbers of points");
+    return false;
+  }
+  for (std::size_t i = 0; i < paths->size(); ++i) {
+    const ScadList* corners = (*paths)[i].list();
+    bool has_strangers = false;
+    if (corners == nullptr || !read_path(*corners, points, loops.emplace_back(), has_strangers)) {
+      arguments.leave_out("path",
+                          "path " + std::to_string(i) + " is not a list of numbers of points");
+      return false;
+    }
+    if (has_strangers) {
+      arguments.ignore("strange point", "path " + std::to_string(i) +
+                                            " names a point that isn't there, which is ignored");
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool read_polygon(const ScadModule& module, ScadArguments& arguments, FlatLoops& loops) {
+  const ScadValue* value = module.argument("points", 0);
+  if (arguments.empty_unless(value != nullptr, "it has no points")) return false;
+  const ScadList* list = arguments.list("points", 0);
+  FlatLoop points;
+  if (list == nullptr || !read_points(*list, arguments, points)) return false;
+  if (const ScadValue* paths = module.argument("paths", 1))
+    return read_paths(*paths, points, arguments, loops);
+  loops.push_back(std::move(points));
+  return true;
+}
+
+}  // namespace graycube
