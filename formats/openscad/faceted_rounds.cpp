@@ -4,10 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/primitives.hpp"
-#include "formats/openscad/rounds.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {
@@ -20,7 +18,7 @@ constexpr int kMostLevels = 256;
 
 bool is_looked_into(const std::string& name) {
   return name == "group" || name == "union" || name == "render" || name == "color" ||
-         name == "difference" || name == "intersection" || name == "hull";
+         name == "difference" || name == "intersection";
 }
 
 /// Asked first, since matrices take long to read: their rotations are recovered.
@@ -32,7 +30,7 @@ bool has_hull(const std::vector<ScadModule>& modules) {
 
 Vec3 across(const Vec3& v, const Vec3& along) { return v - dot(along, v) * along; }
 
-/// Calls visit(module, to_world) for each module within that is_looked_into() doesn't name.
+/// Calls visit(module, to_world) for each solid within: hulls, and all else that isn't looked into.
 template <typename Visit>
 void for_each_solid(const ScadModule& module, const Affine& to_world, std::uint32_t digits,
                     int levels, const Visit& visit) {
@@ -50,34 +48,49 @@ void for_each_solid(const ScadModule& module, const Affine& to_world, std::uint3
     for_each_solid(child, *inner, digits, levels - 1, visit);
 }
 
-}  // namespace
+/// Calls visit(module, to_world) for each solid within, and for those of which hulls are made.
+template <typename Visit>
+void for_each_operand(const ScadModule& module, const Affine& to_world, std::uint32_t digits,
+                      int levels, const Visit& visit) {
+  for_each_solid(module, to_world, digits, levels, [&](const ScadModule& solid, const Affine& map) {
+    if (solid.name != "hull") return visit(solid, map);
+    for (const ScadModule& child : solid.children)
+      for_each_operand(child, map, digits, levels - 1, visit);
+  });
+}
 
-struct FacetedRounds::Hull {
+/// A hull that has an exact form, for which it is taken unless it touches facets.
+struct ExactHull {
   const ScadModule* module;
   Affine to_world;
-  bool is_exact;
+  bool has_facets = false;
 };
 
+}  // namespace
+
 FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits)
+                             std::uint32_t digits, ExactForms& forms)
     : digits_(digits), share_(digits == kOpenscadDigits ? 1e-5 : 1e-9) {
   if (options.facets || !has_hull(modules)) return;
-  std::vector<Hull> hulls;
-  find_hulls(modules, {}, hulls);
-  OpenscadReport unread;
-  ScadImport import{options, unread, OpenscadDelegate(nullptr, options.folder), digits, {}};
-  for (Hull& hull : hulls) {
-    const ExactSolid exact = exact_hull(*hull.module, import);
-    hull.is_exact = !std::holds_alternative<NoExactForm>(exact);
-    if (!hull.is_exact) add_all(*hull.module, hull.to_world);
+  std::vector<ExactHull> hulls;
+  for (const ScadModule& module : modules) {
+    for_each_solid(module, {}, digits, kMostLevels,
+                   [&](const ScadModule& solid, const Affine& to_world) {
+                     if (solid.name != "hull") return;
+                     if (forms.has_form(solid)) {
+                       hulls.push_back({&solid, to_world});
+                     } else {
+                       add_all(solid, to_world);
+                     }
+                   });
   }
   if (rings_.empty()) return;
   bool has_grown = true;
   for (int pass = 0; has_grown && pass < kMostPasses; ++pass) {
     has_grown = false;
-    for (Hull& hull : hulls) {
-      if (!hull.is_exact || !touch(*hull.module, hull.to_world)) continue;
-      hull.is_exact = false;
+    for (ExactHull& hull : hulls) {
+      if (hull.has_facets || !touch(*hull.module, hull.to_world)) continue;
+      hull.has_facets = true;
       has_grown = true;
       add_all(*hull.module, hull.to_world);
     }
@@ -87,27 +100,11 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
 template <typename Visit>
 void FacetedRounds::for_each_round(const ScadModule& module, const Affine& to_world,
                                    const Visit& visit) const {
-  for_each_solid(module, to_world, digits_, kMostLevels,
-                 [&](const ScadModule& solid, const Affine& map) {
-                   Ring ring;
-                   if (ring_of(solid, map, ring)) visit(ring);
-                 });
-}
-
-void FacetedRounds::find_hulls(const std::vector<ScadModule>& modules, const Affine& to_world,
-                               std::vector<Hull>& hulls) const {
-  for (const ScadModule& module : modules) {
-    if (module.left_out || module.dimension == 2) continue;
-    if (module.name == "hull") {
-      hulls.push_back({&module, to_world, true});
-    } else if (module.name == "multmatrix") {
-      OpenscadReport unread;
-      const auto inner = openscad_matrix(module, digits_, unread);
-      if (inner) find_hulls(module.children, compose(to_world, *inner), hulls);
-    } else if (is_looked_into(module.name)) {
-      find_hulls(module.children, to_world, hulls);
-    }
-  }
+  for_each_operand(module, to_world, digits_, kMostLevels,
+                   [&](const ScadModule& solid, const Affine& map) {
+                     Ring ring;
+                     if (ring_of(solid, map, ring)) visit(ring);
+                   });
 }
 
 void FacetedRounds::add_all(const ScadModule& module, const Affine& to_world) {

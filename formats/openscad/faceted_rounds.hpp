@@ -9,17 +9,17 @@
 
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/rounds.hpp"
 #include "geometry/affine.hpp"
 
 namespace graycube {
 
 class FacetedRounds {
  public:
-  FacetedRounds() = default;
   /// Looks for hulls without an exact form, and for solids that touch their facets, in a whole file
   /// whose matrices have `digits` digits. Reports nothing.
   FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                std::uint32_t digits);
+                std::uint32_t digits, ExactForms& forms);
 
   /// Whether the sphere or straight cylinder is one of them, wherever it ends; else false.
   bool contains(const ScadModule& module, const Affine& to_world) const;
@@ -35,7 +35,6 @@ class FacetedRounds {
     Vec3 center;
     std::vector<Vec3> corners;
   };
-  struct Hull;
 
   static bool ring_of(const ScadModule& module, const Affine& to_world, Ring& ring);
   bool is_one(const Ring& a, const Ring& b) const;
@@ -43,8 +42,6 @@ class FacetedRounds {
   void add_all(const ScadModule& module, const Affine& to_world);
   template <typename Visit>
   void for_each_round(const ScadModule& module, const Affine& to_world, const Visit& visit) const;
-  void find_hulls(const std::vector<ScadModule>& modules, const Affine& to_world,
-                  std::vector<Hull>& hulls) const;
 
   std::uint32_t digits_ = 0;
   /// The share of coordinates by which two matrices of so many digits may place points differently.

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "formats/openscad/faceted_rounds.hpp"
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
@@ -38,7 +37,7 @@ struct Surroundings {
   /// What of it isn't around all parts.
   Affine to_rest;
   ScadColor color;
-  /// Nothing of the file stands beside what is in here, and matrices that do so are kept apart.
+  /// Nothing of the file stands beside what is in here.
   bool is_around_all = false;
 };
 
@@ -84,12 +83,14 @@ int dimension_of(const std::vector<ScadModule>& modules) {
 
 class Importer {
  public:
-  Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
-           FacetedRounds faceted, OpenscadReport& report)
-      : directions_(directions),
-        report_(report),
-        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}},
-        faceted_(std::move(faceted)) {}
+  Importer(ScadImport import, const ExactForms& forms, const FacetedRounds& faceted,
+           bool keeps_apart)
+      : directions_(reach_directions(import.options.frame)),
+        report_(import.report),
+        import_(std::move(import)),
+        forms_(forms),
+        faceted_(faceted),
+        keeps_apart_(keeps_apart) {}
 
   /// Appends the operands of the union of `modules`.
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
@@ -135,7 +136,7 @@ class Importer {
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
-      if (!add_exact(module, exact_minkowski(module, import_), around, parts))
+      if (!add_exact(module, forms_.form(module, import_), around, parts))
         add_by_program(module, around, parts);
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
@@ -170,11 +171,8 @@ class Importer {
           "multmatrix() is left out: with those around it, it flattens everything in it");
       return;
     }
-    if (around.is_around_all) {
-      around_all_ = inner.to_world;
-    } else {
-      inner.to_rest = compose(around.to_rest, *map);
-    }
+    if (around.is_around_all) around_all_ = inner.to_world;
+    if (!around.is_around_all || !keeps_apart_) inner.to_rest = compose(around.to_rest, *map);
     add_all(module.children, inner, parts);
   }
 
@@ -286,7 +284,7 @@ class Importer {
 
   void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     if (!faceted_.touch(module, around.to_world) &&
-        add_exact(module, exact_hull(module, import_), around, parts))
+        add_exact(module, forms_.form(module, import_), around, parts))
       return;
     std::vector<Vec3> corners;
     if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
@@ -368,21 +366,30 @@ class Importer {
   ReachDirections directions_;
   OpenscadReport& report_;
   ScadImport import_;
-  FacetedRounds faceted_;
+  const ExactForms& forms_;
+  const FacetedRounds& faceted_;
+  bool keeps_apart_;
   Palette palette_;
   std::optional<Affine> around_all_;
 };
 
 }  // namespace
 
-OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report) {
-  Importer importer(reach_directions(options.frame), options, digits,
-                    FacetedRounds(modules, options, digits), report);
+OpenscadModules::OpenscadModules(const std::vector<ScadModule>& modules,
+                                 const OpenscadOptions& options, std::uint32_t digits)
+    : modules_(modules),
+      options_(options),
+      digits_(digits),
+      delegate_(options.program, options.folder),
+      forms_(options, delegate_, digits),
+      faceted_(modules, options, digits, forms_) {}
+
+OpenscadParts OpenscadModules::parts(bool keeps_apart, OpenscadReport& report) {
+  Importer importer({options_, report, delegate_, digits_, {}}, forms_, faceted_, keeps_apart);
   OpenscadParts result;
   Surroundings none;
-  none.is_around_all = keeps_apart;
-  importer.add_all(modules, none, result.parts);
+  none.is_around_all = true;
+  importer.add_all(modules_, none, result.parts);
   result.materials = importer.take_materials();
   result.around_all = importer.around_all();
   return result;

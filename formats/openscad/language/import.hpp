@@ -13,7 +13,8 @@ namespace graycube {
 struct ScadImport {
   const OpenscadOptions& options;
   OpenscadReport& report;
-  OpenscadDelegate delegate;
+  /// What it has been asked already it isn't asked again, so parts of an import share it.
+  OpenscadDelegate& delegate;
   /// Significant digits of the matrices' numbers.
   std::uint32_t digits = kOpenscadDigits;
   /// The warnings that are given only once, and have been.
