@@ -58,6 +58,10 @@ CsgNode under(const Affine& map, CsgNode solid) {
   return {std::move(alone), map, kInheritMaterial};
 }
 
+/// Significant digits to which facets' planes are known by their corners, whose last place is some
+/// 1e-16 of how far out they are: facets may be some 1e-4 of that wide.
+constexpr std::uint32_t kFacetDigits = 12;
+
 /// Whether it lies so far from the origin that the rounding of how far exceeds that of its own
 /// numbers.
 bool is_far(const Reach& reach) {
@@ -117,6 +121,7 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
     OpenscadReport told_already;
     found = file.parts(true, told_already);
   }
+  if (scene.digits == 0 && file.has_faceted_rounds()) scene.digits = kFacetDigits;
   auto& [parts, materials, around_all] = found;
   scene.settings = framed_settings(reach_of(parts), options.frame);
   scene.materials = std::move(materials);

@@ -59,20 +59,6 @@ bool is_gathering(const std::string& name) {
          name == "color";
 }
 
-/// Whether the program `openscad` must evaluate it; other modules don't occur in .csg files.
-bool is_for_program(const std::string& name) {
-  return name == "resize" || name == "import" || name == "surface" || name == "hull" ||
-         name == "roof" || name == "fill" || name == "intersection_for";
-}
-
-std::uint32_t levels_of(const CsgNode& node) {
-  std::uint32_t most = 0;
-  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
-    for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
-  }
-  return most + 1;
-}
-
 /// The dimension, 2 or 3, of the first module that has one.
 int dimension_of(const std::vector<ScadModule>& modules) {
   for (const ScadModule& module : modules) {
@@ -131,8 +117,7 @@ class Importer {
     } else if (is_openscad_primitive(module)) {
       add_primitive(module, around, parts);
     } else if (name == "linear_extrude" || name == "rotate_extrude") {
-      if (auto solid = openscad_sweep(module, import_))
-        add_solid(std::move(*solid), {}, module, around, parts);
+      add_sweep(module, around, parts);
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
@@ -256,16 +241,33 @@ class Importer {
 
   void add_primitive(const ScadModule& module, const Surroundings& around,
                      std::vector<Part>& parts) {
-    const bool facets = import_.options.facets || faceted_.contains(module, around.to_world);
+    const bool facets = import_.options.facets || faceted_.touch(module, around.to_world);
     std::optional<ScadSolid> solid = openscad_primitive(module, report_, facets);
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  void add_sweep(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    std::optional<CsgNode> solid;
+    std::optional<PlainSweep> sweep;
+    if (module.name == "rotate_extrude" && faceted_.touch(module, around.to_world)) {
+      solid = faceted_turn(module, import_);
+    } else if (!faceted_.change_figure(module, around.to_world)) {
+      solid = openscad_sweep(module, import_);
+    } else if (plain_sweep(module, import_, sweep) && sweep) {
+      const FlatShape figure =
+          faceted_.with_facets(std::move(sweep->shape), around.to_world, import_, module.line);
+      solid = extruded(figure, sweep->low, sweep->high, import_, module.line);
+      if (solid) faceted_.move_prisms(*solid, around.to_world);
+    }
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
   /// Adds a flat shape as a slab, as OpenSCAD's preview shows it.
   void add_slab(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     import_.warn_once(module.line, "flat shapes that nothing extrudes are shown one unit thick");
-    const auto shape = flat_shape(module, {}, import_);
+    auto shape = flat_shape(module, {}, import_);
     if (!shape) return;
+    shape = faceted_.with_facets(*std::move(shape), around.to_world, import_, module.line);
     auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
@@ -283,11 +285,14 @@ class Importer {
   }
 
   void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    if (!faceted_.touch(module, around.to_world) &&
-        add_exact(module, forms_.form(module, import_), around, parts))
-      return;
+    const bool is_flush = faceted_.touch(module, around.to_world);
+    if (!is_flush && add_exact(module, forms_.form(module, import_), around, parts)) return;
     std::vector<Vec3> corners;
-    if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
+    if (!corners_of(module, {}, import_, corners)) {
+      const bool is_alone = is_flush && !import_.delegate.is_there();
+      if (is_alone && add_exact(module, forms_.form(module, import_), around, parts)) return;
+      return add_by_program(module, around, parts);
+    }
     ScadMesh mesh = convex_hull(corners);
     if (mesh.faces.empty()) {
       const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
@@ -312,7 +317,8 @@ class Importer {
     if (const auto* trouble = std::get_if<std::string>(&result)) {
       return report_.error(module.line, module.name + "(): " + *trouble);
     }
-    const PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    faceted_.move_corners(mesh.points, around.to_world);
     auto solid = mesh_leaf(mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
@@ -341,24 +347,9 @@ class Importer {
       return report_.error(module.line,
                            "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
     }
-    place(solid, around);
+    solid = placed(std::move(solid), around.to_rest);
     solid.material = palette_.index_of(around.color);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
-  }
-
-  /// Places a leaf; spheres under rotations stay spheres.
-  static void place(CsgNode& leaf, const Surroundings& around) {
-    if (around.to_rest == Affine{}) return;
-    auto* sphere = std::get_if<SphereShape>(&leaf.value);
-    const std::optional<double> scale =
-        sphere != nullptr ? around.to_rest.similarity_scale() : std::nullopt;
-    if (scale) {
-      *sphere = {around.to_rest.point(sphere->center), *scale * sphere->radius};
-    } else if (leaf.transform) {
-      leaf.transform = compose(around.to_rest, *leaf.transform);
-    } else {
-      leaf.transform = around.to_rest;
-    }
   }
 
   static constexpr std::size_t kMaxQuotedName = 40;
@@ -382,7 +373,7 @@ OpenscadModules::OpenscadModules(const std::vector<ScadModule>& modules,
       digits_(digits),
       delegate_(options.program, options.folder),
       forms_(options, delegate_, digits),
-      faceted_(modules, options, digits, forms_) {}
+      faceted_(modules, options, digits, delegate_, forms_) {}
 
 OpenscadParts OpenscadModules::parts(bool keeps_apart, OpenscadReport& report) {
   Importer importer({options_, report, delegate_, digits_, {}}, forms_, faceted_, keeps_apart);

@@ -35,6 +35,8 @@ class OpenscadModules {
 
   /// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
   OpenscadParts parts(bool keeps_apart, OpenscadReport& report);
+  /// Whether round solids get facets, to be flush with those of others.
+  bool has_faceted_rounds() const { return !faceted_.empty(); }
 
  private:
   const std::vector<ScadModule>& modules_;

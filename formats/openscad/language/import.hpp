@@ -25,10 +25,8 @@ struct ScadImport {
   }
   /// Warns that a module gives facets to the round solids in it.
   void warn_of_sides(const std::string& name, int line) {
-    const char* around = options.facets   ? ""
-                         : name == "hull" ? "; what is round around it is "
-                                            "exact, unless it is flush with it"
-                                          : "; what is round around it is exact";
+    const char* around =
+        options.facets ? "" : "; what is round around it is exact, unless it is flush with it";
     warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
   }
 };
