@@ -1,175 +1,266 @@
 #include "formats/openscad/faceted_rounds.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 
-#include "formats/openscad/language/import.hpp"
-#include "formats/openscad/language/matrix.hpp"
-#include "formats/openscad/primitives.hpp"
-#include "formats/openscad/rounds.hpp"
-#include "geometry/portable_math.hpp"
+#include "formats/openscad/sweep.hpp"
+#include "scene/flat_solids.hpp"
 
 namespace graycube {
 namespace {
 
 /// How many passes follow chains of hulls that touch each other's facets.
 constexpr int kMostPasses = 8;
-/// Levels of modules that are looked into.
-constexpr int kMostLevels = 256;
+/// Most corners and edges of facets that are kept, and most that all rounds are compared with.
+constexpr std::size_t kMostFacetEdges = std::size_t{1} << 23;
+constexpr std::size_t kMostCompared = std::size_t{1} << 28;
+/// Most corners of the rounds that get facets, and of those that could follow them.
+constexpr std::size_t kMostRingCorners = std::size_t{1} << 22;
 
-bool is_looked_into(const std::string& name) {
-  return name == "group" || name == "union" || name == "render" || name == "color" ||
-         name == "difference" || name == "intersection" || name == "hull";
+/// Whether a module, if it has no exact form, is of facets; or one within is. Asked first, since
+/// matrices take long to read: their rotations are recovered.
+bool may_have_facets(const ScadModule& module) {
+  return module.name == "hull" || module.name == "minkowski" || module.name == "offset" ||
+         is_for_program(module.name) ||
+         std::any_of(module.children.begin(), module.children.end(), may_have_facets);
 }
 
-/// Asked first, since matrices take long to read: their rotations are recovered.
-bool has_hull(const std::vector<ScadModule>& modules) {
-  return std::any_of(modules.begin(), modules.end(), [](const ScadModule& module) {
-    return module.name == "hull" || has_hull(module.children);
-  });
+/// The figure of a flat shape, or of an upright extrusion.
+std::optional<FlatShape> upright_figure(const ScadModule& solid, ScadImport& import) {
+  if (solid.dimension == 2) return flat_shape(solid, {}, import);
+  std::optional<PlainSweep> sweep;
+  if (solid.name != "linear_extrude" || !plain_sweep(solid, import, sweep) || !sweep ||
+      !(sweep->scale == FlatPoint{1, 1}))
+    return std::nullopt;
+  return std::move(sweep->shape);
 }
 
-Vec3 across(const Vec3& v, const Vec3& along) { return v - dot(along, v) * along; }
-
-/// Calls visit(module, to_world) for each module within that is_looked_into() doesn't name.
-template <typename Visit>
-void for_each_solid(const ScadModule& module, const Affine& to_world, std::uint32_t digits,
-                    int levels, const Visit& visit) {
-  if (module.left_out || module.dimension == 2 || levels == 0) return;
-  std::optional<Affine> inner = to_world;
-  if (module.name == "multmatrix") {
-    OpenscadReport unread;
-    inner = openscad_matrix(module, digits, unread);
-    if (inner) inner = compose(to_world, *inner);
-  } else if (!is_looked_into(module.name)) {
-    return visit(module, to_world);
-  }
-  if (!inner || !inner->inverse()) return;
-  for (const ScadModule& child : module.children)
-    for_each_solid(child, *inner, digits, levels - 1, visit);
+std::size_t corners_of(const RoundGroup& group) {
+  std::size_t corners = 0;
+  for (const RoundRing& ring : group) corners += ring.corners.size() + ring.profile.size();
+  return corners;
 }
 
 }  // namespace
 
-struct FacetedRounds::Hull {
+/// A solid whose rounds get facets together.
+struct FacetedRounds::Solid {
   const ScadModule* module;
   Affine to_world;
-  bool is_exact;
 };
 
 FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits)
-    : digits_(digits), share_(digits == kOpenscadDigits ? 1e-5 : 1e-9) {
-  if (options.facets || !has_hull(modules)) return;
-  std::vector<Hull> hulls;
-  find_hulls(modules, {}, hulls);
-  OpenscadReport unread;
-  ScadImport import{options, unread, OpenscadDelegate(nullptr, options.folder), digits, {}};
-  for (Hull& hull : hulls) {
-    const ExactSolid exact = exact_hull(*hull.module, import);
-    hull.is_exact = !std::holds_alternative<NoExactForm>(exact);
-    if (!hull.is_exact) add_all(*hull.module, hull.to_world);
+                             std::uint32_t digits, OpenscadDelegate& delegate, ExactForms& forms)
+    : options_(options),
+      digits_(digits),
+      delegate_(delegate),
+      share_(digits == kOpenscadDigits ? 1e-5 : 1e-9),
+      compared_left_(kMostCompared) {
+  if (options.facets || std::none_of(modules.begin(), modules.end(), may_have_facets)) return;
+  const auto for_all = [&](const auto& visit) {
+    for (const ScadModule& module : modules) for_each_solid(module, {}, digits, visit);
+  };
+  std::vector<Solid> solids;
+  for_all([&](const ScadModule& solid, const Affine& to_world) {
+    look_at(solid, to_world, forms, solids);
+  });
+  if (!facets_.empty()) {
+    for_all([&](const ScadModule& solid, const Affine& to_world) { add_flush(solid, to_world); });
+    facets_.clear();
   }
-  if (rings_.empty()) return;
+  if (!rings_.empty()) spread(solids);
+}
+
+/// Takes down a solid's facets, and a solid whose rounds get facets together.
+void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
+                            std::vector<Solid>& solids) {
+  const std::string& name = solid.name;
+  if (solid.dimension == 2 || name == "linear_extrude") {
+    if (!may_have_facets(solid)) return;
+    OpenscadReport unread;
+    ScadImport import{options_, unread, delegate_, digits_, {}};
+    if (const auto figure = upright_figure(solid, import)) add_outlines(*figure, to_world);
+    solids.push_back({&solid, to_world});
+  } else if (name == "rotate_extrude") {
+    solids.push_back({&solid, to_world});
+  } else if (name == "hull" || name == "minkowski") {
+    if (forms.has_form(solid)) {
+      if (name == "hull") solids.push_back({&solid, to_world});
+    } else if (name == "minkowski") {
+      add_mesh(solid, to_world);
+    } else {
+      for (const RoundGroup& group : groups_of(solid, to_world)) add(group);
+    }
+  } else if (is_for_program(name)) {
+    add_mesh(solid, to_world);
+  }
+}
+
+void FacetedRounds::add_mesh(const ScadModule& solid, const Affine& to_world) {
+  if (!delegate_.is_there()) return;
+  const auto result = delegate_.solid(solid);
+  const auto* mesh = std::get_if<PolygonMesh>(&result);
+  if (mesh == nullptr) return;
+  std::size_t size = mesh->points.size() + mesh->corners.size();
+  for (const FacetEdges& facets : facets_) size += facets.size();
+  if (size <= kMostFacetEdges) facets_.emplace_back(*mesh, to_world);
+}
+
+/// Takes down the polygons of a figure, but for those that belong to something round.
+void FacetedRounds::add_outlines(const FlatShape& figure, const Affine& to_world) {
+  if (!figure.facets.empty()) return;
+  if (figure.kind == FlatShape::Kind::kPolygon) facets_.emplace_back(figure.loops, to_world);
+  for (const FlatShape& child : figure.children) add_outlines(child, to_world);
+}
+
+/// Adds those of a solid's rounds of which a facet is among those taken down.
+void FacetedRounds::add_flush(const ScadModule& solid, const Affine& to_world) {
+  for (RoundGroup& group : groups_of(solid, to_world)) {
+    for (RoundRing& ring : group) {
+      if (has(ring)) continue;
+      const bool is_flush =
+          std::any_of(facets_.begin(), facets_.end(), [&](const FacetEdges& facets) {
+            if (!facets.are_near(ring) || facets.size() > compared_left_) return false;
+            compared_left_ -= facets.size();
+            return facets.have_one_of(ring, share_);
+          });
+      if (is_flush) add({std::move(ring)});
+    }
+  }
+}
+
+/// Gives facets to everything that gets them together with what has them already.
+void FacetedRounds::spread(std::vector<Solid>& solids) {
+  std::vector<RoundGroup> groups;
+  std::size_t corners = 0;
+  for (const Solid& solid : solids) {
+    for (RoundGroup& group : groups_of(*solid.module, solid.to_world)) {
+      corners += corners_of(group);
+      if (corners > kMostRingCorners) break;
+      if (group.size() > 1) groups.push_back(std::move(group));
+    }
+  }
   bool has_grown = true;
   for (int pass = 0; has_grown && pass < kMostPasses; ++pass) {
     has_grown = false;
-    for (Hull& hull : hulls) {
-      if (!hull.is_exact || !touch(*hull.module, hull.to_world)) continue;
-      hull.is_exact = false;
+    for (RoundGroup& group : groups) {
+      if (!has_any(group)) continue;
+      add(group);
+      group.clear();
       has_grown = true;
-      add_all(*hull.module, hull.to_world);
     }
   }
 }
 
-template <typename Visit>
-void FacetedRounds::for_each_round(const ScadModule& module, const Affine& to_world,
-                                   const Visit& visit) const {
-  for_each_solid(module, to_world, digits_, kMostLevels,
-                 [&](const ScadModule& solid, const Affine& map) {
-                   Ring ring;
-                   if (ring_of(solid, map, ring)) visit(ring);
-                 });
-}
-
-void FacetedRounds::find_hulls(const std::vector<ScadModule>& modules, const Affine& to_world,
-                               std::vector<Hull>& hulls) const {
-  for (const ScadModule& module : modules) {
-    if (module.left_out || module.dimension == 2) continue;
-    if (module.name == "hull") {
-      hulls.push_back({&module, to_world, true});
-    } else if (module.name == "multmatrix") {
-      OpenscadReport unread;
-      const auto inner = openscad_matrix(module, digits_, unread);
-      if (inner) find_hulls(module.children, compose(to_world, *inner), hulls);
-    } else if (is_looked_into(module.name)) {
-      find_hulls(module.children, to_world, hulls);
-    }
-  }
-}
-
-void FacetedRounds::add_all(const ScadModule& module, const Affine& to_world) {
-  for_each_round(module, to_world, [&](const Ring& ring) {
-    if (!has(ring)) rings_.emplace(ring.corners.size(), ring);
-  });
+std::vector<RoundGroup> FacetedRounds::groups_of(const ScadModule& solid,
+                                                 const Affine& to_world) const {
+  OpenscadReport unread;
+  ScadImport import{options_, unread, delegate_, digits_, {}};
+  return round_groups(solid, to_world, import);
 }
 
 bool FacetedRounds::touch(const ScadModule& module, const Affine& to_world) const {
   if (rings_.empty()) return false;
-  bool touches = false;
-  for_each_round(module, to_world, [&](const Ring& ring) { touches = touches || has(ring); });
-  return touches;
+  const std::vector<RoundGroup> groups = groups_of(module, to_world);
+  return std::any_of(groups.begin(), groups.end(),
+                     [&](const RoundGroup& group) { return has_any(group); });
 }
 
-bool FacetedRounds::contains(const ScadModule& module, const Affine& to_world) const {
-  Ring ring;
-  return !rings_.empty() && ring_of(module, to_world, ring) && has(ring);
+bool FacetedRounds::change_figure(const ScadModule& module, const Affine& to_world) const {
+  if (rings_.empty() || module.name != "linear_extrude") return false;
+  if (!may_have_facets(module)) return touch(module, to_world);
+  OpenscadReport unread;
+  ScadImport import{options_, unread, delegate_, digits_, {}};
+  return upright_figure(module, import).has_value();
 }
 
-bool FacetedRounds::ring_of(const ScadModule& module, const Affine& to_world, Ring& ring) {
-  const std::optional<ScadRound> round = openscad_round(module);
-  if (!round) return false;
-  ring.is_ball = round->is_ball;
-  const Vec3 axis = to_world.vector({0, 0, 1});
-  // A ball's ring is its equator; the direction to the pole tells the other rings.
-  ring.along = round->is_ball ? round->radius * axis : normalized(axis);
-  const auto placed = [&](const Vec3& p) {
-    return round->is_ball ? to_world.point(p) : across(to_world.point(p), ring.along);
-  };
-  ring.center = placed({0, 0, 0});
-  for (int i = 0; i < round->sides; ++i) {
-    const double angle = 360.0 * i / round->sides;
-    ring.corners.push_back(
-        placed({round->radius * cos_degrees(angle), round->radius * sin_degrees(angle), 0}));
+void FacetedRounds::move_corners(std::vector<Vec3>& points, const Affine& to_world,
+                                 bool flat) const {
+  const auto back = to_world.inverse();
+  if (rings_.empty() || points.empty() || !back) return;
+  std::vector<Vec3> moved;
+  double largest = 0;
+  for (const Vec3& p : points) {
+    moved.push_back(to_world.point(p));
+    largest = std::max(largest, max_abs(moved.back()));
   }
-  return true;
+  const Vec3 up = normalized(to_world.vector({0, 0, 1}));
+  std::size_t left = kMostCompared;
+  for (const auto& [count, ring] : rings_) {
+    const bool is_upright =
+        ring.kind == RoundRing::Kind::kCylinder && max_abs(across(ring.along, up)) <= share_;
+    if ((flat && !is_upright) || points.size() > left) continue;
+    left -= points.size();
+    move_to_corners(ring, kHalfOfSixDigits * largest, moved);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // What isn't moved keeps its bits.
+    if (moved[i] == to_world.point(points[i])) continue;
+    const Vec3 p = back->point(moved[i]);
+    points[i] = flat ? Vec3{p.x, p.y, 0} : p;
+  }
 }
 
-bool FacetedRounds::has(const Ring& ring) const {
+void FacetedRounds::move_prisms(CsgNode& solid, const Affine& to_world) const {
+  if (auto* inner = std::get_if<OperationNode>(&solid.value)) {
+    for (CsgNode& child : inner->children) move_prisms(child, to_world);
+  }
+  auto* prism = std::get_if<PrismShape>(&solid.value);
+  if (prism == nullptr || rings_.empty()) return;
+  std::vector<Vec3> corners;
+  for (const FlatPoint& p : prism->points) corners.push_back({p.x, p.y, 0});
+  move_corners(corners, to_world, true);
+  PrismShape moved = *prism;
+  for (std::size_t i = 0; i < corners.size(); ++i) moved.points[i] = {corners[i].x, corners[i].y};
+  // A sliver could lose its area.
+  if (prism_of(moved)) *prism = std::move(moved);
+}
+
+FlatShape FacetedRounds::with_facets(FlatShape figure, const Affine& to_world, ScadImport& import,
+                                     int line) const {
+  if (rings_.empty()) return figure;
+  figure = replaced(std::move(figure), to_world, import, line);
+  if (figure.kind == FlatShape::Kind::kPolygon || figure.has_curves()) return figure;
+  auto outlines = polygon_of(figure, import, line);
+  if (!outlines) return figure;
+  FlatShape polygon;
+  polygon.loops = *std::move(outlines);
+  return polygon;
+}
+
+FlatShape FacetedRounds::replaced(FlatShape figure, const Affine& to_world, ScadImport& import,
+                                  int line) const {
+  if (figure.kind == FlatShape::Kind::kDisk || !figure.facets.empty()) {
+    const std::vector<RoundGroup> groups = round_groups(figure, to_world);
+    if (groups.empty() || !has_any(groups.front())) return figure;
+    auto outlines = polygon_of(figure, import, line);
+    if (!outlines) return figure;
+    FlatShape polygon;
+    polygon.loops = *std::move(outlines);
+    return polygon;
+  }
+  for (FlatShape& child : figure.children)
+    child = replaced(std::move(child), to_world, import, line);
+  return figure;
+}
+
+void FacetedRounds::add(const RoundGroup& group) {
+  for (const RoundRing& ring : group) {
+    if (corners_ + ring.corners.size() > kMostRingCorners || has(ring)) continue;
+    corners_ += ring.corners.size();
+    rings_.emplace(ring.corners.size(), ring);
+  }
+}
+
+bool FacetedRounds::has(const RoundRing& ring) const {
   const auto [first, last] = rings_.equal_range(ring.corners.size());
-  return std::any_of(first, last, [&](const auto& known) { return is_one(known.second, ring); });
+  return std::any_of(first, last,
+                     [&](const auto& known) { return are_one(known.second, ring, share_); });
 }
 
-/// Rings are equal whichever corner they begin with, and whichever way they go.
-bool FacetedRounds::is_one(const Ring& a, const Ring& b) const {
-  const double off = share_ * (max_abs(a.center) + length(a.corners[0] - a.center));
-  const auto are_near = [&](const Vec3& p, const Vec3& q) { return max_abs(p - q) <= off; };
-  if (a.is_ball != b.is_ball || !are_near(a.center, b.center)) return false;
-  const double turned = a.is_ball ? off : share_;
-  if (max_abs(a.along - b.along) > turned && max_abs(a.along + b.along) > turned) return false;
-  const std::size_t count = a.corners.size();
-  const auto at = std::find_if(b.corners.begin(), b.corners.end(),
-                               [&](const Vec3& q) { return are_near(a.corners[0], q); });
-  if (at == b.corners.end()) return false;
-  const auto begin = static_cast<std::size_t>(at - b.corners.begin());
-  for (const std::size_t step : {std::size_t{1}, count - 1}) {
-    std::size_t i = 0;
-    while (i < count && are_near(a.corners[i], b.corners[(begin + step * i) % count])) ++i;
-    if (i == count) return true;
-  }
-  return false;
+bool FacetedRounds::has_any(const RoundGroup& group) const {
+  return std::any_of(group.begin(), group.end(), [&](const RoundRing& ring) { return has(ring); });
 }
 
 }  // namespace graycube

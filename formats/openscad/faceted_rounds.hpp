@@ -1,56 +1,73 @@
-// Finds the spheres and cylinders of a file that get OpenSCAD's facets although they could stay
-// round: those that a hull() without an exact form has in facets, wherever else they stand. So a
-// bore as wide as the boss around it has the boss's sides, and leaves no crescents.
+// Finds what is round in a file but gets OpenSCAD's facets, because it is flush with facets that
+// stand there already: with those of a hull() or offset() without an exact form, or of a mesh of
+// OpenSCAD's. So a bore as wide as the boss around it has the boss's sides, and leaves no
+// crescents.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <vector>
 
-#include "formats/openscad/language/options.hpp"
+#include "formats/openscad/facet_edges.hpp"
+#include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
-#include "geometry/affine.hpp"
+#include "formats/openscad/round_groups.hpp"
+#include "formats/openscad/rounds.hpp"
 
 namespace graycube {
 
 class FacetedRounds {
  public:
-  FacetedRounds() = default;
-  /// Looks for hulls without an exact form, and for solids that touch their facets, in a whole file
-  /// whose matrices have `digits` digits. Reports nothing.
+  /// Looks for facets, and for round solids that are flush with them, in a whole file. Reports
+  /// nothing. The import's report is not used; its program is asked for meshes.
   FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                std::uint32_t digits);
+                std::uint32_t digits, OpenscadDelegate& delegate, ExactForms& forms);
 
-  /// Whether the sphere or straight cylinder is one of them, wherever it ends; else false.
-  bool contains(const ScadModule& module, const Affine& to_world) const;
-  /// Whether a module contains one of them.
+  bool empty() const { return rings_.empty(); }
+  /// Whether a solid that for_each_solid() visits has a round surface that gets facets.
   bool touch(const ScadModule& module, const Affine& to_world) const;
+  /// Whether with_facets() may change the figure of an upright linear_extrude().
+  bool change_figure(const ScadModule& module, const Affine& to_world) const;
+  /// A figure that is extruded upright, with facets for its circles that get them. Errors name
+  /// `line`.
+  FlatShape with_facets(FlatShape figure, const Affine& to_world, ScadImport& import,
+                        int line) const;
+  /// Moves corners of OpenSCAD's meshes, which are rounded, to those of the rounds that get facets.
+  /// Points that are `flat` stay in the plane z = 0.
+  void move_corners(std::vector<Vec3>& points, const Affine& to_world, bool flat = false) const;
+  /// The same for upright prisms, whose corners Clipper rounds.
+  void move_prisms(CsgNode& solid, const Affine& to_world) const;
 
  private:
-  /// The corners by which facets are told: a ring of them, and for cylinders the direction along
-  /// which it is seen.
-  struct Ring {
-    bool is_ball = false;
-    Vec3 along;
-    Vec3 center;
-    std::vector<Vec3> corners;
-  };
-  struct Hull;
+  struct Solid;
 
-  static bool ring_of(const ScadModule& module, const Affine& to_world, Ring& ring);
-  bool is_one(const Ring& a, const Ring& b) const;
-  bool has(const Ring& ring) const;
-  void add_all(const ScadModule& module, const Affine& to_world);
-  template <typename Visit>
-  void for_each_round(const ScadModule& module, const Affine& to_world, const Visit& visit) const;
-  void find_hulls(const std::vector<ScadModule>& modules, const Affine& to_world,
-                  std::vector<Hull>& hulls) const;
+  void look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
+               std::vector<Solid>& solids);
+  void add_mesh(const ScadModule& solid, const Affine& to_world);
+  void add_outlines(const FlatShape& figure, const Affine& to_world);
+  void add_flush(const ScadModule& solid, const Affine& to_world);
+  void spread(std::vector<Solid>& solids);
 
-  std::uint32_t digits_ = 0;
+  std::vector<RoundGroup> groups_of(const ScadModule& solid, const Affine& to_world) const;
+  bool has(const RoundRing& ring) const;
+  bool has_any(const RoundGroup& group) const;
+  void add(const RoundGroup& group);
+  FlatShape replaced(FlatShape figure, const Affine& to_world, ScadImport& import, int line) const;
+
+  const OpenscadOptions& options_;
+  std::uint32_t digits_;
+  OpenscadDelegate& delegate_;
   /// The share of coordinates by which two matrices of so many digits may place points differently.
-  double share_ = 0;
-  /// The rings of all faceted rounds, by their number of corners.
-  std::multimap<std::size_t, Ring> rings_;
+  double share_;
+  /// The facets that stand there already, until all that is flush with them is found.
+  std::vector<FacetEdges> facets_;
+  /// How many more corners and edges are compared with rounds.
+  std::size_t compared_left_;
+  /// The corners of all `rings_`.
+  std::size_t corners_ = 0;
+  /// The rings of everything that gets facets, by their number of corners.
+  std::multimap<std::size_t, RoundRing> rings_;
 };
 
 }  // namespace graycube

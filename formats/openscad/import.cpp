@@ -58,6 +58,10 @@ CsgNode under(const Affine& map, CsgNode solid) {
   return {std::move(alone), map, kInheritMaterial};
 }
 
+/// Significant digits to which facets' planes are known by their corners, whose last place is some
+/// 1e-16 of how far out they are: facets may be some 1e-4 of that wide.
+constexpr std::uint32_t kFacetDigits = 12;
+
 /// Whether it lies so far from the origin that the rounding of how far exceeds that of its own
 /// numbers.
 bool is_far(const Reach& reach) {
@@ -107,20 +111,23 @@ Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& opt
     std::vector<ScadModule> only{*root};
     modules = std::move(only);
   }
-  OpenscadParts found = openscad_parts(modules, options, digits, false, report);
+  OpenscadModules file(modules, options, digits);
+  OpenscadParts found = file.parts(false, report);
   Scene scene;
   scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
   if (report.has_errors()) return scene;
-  if (scene.digits > 0 && is_far(reach_of(found.parts))) {
+  const bool keeps_apart = scene.digits > 0 && found.around_all && is_far(reach_of(found.parts));
+  if (keeps_apart) {
     OpenscadReport told_already;
-    found = openscad_parts(modules, options, digits, true, told_already);
+    found = file.parts(true, told_already);
   }
+  if (scene.digits == 0 && file.has_faceted_rounds()) scene.digits = kFacetDigits;
   auto& [parts, materials, around_all] = found;
   scene.settings = framed_settings(reach_of(parts), options.frame);
   scene.materials = std::move(materials);
   if (parts.empty()) report.warning(0, "the model is empty");
   scene.objects = objects_of(std::move(parts), scene.materials);
-  if (around_all) {
+  if (keeps_apart) {
     for (SceneObject& object : scene.objects)
       object.csg = under(*around_all, std::move(object.csg));
   }

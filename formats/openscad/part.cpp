@@ -25,4 +25,24 @@ Part united(std::vector<Part> parts) {
   return result;
 }
 
+std::uint32_t levels_of(const CsgNode& node) {
+  std::uint32_t most = 0;
+  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
+    for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
+  }
+  return most + 1;
+}
+
+CsgNode placed(CsgNode node, const Affine& map) {
+  if (map == Affine{}) return node;
+  auto* sphere = std::get_if<SphereShape>(&node.value);
+  const std::optional<double> scale = sphere != nullptr ? map.similarity_scale() : std::nullopt;
+  if (scale) {
+    *sphere = {map.point(sphere->center), *scale * sphere->radius};
+  } else {
+    node.transform = node.transform ? compose(map, *node.transform) : map;
+  }
+  return node;
+}
+
 }  // namespace graycube

@@ -24,4 +24,10 @@ Reach reach_of(const std::vector<Part>& parts);
 /// The union of at least one part, as one part.
 Part united(std::vector<Part> parts);
 
+/// The levels of operations and their leaves.
+std::uint32_t levels_of(const CsgNode& node);
+
+/// The leaf or operation under a map; spheres under rotations stay spheres.
+CsgNode placed(CsgNode node, const Affine& map);
+
 }  // namespace graycube

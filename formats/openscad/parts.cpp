@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "formats/openscad/faceted_rounds.hpp"
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
@@ -44,7 +43,7 @@ struct Surroundings {
   ScadFace face = ScadFace::kOuter;
   /// Within a render() all is one solid, in the colour around it.
   bool is_one_solid = false;
-  /// Nothing of the file stands beside what is in here, and matrices that do so are kept apart.
+  /// Nothing of the file stands beside what is in here.
   bool is_around_all = false;
 };
 
@@ -60,22 +59,16 @@ std::vector<Part> taken_from(std::vector<Part>& parts, std::size_t from) {
   return taken;
 }
 
-std::uint32_t levels_of(const CsgNode& node) {
-  std::uint32_t most = 0;
-  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
-    for (const CsgNode& child : inner->children) most = std::max(most, levels_of(child));
-  }
-  return most + 1;
-}
-
 class Importer {
  public:
-  Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
-           FacetedRounds faceted, OpenscadReport& report)
-      : directions_(directions),
-        report_(report),
-        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}},
-        faceted_(std::move(faceted)) {}
+  Importer(ScadImport import, const ExactForms& forms, const FacetedRounds& faceted,
+           bool keeps_apart)
+      : directions_(reach_directions(import.options.frame)),
+        report_(import.report),
+        import_(std::move(import)),
+        forms_(forms),
+        faceted_(faceted),
+        keeps_apart_(keeps_apart) {}
 
   /// Appends the operands of the union of `modules`.
   void add_all(const std::vector<ScadModule>& modules, const Surroundings& around,
@@ -125,12 +118,11 @@ class Importer {
     } else if (is_extrusion(name) && module.argument("file") != nullptr) {
       add_by_program(module, around, parts);
     } else if (is_extrusion(name)) {
-      if (auto solid = openscad_sweep(module, import_))
-        add_solid(std::move(*solid), {}, module, around, parts);
+      add_sweep(module, around, parts);
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
-      if (!add_exact(module, exact_minkowski(module, import_), around, parts))
+      if (!add_exact(module, forms_.form(module, import_), around, parts))
         add_by_program(module, around, parts);
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
@@ -165,11 +157,8 @@ class Importer {
           "multmatrix() is left out: with those around it, it flattens everything in it");
       return;
     }
-    if (around.is_around_all) {
-      around_all_ = inner.to_world;
-    } else {
-      inner.to_rest = compose(around.to_rest, *map);
-    }
+    if (around.is_around_all) around_all_ = inner.to_world;
+    if (!around.is_around_all || !keeps_apart_) inner.to_rest = compose(around.to_rest, *map);
     add_all(module.children, inner, parts);
   }
 
@@ -259,16 +248,33 @@ class Importer {
 
   void add_primitive(const ScadModule& module, const Surroundings& around,
                      std::vector<Part>& parts) {
-    const bool facets = import_.options.facets || faceted_.contains(module, around.to_world);
+    const bool facets = import_.options.facets || faceted_.touch(module, around.to_world);
     std::optional<ScadSolid> solid = openscad_primitive(module, report_, facets, import_.digits);
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  void add_sweep(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    std::optional<CsgNode> solid;
+    std::optional<PlainSweep> sweep;
+    if (module.name == "rotate_extrude" && faceted_.touch(module, around.to_world)) {
+      solid = faceted_turn(module, import_);
+    } else if (!faceted_.change_figure(module, around.to_world)) {
+      solid = openscad_sweep(module, import_);
+    } else if (plain_sweep(module, import_, sweep) && sweep) {
+      const FlatShape figure =
+          faceted_.with_facets(std::move(sweep->shape), around.to_world, import_, module.line);
+      solid = extruded(figure, sweep->low, sweep->high, import_, module.line);
+      if (solid) faceted_.move_prisms(*solid, around.to_world);
+    }
+    if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
   /// Adds a flat shape as a slab, as OpenSCAD's preview shows it.
   void add_slab(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     import_.warn_once(module.line, "flat shapes that nothing extrudes are shown one unit thick");
-    const auto shape = flat_shape(module, {}, import_);
+    auto shape = flat_shape(module, {}, import_);
     if (!shape) return;
+    shape = faceted_.with_facets(*std::move(shape), around.to_world, import_, module.line);
     auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
@@ -286,11 +292,14 @@ class Importer {
   }
 
   void add_hull(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    if (!faceted_.touch(module, around.to_world) &&
-        add_exact(module, exact_hull(module, import_), around, parts))
-      return;
+    const bool is_flush = faceted_.touch(module, around.to_world);
+    if (!is_flush && add_exact(module, forms_.form(module, import_), around, parts)) return;
     std::vector<Vec3> corners;
-    if (!corners_of(module, {}, import_, corners)) return add_by_program(module, around, parts);
+    if (!corners_of(module, {}, import_, corners)) {
+      const bool is_alone = is_flush && !import_.delegate.is_there();
+      if (is_alone && add_exact(module, forms_.form(module, import_), around, parts)) return;
+      return add_by_program(module, around, parts);
+    }
     ScadMesh mesh = convex_hull(corners);
     if (mesh.faces.empty()) {
       const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
@@ -316,7 +325,8 @@ class Importer {
       return report_.leave_out(module.name + "() by openscad", module.line,
                                module.name + "() is left out: " + *trouble);
     }
-    const PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    faceted_.move_corners(mesh.points, around.to_world);
     auto solid = mesh_leaf(mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
@@ -345,24 +355,9 @@ class Importer {
       return report_.error(module.line,
                            "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
     }
-    place(solid, around);
+    solid = placed(std::move(solid), around.to_rest);
     solid.material = palette_.index_of(around.color, around.face);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
-  }
-
-  /// Places a leaf; spheres under rotations stay spheres.
-  static void place(CsgNode& leaf, const Surroundings& around) {
-    if (around.to_rest == Affine{}) return;
-    auto* sphere = std::get_if<SphereShape>(&leaf.value);
-    const std::optional<double> scale =
-        sphere != nullptr ? around.to_rest.similarity_scale() : std::nullopt;
-    if (scale) {
-      *sphere = {around.to_rest.point(sphere->center), *scale * sphere->radius};
-    } else if (leaf.transform) {
-      leaf.transform = compose(around.to_rest, *leaf.transform);
-    } else {
-      leaf.transform = around.to_rest;
-    }
   }
 
   static constexpr std::size_t kMaxQuotedName = 40;
@@ -370,22 +365,31 @@ class Importer {
   ReachDirections directions_;
   OpenscadReport& report_;
   ScadImport import_;
-  FacetedRounds faceted_;
+  const ExactForms& forms_;
+  const FacetedRounds& faceted_;
+  bool keeps_apart_;
   Palette palette_;
   std::optional<Affine> around_all_;
 };
 
 }  // namespace
 
-OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report) {
-  Importer importer(reach_directions(options.frame), options, digits,
-                    FacetedRounds(modules, options, digits), report);
+OpenscadModules::OpenscadModules(const std::vector<ScadModule>& modules,
+                                 const OpenscadOptions& options, std::uint32_t digits)
+    : modules_(modules),
+      options_(options),
+      digits_(digits),
+      delegate_(options.program, options.folder),
+      forms_(options, delegate_, digits),
+      faceted_(modules, options, digits, delegate_, forms_) {}
+
+OpenscadParts OpenscadModules::parts(bool keeps_apart, OpenscadReport& report) {
+  Importer importer({options_, report, delegate_, digits_, {}}, forms_, faceted_, keeps_apart);
   OpenscadParts result;
   Surroundings none;
-  none.is_around_all = keeps_apart;
-  warn_of_unknown_arguments(modules, report);
-  importer.add_all(modules, none, result.parts);
+  none.is_around_all = true;
+  warn_of_unknown_arguments(modules_, report);
+  importer.add_all(modules_, none, result.parts);
   result.materials = importer.take_materials();
   result.around_all = importer.around_all();
   return result;

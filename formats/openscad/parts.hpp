@@ -7,23 +7,44 @@
 #include <string>
 #include <vector>
 
+#include "formats/openscad/faceted_rounds.hpp"
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/language/program.hpp"
 #include "formats/openscad/part.hpp"
+#include "formats/openscad/rounds.hpp"
 
 namespace graycube {
 
-/// The result of openscad_parts: the file is the union of the parts. Every leaf has a material.
-/// Rotations were recovered from matrices of `digits` digits.
+/// The file is the union of the parts. Every leaf has a material.
 struct OpenscadParts {
   std::vector<Part> parts;
   std::vector<NamedMaterial> materials;
-  /// The map of the matrices that stand around all parts, where it is kept apart: it counts for no
-  /// tolerance, since its rounded numbers move all parts alike. Reaches are in the world.
+  /// The map of the matrices that stand around all parts, if there are any. Where it is kept apart
+  /// it counts for no tolerance, since its rounded numbers move all parts alike. Reaches are in the
+  /// world.
   std::optional<Affine> around_all;
 };
-/// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
-OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report);
+
+/// A file's modules as parts. What takes long is done once, however often parts are asked for.
+class OpenscadModules {
+ public:
+  /// Rotations are recovered from matrices of `digits` digits.
+  OpenscadModules(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
+                  std::uint32_t digits);
+
+  /// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
+  OpenscadParts parts(bool keeps_apart, OpenscadReport& report);
+  /// Whether round solids get facets, to be flush with those of others.
+  bool has_faceted_rounds() const { return !faceted_.empty(); }
+
+ private:
+  const std::vector<ScadModule>& modules_;
+  const OpenscadOptions& options_;
+  std::uint32_t digits_;
+  OpenscadDelegate delegate_;
+  ExactForms forms_;
+  FacetedRounds faceted_;
+};
 
 }  // namespace graycube

@@ -166,6 +166,10 @@ ExactSolid or_untold(ScadImport& import, const Make& make) {
   return result;
 }
 
+ExactSolid exact_form(const ScadModule& module, ScadImport& import) {
+  return module.name == "hull" ? exact_hull(module, import) : exact_minkowski(module, import);
+}
+
 }  // namespace
 
 ExactSolid exact_hull(const ScadModule& module, ScadImport& import) {
@@ -195,6 +199,23 @@ ExactSolid exact_minkowski(const ScadModule& module, ScadImport& import) {
     auto node = exact_prism_sum(module, import);
     return node ? ExactSolid{RoundSolid{std::move(*node), {}}} : ExactSolid{NoExactForm{}};
   });
+}
+
+bool ExactForms::has_form(const ScadModule& module) {
+  const auto known = known_.find(&module);
+  if (known != known_.end()) return !std::holds_alternative<NoExactForm>(known->second);
+  OpenscadReport unread;
+  ScadImport import{options_, unread, delegate_, digits_, {}};
+  ExactSolid solid = exact_form(module, import);
+  const bool is_exact = !std::holds_alternative<NoExactForm>(solid);
+  if (!unread.has_errors() && unread.take_warnings().empty())
+    known_.emplace(&module, std::move(solid));
+  return is_exact;
+}
+
+ExactSolid ExactForms::form(const ScadModule& module, ScadImport& import) const {
+  const auto known = known_.find(&module);
+  return known != known_.end() ? known->second : exact_form(module, import);
 }
 
 }  // namespace graycube

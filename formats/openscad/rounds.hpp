@@ -1,6 +1,8 @@
 // hull() and minkowski() of solids with round parts exact.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <variant>
 
 #include "formats/openscad/flat/shape.hpp"
@@ -21,5 +23,26 @@ ExactSolid exact_hull(const ScadModule& module, ScadImport& import);
 /// The Minkowski sum, when each operand is a union of convex solids, or all are upright prisms of
 /// flat shapes whose sum is exact, perhaps with a ball. Without an exact form nothing is reported.
 ExactSolid exact_minkowski(const ScadModule& module, ScadImport& import);
+
+/// The exact forms of hull()s and minkowski()s, which are asked for twice: when round solids that
+/// are flush with others' facets are looked for, and when a module is imported. Modules are told by
+/// their addresses.
+class ExactForms {
+ public:
+  ExactForms(const OpenscadOptions& options, OpenscadDelegate& delegate, std::uint32_t digits)
+      : options_(options), delegate_(delegate), digits_(digits) {}
+
+  /// Whether the module has an exact form, or no volume. Reports nothing.
+  bool has_form(const ScadModule& module);
+  /// The module's form. What there is to say of it is reported.
+  ExactSolid form(const ScadModule& module, ScadImport& import) const;
+
+ private:
+  const OpenscadOptions& options_;
+  OpenscadDelegate& delegate_;
+  std::uint32_t digits_;
+  /// The forms of which there is nothing to report.
+  std::map<const ScadModule*, ExactSolid> known_;
+};
 
 }  // namespace graycube

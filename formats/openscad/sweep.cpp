@@ -245,13 +245,13 @@ std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   return solid;
 }
 
-std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
+std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import, bool facets) {
   auto shape = figure_of(module, import);
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
   if (!sweep) return std::nullopt;
   // If few sides were asked for, they are intended.
-  if (import.options.facets || asked_sides(sweep->fineness) > 0) {
+  if (facets || asked_sides(sweep->fineness) > 0) {
     if (!is_mesh_small(*loops, steps_of(*loops, *sweep), module, import)) return std::nullopt;
     return united(turned_mesh(*loops, *sweep), module, import);
   }
@@ -295,7 +295,12 @@ std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& modu
 }
 
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import) {
-  return module.name == "linear_extrude" ? linear(module, import) : rotated(module, import);
+  return module.name == "linear_extrude" ? linear(module, import)
+                                         : rotated(module, import, import.options.facets);
+}
+
+std::optional<CsgNode> faceted_turn(const ScadModule& module, ScadImport& import) {
+  return rotated(module, import, true);
 }
 
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep) {
@@ -306,13 +311,13 @@ bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<Pla
   return true;
 }
 
-std::optional<FlatShape> wholly_turned(const ScadModule& module, ScadImport& import) {
+std::optional<WholeTurn> whole_turn(const ScadModule& module, ScadImport& import) {
   auto shape = figure_of(module, import);
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
   if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0)
     return std::nullopt;
-  return shape;
+  return WholeTurn{*std::move(shape), steps_of(*loops, *sweep)};
 }
 
 std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,

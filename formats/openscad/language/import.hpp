@@ -13,7 +13,8 @@ namespace graycube {
 struct ScadImport {
   const OpenscadOptions& options;
   OpenscadReport& report;
-  OpenscadDelegate delegate;
+  /// What it has been asked already it isn't asked again, so parts of an import share it.
+  OpenscadDelegate& delegate;
   /// Significant digits of the matrices' numbers.
   std::uint32_t digits = kOpenscadDigits;
   /// The warnings that are given only once, and have been.
@@ -24,10 +25,8 @@ struct ScadImport {
   }
   /// Warns that a module gives facets to the round solids in it.
   void warn_of_sides(const std::string& name, int line) {
-    const char* around = options.facets   ? ""
-                         : name == "hull" ? "; what is round around it is "
-                                            "exact, unless it is flush with it"
-                                          : "; what is round around it is exact";
+    const char* around =
+        options.facets ? "" : "; what is round around it is exact, unless it is flush with it";
     warn_once(line, name + "() takes what is round by OpenSCAD's sides" + around);
   }
 };

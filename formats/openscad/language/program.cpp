@@ -94,6 +94,11 @@ class PathData {
 
 }  // namespace
 
+bool is_for_program(const std::string& name) {
+  return name == "resize" || name == "import" || name == "surface" || name == "roof" ||
+         name == "fill" || name == "intersection_for";
+}
+
 std::string scad_text(const ScadModule& module, const std::string& folder) {
   std::string text;
   write(module, folder, text);

@@ -17,6 +17,9 @@
 
 namespace graycube {
 
+/// Whether the program evaluates whatever such a module holds.
+bool is_for_program(const std::string& name);
+
 /// The text of a module as OpenSCAD reads it; the names of files in `file = …` are made absolute by
 /// `folder`, when it isn't empty.
 std::string scad_text(const ScadModule& module, const std::string& folder);

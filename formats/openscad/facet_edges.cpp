@@ -1,0 +1,139 @@
+#include "formats/openscad/facet_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/aabb.hpp"
+
+namespace graycube {
+namespace {
+
+/// Corners may be off by this share of an edge at most, else nothing is told by them.
+constexpr double kMostOff = 0.1;
+/// More than 1: what touches counts as near, whatever its digits.
+constexpr double kNear = 1.01;
+constexpr std::uint32_t kNoCorner = UINT32_MAX;
+
+/// The corners on a ring's edge lines, sorted by x, with their places in one row of all lines.
+class Corners {
+ public:
+  /// `share`: how far coordinates may be off relative to their size, beyond `off`.
+  Corners(const RoundRing& ring, double off, double share) : ring_(ring) {
+    auto lines = edge_lines(ring);
+    for (const auto& line : lines) {
+      for (const Vec3& p : line) reach_ = std::max(reach_, length(p - ring.center));
+    }
+    off_ = off + share * (max_abs(ring.center) + reach_);
+    std::erase_if(lines, [&](const auto& line) {
+      return line.size() < 3 || !(off_ < kMostOff * length(line[1] - line[0]));
+    });
+    for (const auto& line : lines) {
+      for (const Vec3& p : line)
+        corners_.emplace_back(p, static_cast<std::uint32_t>(corners_.size()));
+    }
+    std::sort(corners_.begin(), corners_.end(),
+              [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
+  }
+  bool empty() const { return corners_.empty(); }
+  /// The corner at a point, and its place; null if there is none.
+  const std::pair<Vec3, std::uint32_t>* at(const Vec3& point) const {
+    const Vec3 p = seen(point);
+    if (!(length(p - ring_.center) <= reach_ + off_)) return nullptr;
+    auto near = std::lower_bound(corners_.begin(), corners_.end(), p.x - off_,
+                                 [](const auto& corner, double x) { return corner.first.x < x; });
+    for (; near != corners_.end() && near->first.x <= p.x + off_; ++near) {
+      if (max_abs(near->first - p) <= off_) return &*near;
+    }
+    return nullptr;
+  }
+  /// A point in the frame of the corners.
+  Vec3 seen(const Vec3& point) const {
+    return ring_.kind == RoundRing::Kind::kCylinder ? across(point, ring_.along) : point;
+  }
+
+ private:
+  const RoundRing& ring_;
+  double off_ = 0, reach_ = 0;
+  std::vector<std::pair<Vec3, std::uint32_t>> corners_;
+};
+
+/// Whether two corners are neighbours on one line of `count` corners.
+bool are_neighbours(std::uint32_t a, std::uint32_t b, std::uint32_t count) {
+  if (a == kNoCorner || b == kNoCorner || a / count != b / count) return false;
+  const std::uint32_t apart = (a % count + count - b % count) % count;
+  return apart == 1 || apart == count - 1;
+}
+
+}  // namespace
+
+FacetEdges::FacetEdges(const PolygonMesh& mesh, const Affine& to_world) {
+  double largest = 0, stretch = 0;
+  for (const Vec3& p : mesh.points) {
+    largest = std::max(largest, max_abs(p));
+    points_.push_back(to_world.point(p));
+  }
+  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    stretch += max_abs(to_world.vector(axis));
+  off_ = kHalfOfSixDigits * largest * stretch;
+  std::size_t begin = 0;
+  for (const std::size_t end : mesh.face_ends) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t a = mesh.corners[i], b = mesh.corners[i + 1 < end ? i + 1 : begin];
+      if (a < points_.size() && b < points_.size()) edges_.emplace_back(a, b);
+    }
+    begin = end;
+  }
+  find_reach();
+}
+
+FacetEdges::FacetEdges(const FlatLoops& outlines, const Affine& to_world) {
+  for (const FlatLoop& loop : outlines) {
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    const auto count = static_cast<std::uint32_t>(loop.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      points_.push_back(to_world.point({loop[i].x, loop[i].y, 0}));
+      edges_.emplace_back(first + i, first + (i + 1) % count);
+    }
+  }
+  find_reach();
+  off_ = kHalfOfSixDigits * (max_abs(middle_) + reach_);
+}
+
+void FacetEdges::find_reach() {
+  Aabb box = Aabb::nothing();
+  for (const Vec3& p : points_) box.include(p);
+  if (box.is_empty()) return;
+  middle_ = box.center();
+  reach_ = length(box.hi - middle_) + off_;
+}
+
+bool FacetEdges::are_near(const RoundRing& ring) const {
+  const bool is_cylinder = ring.kind == RoundRing::Kind::kCylinder;
+  const Vec3 middle = is_cylinder ? across(middle_, ring.along) : middle_;
+  double reach = length(ring.along) * (is_cylinder ? 0 : 1);
+  for (const Vec3& p : ring.corners) reach = std::max(reach, length(p - ring.center));
+  return length(ring.center - middle) <= kNear * (reach + reach_);
+}
+
+bool FacetEdges::have_one_of(const RoundRing& ring, double share) const {
+  const Corners corners(ring, off_, share);
+  if (corners.empty()) return false;
+  std::vector<std::uint32_t> places(points_.size(), kNoCorner);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (const auto* corner = corners.at(points_[i])) places[i] = corner->second;
+  }
+  const auto count = static_cast<std::uint32_t>(ring.corners.size());
+  return std::any_of(edges_.begin(), edges_.end(), [&](const auto& edge) {
+    return are_neighbours(places[edge.first], places[edge.second], count);
+  });
+}
+
+void move_to_corners(const RoundRing& ring, double off, std::vector<Vec3>& points) {
+  const Corners corners(ring, off, 0);
+  if (corners.empty()) return;
+  for (Vec3& p : points) {
+    if (const auto* corner = corners.at(p)) p = p + (corner->first - corners.seen(p));
+  }
+}
+
+}  // namespace graycube
