@@ -65,7 +65,8 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
   std::vector<Hull> hulls;
   find_hulls(modules, {}, hulls);
   OpenscadReport unread;
-  ScadImport import{options, unread, OpenscadDelegate(nullptr, options.folder), digits, {}};
+  OpenscadDelegate nobody(nullptr, options.folder);
+  ScadImport import{options, unread, nobody, digits, {}};
   for (Hull& hull : hulls) {
     const ExactSolid exact = exact_hull(*hull.module, import);
     hull.is_exact = !std::holds_alternative<NoExactForm>(exact);

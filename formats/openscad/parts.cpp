@@ -11,6 +11,7 @@
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
+#include "formats/openscad/language/by_program.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/rounds.hpp"
@@ -66,6 +67,15 @@ bool is_for_program(const std::string& name) {
          name == "roof" || name == "fill" || name == "intersection_for";
 }
 
+/// Whether it is an operation on nothing, whose result is nothing, whatever its dimension.
+bool is_empty_operation(const ScadModule& module) {
+  if (module.dimension != 0) return false;
+  const bool is_operation = is_gathering(module.name) || is_for_program(module.name) ||
+                            module.name == "offset" || module.name == "minkowski";
+  return is_operation &&
+         std::all_of(module.children.begin(), module.children.end(), is_empty_operation);
+}
+
 std::uint32_t levels_of(const CsgNode& node) {
   std::uint32_t most = 0;
   if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
@@ -85,10 +95,10 @@ int dimension_of(const std::vector<ScadModule>& modules) {
 class Importer {
  public:
   Importer(const ReachDirections& directions, const OpenscadOptions& options, std::uint32_t digits,
-           FacetedRounds faceted, OpenscadReport& report)
+           FacetedRounds faceted, OpenscadDelegate& delegate, OpenscadReport& report)
       : directions_(directions),
         report_(report),
-        import_{options, report, OpenscadDelegate(options.program, options.folder), digits, {}},
+        import_{options, report, delegate, digits, {}},
         faceted_(std::move(faceted)) {}
 
   /// Appends the operands of the union of `modules`.
@@ -110,6 +120,7 @@ class Importer {
   void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     if (module.left_out) return;
     const std::string& name = module.name;
+    if (is_empty_operation(module)) return;
     if (around.is_around_all && !is_gathering(name)) {
       Surroundings inner = around;
       inner.is_around_all = false;
@@ -305,17 +316,9 @@ class Importer {
 
   void add_by_program(const ScadModule& module, const Surroundings& around,
                       std::vector<Part>& parts) {
-    if (!import_.delegate.is_there()) {
-      return report_.error(module.line,
-                           module.name + "() needs the program openscad, which is not there");
-    }
-    import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
-    auto result = import_.delegate.solid(module);
-    if (const auto* trouble = std::get_if<std::string>(&result)) {
-      return report_.error(module.line, module.name + "(): " + *trouble);
-    }
-    const PolygonMesh& mesh = std::get<PolygonMesh>(result);
-    auto solid = mesh_leaf(mesh, module, report_);
+    const std::optional<PolygonMesh> mesh = solid_by_program(module, import_);
+    if (!mesh) return;
+    auto solid = mesh_leaf(*mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
@@ -376,9 +379,10 @@ class Importer {
 }  // namespace
 
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report) {
+                             std::uint32_t digits, bool keeps_apart, OpenscadDelegate& delegate,
+                             OpenscadReport& report) {
   Importer importer(reach_directions(options.frame), options, digits,
-                    FacetedRounds(modules, options, digits), report);
+                    FacetedRounds(modules, options, digits), delegate, report);
   OpenscadParts result;
   Surroundings none;
   none.is_around_all = keeps_apart;

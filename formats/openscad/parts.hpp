@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/part.hpp"
@@ -22,8 +23,10 @@ struct OpenscadParts {
   /// tolerance, since its rounded numbers move all parts alike. Reaches are in the world.
   std::optional<Affine> around_all;
 };
-/// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
+/// Parts that `delegate` hasn't asked for yet are missing, untold. `keeps_apart`: matrices that
+/// stand around all parts are not moved down to the leaves.
 OpenscadParts openscad_parts(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, bool keeps_apart, OpenscadReport& report);
+                             std::uint32_t digits, bool keeps_apart, OpenscadDelegate& delegate,
+                             OpenscadReport& report);
 
 }  // namespace graycube

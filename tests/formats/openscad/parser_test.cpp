@@ -119,7 +119,7 @@ TEST_CASE("braces that don't match are errors") {
 }
 
 TEST_CASE("errors inside a broken module's children are found as well") {
-  const auto errors = errors_of("union(a = b + c) {\n  minkowski();\n}");
+  const auto errors = errors_of("union(a = b + c) {\n  minkowski() { surface(); }\n}");
   REQUIRE(errors.size() == 2);
   CHECK(errors[1].starts_with("2: minkowski()"));
 }
@@ -171,7 +171,7 @@ TEST_CASE("a file past the limits of size, modules or values is refused") {
 }
 
 TEST_CASE("past the cap errors are only counted") {
-  const auto errors = errors_of(repeated("minkowski();\n", 150));
+  const auto errors = errors_of(repeated("minkowski() { surface(); }\n", 150));
   REQUIRE(errors.size() == kMaxOpenscadErrors + 1);
   CHECK(errors[99].starts_with("100: minkowski()"));
   CHECK(errors[100] == "0: and 50 more errors");
