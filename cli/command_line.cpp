@@ -328,6 +328,11 @@ template <typename C>
 concept HasConnect = requires(C command) {
   command.connect;
 };
+template <typename C>
+concept IsQuietImport = requires(C command) {
+  command.choice;
+  command.is_quiet;
+};
 
 }  // namespace
 
@@ -338,6 +343,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   std::visit(
       [](auto& c) {
         if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect);
+        if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
       },
       command);
   return command;

@@ -5,10 +5,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "cli/file_ending.hpp"
+#include "cli/openscad/model_view.hpp"
 #include "cli/openscad_process.hpp"
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/brlcad/database.hpp"
@@ -88,7 +91,7 @@ std::vector<Problem> problems_of(const fs::path& path, const std::vector<SceneEr
 }
 
 bool is_own_format(const fs::path& path) {
-  return path.extension() == ".json" || path.extension() == ".cbor";
+  return has_ending(path, ".json") || has_ending(path, ".cbor");
 }
 
 void read_json(const fs::path& path, SceneInput& input) {
@@ -102,22 +105,26 @@ void read_json(const fs::path& path, SceneInput& input) {
   if (!read.used_files) input.text = std::move(text).take();
 }
 
-/// The .csg text of an OpenSCAD file; for a .scad file, the text that the program makes of it.
-std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
-  if (path.extension() == ".csg") return read_file(path, kMaxOpenscadBytes);
-  read_file(path, kMaxOpenscadBytes);  // says why when it can't be read
+/// The .csg text of an OpenSCAD file; for a .scad file, the text that the program makes of it, and
+/// the view that the file sets.
+std::string openscad_text(const fs::path& path, OpenscadProcess* program,
+                          std::optional<OpenscadView>& view) {
+  std::string model = read_file(path, kMaxOpenscadBytes);
+  if (has_ending(path, ".csg")) return model;
   if (program == nullptr) {
     throw bad_scene(path,
                     "the program openscad must evaluate it, and is not there; or give a .csg file");
   }
   auto result = program->evaluate_file(path);
+  const OpenscadMessages& messages = program->messages();
   if (!result.trouble.empty()) {
     std::vector<Problem> problems;
-    for (const std::string& line : program->take_messages())
+    for (const std::string& line : messages.errors())
       problems.push_back({"openscad", path.string(), line});
     if (problems.empty()) problems.push_back({"openscad", path.string(), result.trouble});
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
+  view = openscad_view(messages.marked(), model);
   return std::move(result.text);
 }
 
@@ -131,16 +138,16 @@ void set_overrides(const control::JobOptions& options, How& how) {
 
 void import_openscad(const fs::path& path, const control::JobOptions& options,
                      const ModelChoice& choice, SceneInput& input) {
-  const auto program = OpenscadProcess::find();
+  const auto program = OpenscadProcess::find(choice.is_quiet);
   OpenscadOptions how;
   set_overrides(options, how.frame);
   how.facets = choice.facets;
   how.program = program.get();
   how.folder = fs::absolute(path).parent_path().string();
-  const bool is_tree = path.extension() == ".csg";
+  const bool is_tree = has_ending(path, ".csg");
   // Line numbers are those of the evaluated tree.
   const fs::path where = is_tree ? path : fs::path(path.string() + " (as .csg)");
-  const std::string text = openscad_text(path, program.get());
+  const std::string text = openscad_text(path, program.get(), how.view);
   std::string spelled_out;
   if (!is_tree && text.size() <= kMaxSpelledOutBytes) {
     spelled_out = program->evaluate_with(path, openscad_exact_definitions());
@@ -148,12 +155,15 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
   how.spelled_out = spelled_out;
   OpenscadResult read = read_openscad_csg(text, how);
   if (program) {
-    for (const std::string& line : program->take_messages()) {
+    for (const std::string& line : program->messages().take_warnings()) {
       input.warnings.push_back({"openscad", path.string(), line});
     }
   }
   if (!read.scene) {
     std::vector<Problem> problems;
+    for (ImportWarning& w : read.warnings) {
+      if (w.leaves_out) problems.push_back({"scene", place(where, w.where), std::move(w.text)});
+    }
     for (const OpenscadError& e : read.errors) {
       const std::string line = e.line > 0 ? ":" + std::to_string(e.line) : "";
       problems.push_back({"scene", where.string() + line, e.message});
@@ -211,11 +221,9 @@ std::string scene_endings_text() {
 }
 
 bool is_openscad(const fs::path& path) {
-  return path.extension() == ".csg" || path.extension() == ".scad";
+  return has_ending(path, ".csg") || has_ending(path, ".scad");
 }
-bool is_brlcad(const fs::path& path) {
-  return path.extension() == ".g" || path.extension() == ".asc";
-}
+bool is_brlcad(const fs::path& path) { return has_ending(path, ".g") || has_ending(path, ".asc"); }
 
 std::string brlcad_tops_text(const fs::path& path) {
   const BrlcadTops read = list_brlcad_tops(read_file(path, kMaxBrlcadBytes));

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "cli/commands/commands.hpp"
+#include "cli/file_ending.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
 #include "film/picture_files.hpp"
@@ -31,7 +32,7 @@ void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& c
   const SceneInput input = read_scene_input(in, {}, choice);
   for (const Problem& warning : input.warnings) print(warning);
   std::string text;
-  if (out.extension() == ".pov") {
+  if (has_ending(out, ".pov")) {
     PovScene pov = write_pov(input.scene);
     for (const std::string& warning : pov.warnings) print({"warning", out.string(), warning});
     if (!pov.errors.empty()) {
@@ -43,7 +44,7 @@ void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& c
     text = std::move(pov.text);
   } else {
     text = write_scene_text(input.scene);
-    if (out.extension() == ".cbor") text = cbor_of(JsonTree(PaddedText(std::move(text))));
+    if (has_ending(out, ".cbor")) text = cbor_of(JsonTree(PaddedText(std::move(text))));
   }
   const InterruptsHeld held;
   write_text_file(out, text);
@@ -54,7 +55,7 @@ void convert_scene(const fs::path& in, const fs::path& out, const ModelChoice& c
 ExitStatus run(const ConvertCommand& command) {
   catch_interrupts("convert", 0);
   const fs::path in = command.in, out = command.out;
-  const auto from = in.extension(), to = out.extension();
+  const std::string from = ending_of(in), to = ending_of(out);
   const bool is_scene =
       from == ".json" || from == ".cbor" || is_openscad(in) || is_brlcad(in) || is_mesh_file(in);
   const bool is_known = (is_scene && (to == ".json" || to == ".cbor" || to == ".pov")) ||

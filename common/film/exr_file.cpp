@@ -8,8 +8,10 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 
 #include "check.hpp"
@@ -134,6 +136,49 @@ void limit_header_sizes() {
   static_cast<void>(limited);
 }
 
+/// A black picture without anything in it, as large as the window.
+Picture blank_picture(const std::filesystem::path& path, const Imath::Box2i& window, AovSet aovs) {
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width < 1 || height < 1) fail_to_read(path, "a window without pixels");
+  if (width > std::int64_t{kMaxPictureSide} || height > std::int64_t{kMaxPictureSide} ||
+      static_cast<std::uint64_t>(width * height) > kMaxPicturePixels) {
+    fail_to_read(path, "too many pixels");
+  }
+  Picture picture;
+  picture.width = static_cast<std::uint32_t>(width);
+  picture.height = static_cast<std::uint32_t>(height);
+  const std::uint64_t pixels = std::uint64_t{picture.width} * picture.height;
+  picture.rgb.resize(3 * pixels);
+  picture.aovs = aovs;
+  for (std::size_t p = 0; p < kAovPlanes; ++p) {
+    if (has_plane(aovs, p)) picture.aov_planes[p] = blank_plane(p, pixels);
+  }
+  return picture;
+}
+
+/// Copies the pixels that two windows of one plane have in common.
+void copy_common(const Picture& from, const Imath::Box2i& from_window, Picture& to,
+                 const Imath::Box2i& to_window) {
+  const int left = std::max(from_window.min.x, to_window.min.x);
+  const int right = std::min(from_window.max.x, to_window.max.x);
+  if (left > right) return;
+  const auto index = [&](const Picture& picture, const Imath::Box2i& window, int y) {
+    const auto row = static_cast<std::size_t>(std::int64_t{y} - window.min.y);
+    return 3 * (row * picture.width + static_cast<std::size_t>(std::int64_t{left} - window.min.x));
+  };
+  const std::size_t count = 3 * (static_cast<std::size_t>(right - left) + 1);
+  const int bottom = std::min(from_window.max.y, to_window.max.y);
+  for (int y = std::max(from_window.min.y, to_window.min.y); y <= bottom; ++y) {
+    const std::size_t source = index(from, from_window, y), target = index(to, to_window, y);
+    std::copy_n(from.rgb.data() + source, count, to.rgb.data() + target);
+    for (std::size_t p = 0; p < kAovPlanes; ++p) {
+      if (!has_plane(from.aovs, p)) continue;
+      std::copy_n(from.aov_planes[p].data() + source, count, to.aov_planes[p].data() + target);
+    }
+  }
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const Picture& picture,
@@ -170,20 +215,15 @@ Picture read_exr(const std::filesystem::path& path) {
   try {
     Imf::InputFile input(path.c_str());
     check_channels(path, input.header().channels());
-    const Imath::Box2i window = input.header().dataWindow();
-    Picture picture;
-    picture.width = static_cast<std::uint32_t>(window.max.x - window.min.x) + 1;
-    picture.height = static_cast<std::uint32_t>(window.max.y - window.min.y) + 1;
-    const std::uint64_t pixels = std::uint64_t{picture.width} * picture.height;
-    if (pixels > kMaxPicturePixels) fail_to_read(path, "too many pixels");
-    picture.rgb.resize(3 * pixels);
-    picture.aovs = aovs_among(input.header().channels());
-    for (std::size_t p = 0; p < kAovPlanes; ++p) {
-      if (has_plane(picture.aovs, p)) picture.aov_planes[p] = blank_plane(p, pixels);
-    }
-    input.setFrameBuffer(frame_of(picture, window));
-    input.readPixels(window.min.y, window.max.y);
-    return picture;
+    const Imath::Box2i data = input.header().dataWindow();
+    const Imath::Box2i shown = input.header().displayWindow();
+    Picture picture = blank_picture(path, data, aovs_among(input.header().channels()));
+    input.setFrameBuffer(frame_of(picture, data));
+    input.readPixels(data.min.y, data.max.y);
+    if (data == shown) return picture;
+    Picture placed = blank_picture(path, shown, picture.aovs);
+    copy_common(picture, data, placed, shown);
+    return placed;
   } catch (const PictureError&) {
     throw;
   } catch (const std::exception& error) {

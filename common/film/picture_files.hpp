@@ -28,6 +28,8 @@ struct PictureOrigin {
 /// (written beside, then renamed).
 void write_exr(const std::filesystem::path& path, const Picture& picture,
                const PictureOrigin& origin);
+/// The picture is the file's display window. Pixels of its data window outside that are dropped;
+/// where there are no data it is black.
 Picture read_exr(const std::filesystem::path& path);
 
 /// Writes 16-bit linear RGB, floor(65535 · clamp(v, 0, 1) + 0.5), if the name ends in

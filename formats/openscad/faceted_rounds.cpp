@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "formats/openscad/language/by_program.hpp"
+#include "formats/openscad/language/module_kinds.hpp"
 #include "formats/openscad/sweep.hpp"
 #include "scene/flat_solids.hpp"
 
@@ -98,10 +100,10 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
 }
 
 void FacetedRounds::add_mesh(const ScadModule& solid, const Affine& to_world) {
-  if (!delegate_.is_there()) return;
-  const auto result = delegate_.solid(solid);
-  const auto* mesh = std::get_if<PolygonMesh>(&result);
-  if (mesh == nullptr) return;
+  OpenscadReport unread;
+  ScadImport import{options_, unread, delegate_, digits_, {}};
+  const std::optional<PolygonMesh> mesh = solid_by_program(solid, import);
+  if (!mesh) return;
   std::size_t size = mesh->points.size() + mesh->corners.size();
   for (const FacetEdges& facets : facets_) size += facets.size();
   if (size <= kMostFacetEdges) facets_.emplace_back(*mesh, to_world);

@@ -5,7 +5,10 @@
 #include <variant>
 
 #include "check.hpp"
+#include "formats/openscad/camera.hpp"
+#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/exact.hpp"
+#include "formats/openscad/language/file_extrusions.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/parts.hpp"
@@ -103,29 +106,61 @@ bool improve_numbers(std::vector<ScadModule>& modules, std::string_view spelled_
   return !unread.has_errors() && spell_out(modules, marked);
 }
 
+/// The parts, with all that the delegate has to ask for. What there is to tell of them is told
+/// once.
+OpenscadParts parts_of(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
+                       std::uint32_t digits, OpenscadDelegate& delegate,
+                       std::optional<OpenscadModules>& file, OpenscadReport& report) {
+  for (;;) {
+    OpenscadReport told = report;
+    // Anew, since forms that were found while parts were missing are wrong.
+    file.emplace(modules, options, digits, delegate);
+    OpenscadParts found = file->parts(false, told);
+    if (delegate.evaluate_asked()) continue;
+    report = std::move(told);
+    return found;
+  }
+}
+
+/// Gives the settings the model's own camera, if it has one.
+void set_view(const OpenscadOptions& options, OpenscadReport& report, RenderSettings& settings) {
+  if (!options.view) return;
+  const std::optional<Camera> camera = camera_of(*options.view, options.frame.image);
+  if (camera) settings.camera = *camera;
+  if (!camera)
+    report.warning(0, "no camera is as $vpt, $vpr, $vpd and $vpf say; the model is framed");
+}
+
 Scene import_modules(std::vector<ScadModule> modules, const OpenscadOptions& options,
                      OpenscadReport& report) {
   const bool is_exact = improve_numbers(modules, options.spelled_out);
+  import_files_of_extrusions(modules);
   const std::uint32_t digits = is_exact ? kSpelledOutDigits : kOpenscadDigits;
   if (const ScadModule* root = root_of(modules)) {
     std::vector<ScadModule> only{*root};
     modules = std::move(only);
   }
-  OpenscadModules file(modules, options, digits);
-  OpenscadParts found = file.parts(false, report);
+  OpenscadDelegate delegate(options.program, options.folder);
+  std::optional<OpenscadModules> file;
+  OpenscadParts found = parts_of(modules, options, digits, delegate, file, report);
   Scene scene;
   scene.digits = is_exact && !has_flat_parts_of_six_digits(modules) ? 0 : kOpenscadDigits;
   if (report.has_errors()) return scene;
   const bool keeps_apart = scene.digits > 0 && found.around_all && is_far(reach_of(found.parts));
   if (keeps_apart) {
     OpenscadReport told_already;
-    found = file.parts(true, told_already);
+    found = file->parts(true, told_already);
   }
-  if (scene.digits == 0 && file.has_faceted_rounds()) scene.digits = kFacetDigits;
+  if (scene.digits == 0 && file->has_faceted_rounds()) scene.digits = kFacetDigits;
   auto& [parts, materials, around_all] = found;
   scene.settings = framed_settings(reach_of(parts), options.frame);
+  set_view(options, report, scene.settings);
   scene.materials = std::move(materials);
-  if (parts.empty()) report.warning(0, "the model is empty");
+  if (parts.empty() && report.leaves_out()) {
+    report.error(0, "nothing is left of the model");
+  } else if (parts.empty()) {
+    report.warning(0, "the model is empty");
+  }
   scene.objects = objects_of(std::move(parts), scene.materials);
   if (keeps_apart) {
     for (SceneObject& object : scene.objects)

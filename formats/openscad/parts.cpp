@@ -10,6 +10,7 @@
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
 #include "formats/openscad/hulls/convex_hull.hpp"
+#include "formats/openscad/language/by_program.hpp"
 #include "formats/openscad/language/known_arguments.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/language/module_kinds.hpp"
@@ -115,8 +116,6 @@ class Importer {
       add_intersection(module, around, parts);
     } else if (is_openscad_primitive(module)) {
       add_primitive(module, around, parts);
-    } else if (is_extrusion(name) && module.argument("file") != nullptr) {
-      add_by_program(module, around, parts);
     } else if (is_extrusion(name)) {
       add_sweep(module, around, parts);
     } else if (name == "hull") {
@@ -315,19 +314,10 @@ class Importer {
 
   void add_by_program(const ScadModule& module, const Surroundings& around,
                       std::vector<Part>& parts) {
-    if (!import_.delegate.is_there()) {
-      return report_.error(module.line,
-                           module.name + "() needs the program openscad, which is not there");
-    }
-    import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a mesh");
-    auto result = import_.delegate.solid(module);
-    if (const auto* trouble = std::get_if<std::string>(&result)) {
-      return report_.leave_out(module.name + "() by openscad", module.line,
-                               module.name + "() is left out: " + *trouble);
-    }
-    PolygonMesh& mesh = std::get<PolygonMesh>(result);
-    faceted_.move_corners(mesh.points, around.to_world);
-    auto solid = mesh_leaf(mesh, module, report_);
+    std::optional<PolygonMesh> mesh = solid_by_program(module, import_);
+    if (!mesh) return;
+    faceted_.move_corners(mesh->points, around.to_world);
+    auto solid = mesh_leaf(*mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
@@ -375,11 +365,12 @@ class Importer {
 }  // namespace
 
 OpenscadModules::OpenscadModules(const std::vector<ScadModule>& modules,
-                                 const OpenscadOptions& options, std::uint32_t digits)
+                                 const OpenscadOptions& options, std::uint32_t digits,
+                                 OpenscadDelegate& delegate)
     : modules_(modules),
       options_(options),
       digits_(digits),
-      delegate_(options.program, options.folder),
+      delegate_(delegate),
       forms_(options, delegate_, digits),
       faceted_(modules, options, digits, delegate_, forms_) {}
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/openscad/faceted_rounds.hpp"
+#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/language/program.hpp"
@@ -29,9 +30,10 @@ struct OpenscadParts {
 /// A file's modules as parts. What takes long is done once, however often parts are asked for.
 class OpenscadModules {
  public:
-  /// Rotations are recovered from matrices of `digits` digits.
+  /// Rotations are recovered from matrices of `digits` digits. Parts that `delegate` hasn't asked
+  /// for yet are missing, untold.
   OpenscadModules(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                  std::uint32_t digits);
+                  std::uint32_t digits, OpenscadDelegate& delegate);
 
   /// `keeps_apart`: matrices that stand around all parts are not moved down to the leaves.
   OpenscadParts parts(bool keeps_apart, OpenscadReport& report);
@@ -42,7 +44,7 @@ class OpenscadModules {
   const std::vector<ScadModule>& modules_;
   const OpenscadOptions& options_;
   std::uint32_t digits_;
-  OpenscadDelegate delegate_;
+  OpenscadDelegate& delegate_;
   ExactForms forms_;
   FacetedRounds faceted_;
 };

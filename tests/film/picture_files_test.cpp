@@ -1,8 +1,10 @@
 #include "film/picture_files.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <sys/resource.h>
@@ -361,6 +363,51 @@ TEST_CASE("files that are no pictures are complaints with the file's name") {
   }
   CHECK(
       complaint_of([&] { read_png(folder / "missing"); }).ends_with(": No such file or directory"));
+}
+
+/// Writes an EXR with these windows in which pixel (x, y) of the data is (x, y, 1).
+void write_windows(const fs::path& path, const Imath::Box2i& shown, const Imath::Box2i& data) {
+  Imf::Header header(shown, data);
+  const auto width = static_cast<std::size_t>(data.max.x - data.min.x + 1);
+  std::vector<float> rgb;
+  for (int y = data.min.y; y <= data.max.y; ++y) {
+    for (int x = data.min.x; x <= data.max.x; ++x)
+      rgb.insert(rgb.end(), {static_cast<float>(x), static_cast<float>(y), 1});
+  }
+  Imf::FrameBuffer frame;
+  const char* names[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+    frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, rgb.data() + c, data, 12, 12 * width));
+  }
+  Imf::OutputFile file(path.c_str(), header);
+  file.setFrameBuffer(frame);
+  file.writePixels(data.max.y - data.min.y + 1);
+}
+
+TEST_CASE("an EXR's picture is its display window, black where it has no data") {
+  const TemporaryFolder folder;
+  const auto check = [&](const Imath::Box2i& shown, const Imath::Box2i& data) {
+    write_windows(folder / "a.exr", shown, data);
+    const Picture picture = read_exr(folder / "a.exr");
+    REQUIRE(picture.width == static_cast<std::uint32_t>(shown.max.x - shown.min.x + 1));
+    REQUIRE(picture.height == static_cast<std::uint32_t>(shown.max.y - shown.min.y + 1));
+    std::size_t at = 0;
+    for (int y = shown.min.y; y <= shown.max.y; ++y) {
+      for (int x = shown.min.x; x <= shown.max.x; ++x, at += 3) {
+        INFO("pixel " << x << ", " << y);
+        const bool has_data = data.intersects(Imath::V2i(x, y));
+        REQUIRE(picture.rgb[at] == (has_data ? static_cast<float>(x) : 0));
+        REQUIRE(picture.rgb[at + 1] == (has_data ? static_cast<float>(y) : 0));
+        REQUIRE(picture.rgb[at + 2] == (has_data ? 1 : 0));
+      }
+    }
+  };
+  SECTION("within it") { check({{0, 0}, {15, 11}}, {{3, 2}, {7, 9}}); }
+  SECTION("beyond it") { check({{0, 0}, {5, 4}}, {{-3, -2}, {9, 9}}); }
+  SECTION("partly beside it") { check({{-2, -1}, {5, 4}}, {{3, -4}, {9, 2}}); }
+  SECTION("wholly beside it") { check({{0, 0}, {3, 3}}, {{10, 0}, {12, 3}}); }
+  SECTION("above it") { check({{0, 0}, {3, 3}}, {{0, -9}, {3, -5}}); }
 }
 
 TEST_CASE("pictures of absurd size are refused before memory is taken") {

@@ -1,6 +1,4 @@
 // Models from OpenSCAD, from the import to the picture.
-#include <sys/stat.h>
-
 #include "catch.hpp"
 #include "film/picture_files.hpp"
 #include "integration/sandbox.hpp"
@@ -125,112 +123,6 @@ TEST_CASE("a scene in CBOR gives the picture of its JSON, and comes back as it w
     REQUIRE(o.status == 0);
   }
   CHECK((read_exr(sandbox / "a.json.exr") == read_exr(sandbox / "a.cbor.exr")));
-}
-
-/// Runs the command with a script for `openscad`.
-class FakeOpenscad {
- public:
-  FakeOpenscad(Sandbox& sandbox, const std::string& text) : sandbox_(sandbox) {
-    std::filesystem::create_directory(sandbox / "fake");
-    const auto path = sandbox.write("fake/openscad", "#!/bin/sh\n" + text);
-    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-  }
-  /// `before` stands in front of the command.
-  Outcome run(const Arguments& arguments, const Arguments& before = {}) {
-    Arguments all{"PATH=" + (sandbox_ / "fake").string() + ":/usr/bin:/bin"};
-    all.insert(all.end(), before.begin(), before.end());
-    all.push_back(GRAYCUBE_COMMAND);
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return sandbox_.run_program("/usr/bin/env", all);
-  }
-
- private:
-  Sandbox& sandbox_;
-};
-
-constexpr const char* kTetrahedron =
-    "printf 'OFF 4 4 0\\n0 0 0\\n2 0 0\\n0 2 0\\n0 0 2\\n3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 0 3 2\\n' "
-    "> \"$2\"\n";
-
-TEST_CASE("what OpenSCAD evaluates is asked for once, said once, and leaves nothing behind") {
-  Sandbox sandbox;
-  FakeOpenscad fake(sandbox, "echo run >> runs\n" + std::string(kTetrahedron));
-  sandbox.write("m.csg",
-                "minkowski() { surface(); sphere(1); }\nminkowski() { surface(); sphere(1); }\n");
-  const Outcome o =
-      fake.run({"render", "m.csg", "--algorithm", "serial", "--size", "32x32", "-o", "m.exr"});
-  INFO(o.err);
-  REQUIRE(o.status == 0);
-  CHECK(lines_of(o.err) ==
-        std::vector<std::string>{
-            "graycube: warning: m.csg:1: minkowski() is evaluated by OpenSCAD, as a mesh"});
-  CHECK(lines_of(file_bytes(sandbox / "runs")).size() == 1);
-  CHECK(sandbox.temporary_files().empty());
-}
-
-TEST_CASE("OpenSCAD's own errors are passed on, with the line of what it was asked for") {
-  Sandbox sandbox;
-  FakeOpenscad fake(sandbox, "echo 'ERROR: it is broken' >&2\nexit 1\n");
-  sandbox.write("m.csg", "cube(1);\ntext(text = \"a\");\nminkowski() { surface(); }\n");
-  const Outcome o = fake.run({"check", "m.csg"});
-  CHECK(o.status == 2);
-  CHECK(o.err.find("graycube: scene: m.csg:3: minkowski(): openscad: ERROR: it is broken\n") !=
-        std::string::npos);
-  sandbox.write("m.scad", "cube(;");
-  const Outcome scad = fake.run({"check", "m.scad"});
-  CHECK(scad.status == 2);
-  CHECK(scad.err == "graycube: openscad: m.scad: ERROR: it is broken\n");
-  CHECK(sandbox.temporary_files().empty());
-}
-
-TEST_CASE("an interrupt ends OpenSCAD as well, and leaves nothing behind") {
-  Sandbox sandbox;
-  FakeOpenscad fake(sandbox, "exec sleep 100\n");
-  sandbox.write("m.csg", "minkowski() { surface(); }\n");
-  const Outcome o = fake.run({"render", "m.csg", "-o", "m.exr"}, {"timeout", "--signal=INT", "2"});
-  CHECK(o.status == 124);
-  CHECK(o.err.find("SIGINT: interrupted") != std::string::npos);
-  CHECK(sandbox.processes().empty());
-  CHECK(sandbox.temporary_files().empty());
-  CHECK_FALSE(std::filesystem::exists(sandbox / "m.exr"));
-}
-
-// The thread sanitizer keeps signals back while a file is being opened.
-#ifndef __SANITIZE_THREAD__
-TEST_CASE("while OpenSCAD isn't at work an interrupt ends an importer at once") {
-  Sandbox sandbox;
-  FakeOpenscad fake(sandbox, "exit 0\n");
-  // No process writes to it, so reading it never ends.
-  REQUIRE(::mkfifo((sandbox / "pipe.csg").c_str(), 0600) == 0);
-  const Outcome o =
-      fake.run({"check", "pipe.csg"}, {"timeout", "--signal=INT", "--kill-after=20", "1"});
-  CHECK(o.status == 124);
-  CHECK(o.err == "graycube: check: SIGINT: interrupted\n");
-}
-#endif
-
-TEST_CASE(
-    "text, Minkowski sums and files of the model's folder come through OpenSCAD where it is "
-    "installed") {
-  if (!find_program("openscad")) {
-    WARN("no openscad here");
-    return;
-  }
-  Sandbox sandbox;
-  std::filesystem::create_directory(sandbox / "folder");
-  sandbox.write("folder/part.off",
-                "OFF 4 4 0\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-  sandbox.write("folder/m.scad",
-                "linear_extrude(2) text(\"Oi\");\ntranslate([0, 20, 0]) minkowski() { difference() "
-                "{ cube(4); cube(2); } cylinder(1); }\n"
-                "translate([20, 0, 0]) import(\"part.off\");\n");
-  const Outcome o = sandbox.run(
-      {"render", "folder/m.scad", "--algorithm", "serial", "--size", "40x40", "-o", "m.exr"});
-  INFO(o.err);
-  CHECK(o.status == 0);
-  CHECK(o.err.find("text() is evaluated by OpenSCAD, as a polygon") != std::string::npos);
-  CHECK(o.err.find("minkowski() is evaluated by OpenSCAD, as a mesh") != std::string::npos);
-  CHECK(sandbox.temporary_files().empty());
 }
 
 /// A model of all kinds of numbers that six digits can't hold; with modules of the user's, and of a

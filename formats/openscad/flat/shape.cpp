@@ -10,6 +10,7 @@
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/sums.hpp"
 #include "formats/openscad/language/arguments.hpp"
+#include "formats/openscad/language/by_program.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/language/module_kinds.hpp"
 #include "geometry/portable_math.hpp"
@@ -307,19 +308,8 @@ class FlatReader {
   }
 
   std::optional<FlatShape> by_program(const ScadModule& module, const FlatMap& map) {
-    if (!import_.delegate.is_there()) {
-      import_.report.error(module.line,
-                           module.name + "() needs the program openscad, which is not there");
-      return std::nullopt;
-    }
-    import_.warn_once(module.line, module.name + "() is evaluated by OpenSCAD, as a polygon");
-    auto result = import_.delegate.flat(module);
-    if (const auto* trouble = std::get_if<std::string>(&result)) {
-      import_.report.leave_out(module.name + "() by openscad", module.line,
-                               module.name + "() is left out: " + *trouble);
-      return std::nullopt;
-    }
-    return of_loops(std::get<FlatLoops>(result), map, module.line);
+    const std::optional<FlatLoops> loops = flat_by_program(module, import_);
+    return loops ? of_loops(*loops, map, module.line) : std::nullopt;
   }
 
   ScadImport& import_;

@@ -28,6 +28,7 @@ function graycube_or(v, otherwise) = is_undef(v) ? otherwise : v;
 function graycube_radius(r, d, otherwise) = is_num(d) ? d / 2 : graycube_or(r, otherwise);
 function graycube_at(v, i, otherwise) = is_list(v) && len(v) > i && is_num(v[i]) ? v[i] : otherwise;
 function graycube_pair(v) = is_num(v) ? [v, v] : [for (i = [0:1]) graycube_at(v, i, 1)];
+function graycube_origin(v) = [for (i = [0:1]) graycube_at(v, i, 0)];
 function graycube_three(v, otherwise) =
   is_num(v) ? [v, v, v] : [for (i = [0:2]) graycube_at(v, i, otherwise)];
 function graycube_matrix(a, b, c) =
@@ -105,13 +106,16 @@ module linear_extrude(file, layer, height, origin, scale, center, twist, slices,
   h = graycube_or(height, is_num(file) ? file : 100);
   graycube_note("linear_extrude", str(graycube_fineness(), graycube_named("height", h),
                                       graycube_named("twist", graycube_or(twist, 0)),
-                                      graycube_named("scale", graycube_pair(scale))));
+                                      graycube_named("scale", graycube_pair(scale)),
+                                      graycube_named("origin", graycube_origin(origin))));
   children();
 }
 module rotate_extrude(file, layer, origin, scale, convexity, angle, start) {
   from = graycube_or(start, is_undef(angle) ? 180 : 0);
   graycube_note("rotate_extrude", str(graycube_fineness(), graycube_named("start", from),
-                                      graycube_named("angle", graycube_or(angle, 360))));
+                                      graycube_named("angle", graycube_or(angle, 360)),
+                                      graycube_named("scale", graycube_or(scale, 1)),
+                                      graycube_named("origin", graycube_origin(origin))));
   children();
 }
 module offset(r, delta, chamfer) {

@@ -5,8 +5,9 @@
 #include <set>
 #include <string>
 
+#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/options.hpp"
-#include "formats/openscad/language/program.hpp"
+#include "formats/openscad/language/report.hpp"
 
 namespace graycube {
 
@@ -22,6 +23,11 @@ struct ScadImport {
 
   void warn_once(int line, const std::string& message) {
     if (told.insert(message).second) report.warning(line, message);
+  }
+  /// Tells once for each line that a part is missing because of this. Parts can be asked for more
+  /// than once.
+  void leave_out_once(const std::string& kind, int line, const std::string& message) {
+    if (told.insert(std::to_string(line) + message).second) report.leave_out(kind, line, message);
   }
   /// Warns that a module gives facets to the round solids in it.
   void warn_of_sides(const std::string& name, int line) {

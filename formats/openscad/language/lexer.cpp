@@ -24,6 +24,26 @@ std::string described(char c) {
   return std::string("byte 0x") + kHex[byte >> 4] + kHex[byte & 15];
 }
 
+/// Whether a text can stand behind a string: the end of a list, or a comma with a value or an
+/// argument after it.
+bool can_follow_string(std::string_view text) {
+  const auto skip = [&](std::string_view what) {
+    text.remove_prefix(std::min(text.find_first_not_of(what), text.size()));
+  };
+  skip(kBlanks);
+  if (text.empty() || text.front() == ')' || text.front() == ']') return true;
+  if (text.front() != ',') return false;
+  text.remove_prefix(1);
+  skip(kBlanks);
+  if (text.empty() || !is_name_start(text.front())) return true;
+  const std::string_view all = text;
+  while (!text.empty() && is_name(text.front())) text.remove_prefix(1);
+  const std::string_view name = all.substr(0, all.size() - text.size());
+  if (name == "true" || name == "false" || name == "undef") return true;
+  skip(kBlanks);
+  return text.starts_with('=');
+}
+
 }  // namespace
 
 void ScadLexer::advance_to(std::size_t position) {
@@ -118,11 +138,7 @@ ScadToken ScadLexer::string() {
   const std::size_t begin = position_ + 1;
   for (std::size_t quote = text_.find('"', begin); quote != std::string_view::npos;
        quote = text_.find('"', quote + 1)) {
-    const std::size_t after = text_.find_first_not_of(kBlanks, quote + 1);
-    if (after != std::string_view::npos && text_[after] != ',' && text_[after] != ')' &&
-        text_[after] != ']') {
-      continue;
-    }
+    if (!can_follow_string(text_.substr(quote + 1))) continue;
     token.text = text_.substr(begin, quote - begin);
     advance_to(quote + 1);
     return token;

@@ -3,8 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
-
-#include "formats/mesh/off.hpp"
+#include <utility>
 
 namespace graycube {
 namespace {
@@ -94,11 +93,6 @@ class PathData {
 
 }  // namespace
 
-bool is_for_program(const std::string& name) {
-  return name == "resize" || name == "import" || name == "surface" || name == "roof" ||
-         name == "fill" || name == "intersection_for";
-}
-
 std::string scad_text(const ScadModule& module, const std::string& folder) {
   std::string text;
   write(module, folder, text);
@@ -130,35 +124,6 @@ std::optional<FlatLoops> loops_of_svg(std::string_view text) {
     }
   }
   return loops;
-}
-
-const OpenscadProgram::Result& OpenscadDelegate::result(const ScadModule& module,
-                                                        OpenscadProgram::Format format) {
-  std::string text = scad_text(module, folder_);
-  const auto known = known_.find({text, format});
-  if (known != known_.end()) return known->second;
-  OpenscadProgram::Result result = program_->evaluate(text, format);
-  return known_.emplace(std::pair{std::move(text), format}, std::move(result)).first->second;
-}
-
-std::variant<PolygonMesh, std::string> OpenscadDelegate::solid(const ScadModule& module) {
-  const auto& r = result(module, OpenscadProgram::Format::kOff);
-  if (!r.trouble.empty()) return r.trouble;
-  if (r.text.empty()) return PolygonMesh{};
-  auto mesh = read_off(r.text);
-  if (auto* fault = std::get_if<MeshFault>(&mesh)) return "OpenSCAD's mesh: " + fault->why;
-  // However many digits they have, they were computed from a .csg file's numbers.
-  std::get<PolygonMesh>(mesh).digits = kOpenscadDigits;
-  return std::get<PolygonMesh>(std::move(mesh));
-}
-
-std::variant<FlatLoops, std::string> OpenscadDelegate::flat(const ScadModule& module) {
-  const auto& r = result(module, OpenscadProgram::Format::kSvg);
-  if (!r.trouble.empty()) return r.trouble;
-  if (r.text.empty()) return FlatLoops{};
-  auto loops = loops_of_svg(r.text);
-  if (!loops) return std::string("OpenSCAD's SVG file is not what it writes");
-  return *std::move(loops);
 }
 
 }  // namespace graycube

@@ -28,6 +28,7 @@ void OpenscadReport::warning(const std::string& kind, int line, const std::strin
 
 void OpenscadReport::leave_out(const std::string& kind, int line, const std::string& message) {
   warnings_.leave_out(kind, where(line), message);
+  leaves_out_ = true;
 }
 
 std::vector<OpenscadError> OpenscadReport::take_errors() {

@@ -28,6 +28,8 @@ class OpenscadReport {
   /// The same for a part that is missing in the scene because of it.
   void leave_out(const std::string& kind, int line, const std::string& message);
   bool has_errors() const { return !errors_.empty(); }
+  /// Whether a part is missing.
+  bool leaves_out() const { return leaves_out_; }
 
   /// The errors by line, those of one line in the order in which they were found; then, with line
   /// 0, how many more there were.
@@ -39,6 +41,7 @@ class OpenscadReport {
   std::vector<OpenscadError> errors_;
   ImportWarnings warnings_{kMaxOpenscadWarnings};
   std::size_t dropped_errors_ = 0;
+  bool leaves_out_ = false;
 };
 
 }  // namespace graycube
