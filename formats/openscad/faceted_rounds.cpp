@@ -21,6 +21,8 @@ constexpr std::size_t kMostRingCorners = std::size_t{1} << 22;
 /// Whether a module, if it has no exact form, is of facets; or one within is. Asked first, since
 /// matrices take long to read: their rotations are recovered.
 bool may_have_facets(const ScadModule& module) {
+  // A shadow is seldom flush with what throws it.
+  if (module.name == "projection") return false;
   return module.name == "hull" || module.name == "minkowski" || module.name == "offset" ||
          is_for_program(module.name) ||
          std::any_of(module.children.begin(), module.children.end(), may_have_facets);
