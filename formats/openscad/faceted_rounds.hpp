@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "formats/openscad/facet_edges.hpp"
 #include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hulls/facet_edges.hpp"
 #include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/round_groups.hpp"
