@@ -23,6 +23,8 @@ constexpr std::size_t kMostRingCorners = std::size_t{1} << 22;
 /// Whether a module, if it has no exact form, is of facets; or one within is. Asked first, since
 /// matrices take long to read: their rotations are recovered.
 bool may_have_facets(const ScadModule& module) {
+  // A shadow is seldom flush with what throws it.
+  if (module.name == "projection") return false;
   return module.name == "hull" || module.name == "minkowski" || module.name == "offset" ||
          is_for_program(module.name) ||
          std::any_of(module.children.begin(), module.children.end(), may_have_facets);
@@ -53,10 +55,12 @@ struct FacetedRounds::Solid {
 };
 
 FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                             std::uint32_t digits, OpenscadDelegate& delegate, ExactForms& forms)
+                             std::uint32_t digits, OpenscadDelegate& delegate, KeptFigures& figures,
+                             ExactForms& forms)
     : options_(options),
       digits_(digits),
       delegate_(delegate),
+      figures_(figures),
       share_(digits == kOpenscadDigits ? 1e-5 : 1e-9),
       compared_left_(kMostCompared) {
   if (options.facets || std::none_of(modules.begin(), modules.end(), may_have_facets)) return;
@@ -81,7 +85,7 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
   if (solid.dimension == 2 || name == "linear_extrude") {
     if (!may_have_facets(solid)) return;
     OpenscadReport unread;
-    ScadImport import{options_, unread, delegate_, digits_, {}};
+    ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
     if (const auto figure = upright_figure(solid, import)) add_outlines(*figure, to_world);
     solids.push_back({&solid, to_world});
   } else if (name == "rotate_extrude") {
@@ -158,7 +162,7 @@ void FacetedRounds::spread(std::vector<Solid>& solids) {
 std::vector<RoundGroup> FacetedRounds::groups_of(const ScadModule& solid,
                                                  const Affine& to_world) const {
   OpenscadReport unread;
-  ScadImport import{options_, unread, delegate_, digits_, {}};
+  ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
   return round_groups(solid, to_world, import);
 }
 
@@ -173,7 +177,7 @@ bool FacetedRounds::change_figure(const ScadModule& module, const Affine& to_wor
   if (rings_.empty() || module.name != "linear_extrude") return false;
   if (!may_have_facets(module)) return touch(module, to_world);
   OpenscadReport unread;
-  ScadImport import{options_, unread, delegate_, digits_, {}};
+  ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
   return upright_figure(module, import).has_value();
 }
 

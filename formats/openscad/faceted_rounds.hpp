@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "formats/openscad/facet_edges.hpp"
 #include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hulls/facet_edges.hpp"
 #include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/round_groups.hpp"
@@ -22,7 +22,8 @@ class FacetedRounds {
   /// Looks for facets, and for round solids that are flush with them, in a whole file. Reports
   /// nothing. The import's report is not used; its program is asked for meshes.
   FacetedRounds(const std::vector<ScadModule>& modules, const OpenscadOptions& options,
-                std::uint32_t digits, OpenscadDelegate& delegate, ExactForms& forms);
+                std::uint32_t digits, OpenscadDelegate& delegate, KeptFigures& figures,
+                ExactForms& forms);
 
   bool empty() const { return rings_.empty(); }
   /// Whether a solid that for_each_solid() visits has a round surface that gets facets.
@@ -58,6 +59,7 @@ class FacetedRounds {
   const OpenscadOptions& options_;
   std::uint32_t digits_;
   OpenscadDelegate& delegate_;
+  KeptFigures& figures_;
   /// The share of coordinates by which two matrices of so many digits may place points differently.
   double share_;
   /// The facets that stand there already, until all that is flush with them is found.

@@ -371,11 +371,12 @@ OpenscadModules::OpenscadModules(const std::vector<ScadModule>& modules,
       options_(options),
       digits_(digits),
       delegate_(delegate),
-      forms_(options, delegate_, digits),
-      faceted_(modules, options, digits, delegate_, forms_) {}
+      forms_(options, delegate_, digits, figures_),
+      faceted_(modules, options, digits, delegate_, figures_, forms_) {}
 
 OpenscadParts OpenscadModules::parts(bool keeps_apart, OpenscadReport& report) {
-  Importer importer({options_, report, delegate_, digits_, {}}, forms_, faceted_, keeps_apart);
+  Importer importer({options_, report, delegate_, digits_, {}, &figures_}, forms_, faceted_,
+                    keeps_apart);
   OpenscadParts result;
   Surroundings none;
   none.is_around_all = true;

@@ -45,6 +45,7 @@ class OpenscadModules {
   const OpenscadOptions& options_;
   std::uint32_t digits_;
   OpenscadDelegate& delegate_;
+  KeptFigures figures_;
   ExactForms forms_;
   FacetedRounds faceted_;
 };

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "formats/openscad/flat/shape.hpp"
+#include "formats/openscad/hulls/round_ring.hpp"
 #include "formats/openscad/language/matrix.hpp"
-#include "formats/openscad/round_ring.hpp"
 
 namespace graycube {
 

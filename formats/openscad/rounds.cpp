@@ -205,7 +205,7 @@ bool ExactForms::has_form(const ScadModule& module) {
   const auto known = known_.find(&module);
   if (known != known_.end()) return !std::holds_alternative<NoExactForm>(known->second);
   OpenscadReport unread;
-  ScadImport import{options_, unread, delegate_, digits_, {}};
+  ScadImport import{options_, unread, delegate_, digits_, {}, &figures_};
   ExactSolid solid = exact_form(module, import);
   const bool is_exact = !std::holds_alternative<NoExactForm>(solid);
   if (!unread.has_errors() && unread.take_warnings().empty())

@@ -7,6 +7,7 @@
 
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
+#include "formats/openscad/kept_figures.hpp"
 
 namespace graycube {
 
@@ -29,8 +30,9 @@ ExactSolid exact_minkowski(const ScadModule& module, ScadImport& import);
 /// their addresses.
 class ExactForms {
  public:
-  ExactForms(const OpenscadOptions& options, OpenscadDelegate& delegate, std::uint32_t digits)
-      : options_(options), delegate_(delegate), digits_(digits) {}
+  ExactForms(const OpenscadOptions& options, OpenscadDelegate& delegate, std::uint32_t digits,
+             KeptFigures& figures)
+      : options_(options), delegate_(delegate), digits_(digits), figures_(figures) {}
 
   /// Whether the module has an exact form, or no volume. Reports nothing.
   bool has_form(const ScadModule& module);
@@ -41,6 +43,7 @@ class ExactForms {
   const OpenscadOptions& options_;
   OpenscadDelegate& delegate_;
   std::uint32_t digits_;
+  KeptFigures& figures_;
   /// The forms of which there is nothing to report.
   std::map<const ScadModule*, ExactSolid> known_;
 };

@@ -7,6 +7,7 @@
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
+#include "formats/openscad/kept_figures.hpp"
 #include "formats/openscad/language/arguments.hpp"
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/sweep_arguments.hpp"
@@ -173,6 +174,7 @@ CsgNode wedge(double from, double to) {
 }
 
 std::optional<FlatShape> figure_of(const ScadModule& module, ScadImport& import) {
+  if (import.figures != nullptr) return import.figures->figure(module, import);
   return flat_union(module.children, {}, import, module.line);
 }
 

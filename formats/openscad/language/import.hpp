@@ -11,6 +11,8 @@
 
 namespace graycube {
 
+class KeptFigures;
+
 struct ScadImport {
   const OpenscadOptions& options;
   OpenscadReport& report;
@@ -20,6 +22,10 @@ struct ScadImport {
   std::uint32_t digits = kOpenscadDigits;
   /// The warnings that are given only once, and have been.
   std::set<std::string> told;
+  /// Figures that are evaluated already; may be null.
+  KeptFigures* figures = nullptr;
+  /// Whether nobody reads the report.
+  bool is_silent = false;
 
   void warn_once(int line, const std::string& message) {
     if (told.insert(message).second) report.warning(line, message);

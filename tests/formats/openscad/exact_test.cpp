@@ -62,6 +62,32 @@ Vec3 size_of(const Scene& scene, std::size_t object = 0) {
 constexpr const char* kThird = "cube(size = [0.333333, 2, 3], center = false);";
 constexpr double kOneThird = 1.0 / 3;
 
+/// Two cylinders that cross, whose hull has no exact form; `aside` moves the upright one.
+std::string crossing_hull(const std::string& aside) {
+  return "hull() { " + shift(aside, "cylinder($fn = 40, h = 8, r1 = 10, r2 = 10);") +
+         "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) { cylinder($fn = "
+         "40, h = 9, r1 = 4, r2 = 4); } }";
+}
+std::string note_of_cylinder(double h, double r) {
+  return note("cylinder", "$fn=" + spelled({40}) + "|h=" + spelled({h}) + "|r1=" + spelled({r}) +
+                              "|r2=" + spelled({r}) + "|");
+}
+std::string note_of_crossing_hull(double aside) {
+  return "hull() { " + note_of_shift(aside, 0, 0, note_of_cylinder(8, 10)) +
+         note("multmatrix",
+              "m=" + spelled({1, 0, 0, 30, 0, 0, -1, 0, 0, 1, 0, 4, 0, 0, 0, 1}) + "|",
+              "group() {" + note_of_cylinder(9, 4) + "}") +
+         " }";
+}
+
+TEST_CASE("twelve digits count where rounds get facets, since corners tell planes no better") {
+  const Scene faceted = scene_of(crossing_hull("0.333333"), note_of_crossing_hull(kOneThird));
+  CHECK(faceted.digits == 12);
+  const Scene round = scene_of(shift("0.333333", "cylinder($fn = 40, h = 8, r1 = 10, r2 = 10);"),
+                               note_of_shift(kOneThird, 0, 0, note_of_cylinder(8, 10)));
+  CHECK(round.digits == 0);
+}
+
 TEST_CASE("numbers that are spelled out come back to the last bit") {
   std::mt19937_64 random(19);
   for (int i = 0; i < 2000; ++i) {

@@ -1,5 +1,6 @@
 // Extruded and turned circles, and rounds beside OpenSCAD's meshes, take the facets with which they
 // are flush.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -30,6 +31,8 @@ const std::string kDrum = "linear_extrude(height = 8) " + kDisc;
 const std::string kRing =
     "rotate_extrude($fn = 36) multmatrix([[1, 0, 0, 8], [0, 1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]]) "
     "circle($fn = 20, r = 3); ";
+
+constexpr double kPi = 3.14159265358979323846;
 
 std::string hull_of(const std::string& part) { return "hull() { " + part + kAcross + "} "; }
 
@@ -79,7 +82,7 @@ struct PrismProgram : OpenscadProgram {
     text << "OFF " << 2 * sides_ << ' ' << sides_ + 2 << " 0\n";
     for (const double z : {-20, 20}) {
       for (int i = 0; i < sides_; ++i) {
-        const double angle = 2 * 3.14159265358979323846 * i / sides_;
+        const double angle = 2 * kPi * i / sides_;
         text << 10 * std::cos(angle) << ' ' << 10 * std::sin(angle) << ' ' << z << '\n';
       }
     }
@@ -172,6 +175,14 @@ TEST_CASE("a boss is flush with the facets of an offset without an exact form") 
   CHECK_FALSE(has_round("difference() { " + boss + lid + "}"));
   CHECK(rays_that_hit("difference() { " + boss + "union() { " + lid + base + "} }") == 0);
   CHECK(has_round("difference() { " + boss + kAside + lid + "}"));
+  // Clipper's grid is 1e-11 wide here; the corners are the boss's to the last bits.
+  const Scene scene = scene_of("union() { " + lid + boss + "}");
+  const auto* prism = std::get_if<PrismShape>(&scene.objects.at(0).csg.value);
+  REQUIRE(prism != nullptr);
+  const double x = 4 * std::cos(1.0625 * kPi), y = 4 * std::sin(1.0625 * kPi);
+  CHECK(std::any_of(prism->points.begin(), prism->points.end(), [&](const FlatPoint& p) {
+    return std::fabs(p.x - x) < 1e-14 && std::fabs(p.y - y) < 1e-14;
+  }));
 }
 
 TEST_CASE("a far file asks OpenSCAD once for each part") {

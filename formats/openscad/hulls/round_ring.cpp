@@ -1,4 +1,4 @@
-#include "formats/openscad/round_ring.hpp"
+#include "formats/openscad/hulls/round_ring.hpp"
 
 #include <algorithm>
 #include <cmath>

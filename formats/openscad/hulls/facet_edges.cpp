@@ -1,4 +1,4 @@
-#include "formats/openscad/facet_edges.hpp"
+#include "formats/openscad/hulls/facet_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

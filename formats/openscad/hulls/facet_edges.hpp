@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flat/polygon.hpp"
-#include "formats/openscad/round_ring.hpp"
+#include "formats/openscad/hulls/round_ring.hpp"
 #include "mesh/close_mesh.hpp"
 
 namespace graycube {
