@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "formats/openscad/language/by_program.hpp"
 #include "formats/openscad/language/module_kinds.hpp"
+#include "formats/openscad/program/by_program.hpp"
 #include "formats/openscad/sweep.hpp"
 #include "scene/flat_solids.hpp"
 
@@ -82,6 +82,7 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
 void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
                             std::vector<Solid>& solids) {
   const std::string& name = solid.name;
+  if (solid.dimension == 0) return;  // nothing is in it
   if (solid.dimension == 2 || name == "linear_extrude") {
     if (!may_have_facets(solid)) return;
     OpenscadReport unread;

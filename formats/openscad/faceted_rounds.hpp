@@ -10,8 +10,8 @@
 
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hulls/facet_edges.hpp"
-#include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/program/import.hpp"
 #include "formats/openscad/round_groups.hpp"
 #include "formats/openscad/rounds.hpp"
 

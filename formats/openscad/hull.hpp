@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/program/import.hpp"
 #include "geometry/affine.hpp"
 
 namespace graycube {

@@ -6,12 +6,12 @@
 
 #include "check.hpp"
 #include "formats/openscad/camera.hpp"
-#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/exact.hpp"
-#include "formats/openscad/language/file_extrusions.hpp"
 #include "formats/openscad/language/parser.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/parts.hpp"
+#include "formats/openscad/program/delegate.hpp"
+#include "formats/openscad/program/file_extrusions.hpp"
 #include "formats/view/framing.hpp"
 
 namespace graycube {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "formats/openscad/faceted_rounds.hpp"
-#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/parser.hpp"
-#include "formats/openscad/language/program.hpp"
 #include "formats/openscad/part.hpp"
+#include "formats/openscad/program/delegate.hpp"
+#include "formats/openscad/program/program.hpp"
 #include "formats/openscad/rounds.hpp"
 
 namespace graycube {

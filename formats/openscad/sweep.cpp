@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "formats/openscad/extrusions/sweep_arguments.hpp"
+#include "formats/openscad/extrusions/sweep_mesh.hpp"
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
 #include "formats/openscad/kept_figures.hpp"
 #include "formats/openscad/language/arguments.hpp"
 #include "formats/openscad/primitives.hpp"
-#include "formats/openscad/sweep_arguments.hpp"
-#include "formats/openscad/sweep_mesh.hpp"
 #include "geometry/portable_math.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/limits.hpp"

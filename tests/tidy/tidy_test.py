@@ -98,6 +98,12 @@ class TidyTest(unittest.TestCase):
         both = {"node/node.hpp": '#include "high/high.hpp"\n#include "low/low.hpp"\n'}
         self.expect("ARCHITECTURE.md:10: frontal includes nothing of common/low", {**wide, **both})
 
+    def test_a_row_may_name_all_rows_above_that_are_below_a_folder(self):
+        group = self.map_with("| brains | `common/high` |", "| brains | `common/` |")
+        self.assertEqual(self.breaches(group), [])
+        below = self.map_with("| high | `common/low` |", "| high | `node/` |")
+        self.assertIn("ARCHITECTURE.md:9: node/ is no row above that of common/high", self.breaches(below))
+
     def test_a_row_is_of_a_folder(self):
         self.expect("ARCHITECTURE.md:9: there is no folder common/mid",
                     self.map_with("| `common/high` | high",

@@ -10,9 +10,9 @@
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/sums.hpp"
 #include "formats/openscad/language/arguments.hpp"
-#include "formats/openscad/language/by_program.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/language/module_kinds.hpp"
+#include "formats/openscad/program/by_program.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {

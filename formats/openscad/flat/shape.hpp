@@ -8,7 +8,7 @@
 #include "flat/polygon.hpp"
 #include "flat/rounded_polygon.hpp"
 #include "flat/rounds.hpp"
-#include "formats/openscad/language/import.hpp"
+#include "formats/openscad/program/import.hpp"
 
 namespace graycube {
 

@@ -111,7 +111,7 @@ TEST_CASE("repeated and strange corners, faces of two and points of two numbers 
             "line 1: polyhedron(): face 0 names a point that isn't there, which is ignored"});
   for (const char* faces : {"3", "[0, 1, \"2\"]", "[0, 1, [2]]"}) {
     CHECK(is_left_out(with_faces(faces)));
-    CHECK(errors_of(with_faces(faces)).empty());
+    CHECK(errors_of("cube(1);\n" + with_faces(faces)).empty());
   }
   CHECK(is_left_out("polyhedron(points = [[0, 0, \"a\"]], faces = []);"));
 }

@@ -5,9 +5,9 @@
 #include <set>
 #include <string>
 
-#include "formats/openscad/language/delegate.hpp"
 #include "formats/openscad/language/options.hpp"
 #include "formats/openscad/language/report.hpp"
+#include "formats/openscad/program/delegate.hpp"
 
 namespace graycube {
 

@@ -1,4 +1,4 @@
-#include "formats/openscad/language/delegate.hpp"
+#include "formats/openscad/program/delegate.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "formats/mesh/mesh_file.hpp"
 #include "formats/mesh/off.hpp"
-#include "formats/openscad/language/program.hpp"
+#include "formats/openscad/program/program.hpp"
 #include "geometry/aabb.hpp"
 
 namespace graycube {

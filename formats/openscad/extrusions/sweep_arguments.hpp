@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "formats/openscad/language/import.hpp"
-#include "formats/openscad/sweep_mesh.hpp"
+#include "formats/openscad/extrusions/sweep_mesh.hpp"
+#include "formats/openscad/program/import.hpp"
 #include "geometry/affine.hpp"
 
 namespace graycube {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "flat/polygon.hpp"
-#include "formats/openscad/language/import.hpp"
 #include "formats/openscad/language/parser.hpp"
+#include "formats/openscad/program/import.hpp"
 #include "mesh/close_mesh.hpp"
 
 namespace graycube {

@@ -1,4 +1,4 @@
-#include "formats/openscad/sweep_mesh.hpp"
+#include "formats/openscad/extrusions/sweep_mesh.hpp"
 
 #include <algorithm>
 #include <array>

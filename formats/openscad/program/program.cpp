@@ -1,4 +1,4 @@
-#include "formats/openscad/language/program.hpp"
+#include "formats/openscad/program/program.hpp"
 
 #include <charconv>
 #include <cmath>

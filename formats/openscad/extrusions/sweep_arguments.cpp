@@ -1,4 +1,4 @@
-#include "formats/openscad/sweep_arguments.hpp"
+#include "formats/openscad/extrusions/sweep_arguments.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "formats/openscad/language/file_extrusions.hpp"
+#include "formats/openscad/program/file_extrusions.hpp"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "formats/openscad/language/by_program.hpp"
+#include "formats/openscad/program/by_program.hpp"
 
 #include <algorithm>
 #include <filesystem>
