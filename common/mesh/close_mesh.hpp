@@ -30,11 +30,9 @@ struct PolygonMesh {
 /// Why polygons don't enclose a solid; begins in lower case, for "mesh: …".
 struct MeshFault {
   std::string why;
+  /// Edges are open, which mesh/repair_mesh.hpp may mend.
+  bool is_open = false;
 };
-
-/// Corners that differ by at most this part of the largest coordinate are one if the mesh is open
-/// otherwise.
-inline constexpr double kWeldTolerance = 1e-12;
 
 /// The closed mesh: points with bitwise equal coordinates become one (−0 is 0), points that no face
 /// uses and triangles with two equal corners are dropped. Every edge must be used by as many faces
@@ -42,9 +40,9 @@ inline constexpr double kWeldTolerance = 1e-12;
 /// their neighbours. A mesh whose volume is negative is turned inside out as a whole. A result
 /// given to this function again comes back unchanged.
 ///
-/// A mesh that is open as it is written is tried again with points joined that are within
-/// kWeldTolerance of the largest coordinate, and then within `join_within`: computed corners that
-/// should be one often differ by rounding. The fault is that of the mesh as written.
+/// A mesh that has no inside as it is written is tried again with points joined that are within
+/// kRoundingShare (mesh/join_points.hpp) of the largest coordinate, and then within `join_within`:
+/// programs compute a corner in two ways. The fault is that of the mesh as written.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or

@@ -216,22 +216,6 @@ TEST_CASE("a bent fan of many corners has no corner within the circle of a trian
   }
 }
 
-TEST_CASE("corners that differ by rounding are one where the mesh is open otherwise") {
-  PolygonMesh soup;
-  const PolygonMesh box = box_polygons({-1, 0, 0}, {3, 3, 2});
-  for (const std::uint32_t i : box.corners) {
-    const double noise = (static_cast<double>(soup.points.size() % 5) - 2) * 2e-13;
-    soup.points.push_back(box.points[i] + Vec3{noise, -noise, noise});
-  }
-  for (std::uint32_t f = 0; f < 6; ++f)
-    soup.add_face(std::array{4 * f, 4 * f + 1, 4 * f + 2, 4 * f + 3});
-  const TriangleMesh mesh = closed(soup);
-  CHECK(mesh.points.size() == 8);
-  CHECK(volume_of(mesh) == Approx(24));
-  for (Vec3& p : soup.points) p = 1e-3 * p + Vec3{1000, 0, 0};
-  CHECK(closed(soup).points.size() == 8);
-}
-
 TEST_CASE("corners further apart are joined only within a distance that is asked for") {
   PolygonMesh gap = box_polygons({0, 0, 0}, {1, 1, 1});
   gap.points.push_back({1e-7, 0, 0});
