@@ -317,6 +317,10 @@ class Importer {
                                module.name + "() is left out: " + *trouble);
     }
     const PolygonMesh& mesh = std::get<PolygonMesh>(result);
+    if (mesh.face_ends.empty() && is_newer_than_2021(module.name)) {
+      return report_.leave_out(module.name + "() by openscad", module.line,
+                               module.name + "() is left out: this openscad doesn't know it");
+    }
     auto solid = mesh_leaf(mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
