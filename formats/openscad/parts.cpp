@@ -316,6 +316,10 @@ class Importer {
                       std::vector<Part>& parts) {
     std::optional<PolygonMesh> mesh = solid_by_program(module, import_);
     if (!mesh) return;
+    if (mesh->face_ends.empty() && is_newer_than_2021(module.name)) {
+      return report_.leave_out(module.name + "() by openscad", module.line,
+                               module.name + "() is left out: this openscad doesn't know it");
+    }
     faceted_.move_corners(mesh->points, around.to_world);
     auto solid = mesh_leaf(*mesh, module, report_);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);

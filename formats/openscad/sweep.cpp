@@ -242,8 +242,12 @@ std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
   const auto sweep = linear_sweep(module, import);
   auto solid = sweep ? upright(*sweep, module, import) : std::nullopt;
   if (!solid || sweep->lean == FlatPoint{}) return solid;
-  solid->transform =
-      solid->transform ? compose(leaning(*sweep), *solid->transform) : leaning(*sweep);
+  const Affine lean = leaning(*sweep);
+  solid->transform = solid->transform ? compose(lean, *solid->transform) : lean;
+  if (!solid->transform->inverse()) {
+    import.report.warning(module.line, "linear_extrude() is left out: it leans too far to be seen");
+    return std::nullopt;
+  }
   return solid;
 }
 

@@ -16,6 +16,8 @@ bool is_for_program(const std::string& name) {
          name == "intersection_for";
 }
 
+bool is_newer_than_2021(const std::string& name) { return name == "roof"; }
+
 bool is_empty_without_shapes(const std::string& name) {
   return is_gathering(name) || is_for_program(name) || name == "difference" ||
          name == "intersection" || name == "hull" || name == "minkowski" || name == "offset" ||

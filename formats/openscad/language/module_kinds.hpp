@@ -13,6 +13,9 @@ bool is_gathering(const std::string& name);
 bool is_extrusion(const std::string& name);
 /// Whether the program `openscad` must evaluate it.
 bool is_for_program(const std::string& name);
+/// Whether OpenSCAD 2021.01 doesn't know it, and makes nothing of it; what is done here isn't among
+/// them.
+bool is_newer_than_2021(const std::string& name);
 /// Whether it is a module of .csg files that is empty when no shape is in it.
 bool is_empty_without_shapes(const std::string& name);
 

@@ -1,5 +1,7 @@
 // polyhedron(): what faces and points of all kinds enclose, and what hulls make of them.
-#include <cmath>
+#include <algorithm>
+#include <string>
+#include <utility>
 
 #include "catch.hpp"
 #include "formats/openscad/leaf_meshes.hpp"
@@ -131,6 +133,38 @@ TEST_CASE("a module without a shape in it is nothing, whatever it does") {
     INFO(empty);
     CHECK(scene_of("cube(1);" + std::string(empty)).objects.size() == 1);
     CHECK(warnings_of("cube(1);" + std::string(empty)).empty());
+  }
+}
+
+/// Answers whatever it is asked.
+class Answering : public OpenscadProgram {
+ public:
+  explicit Answering(Result result) : result_(std::move(result)) {}
+  Result evaluate(const std::string& /*csg*/, Format /*format*/) override { return result_; }
+
+ private:
+  Result result_;
+};
+
+TEST_CASE("what openscad can't make, or doesn't know, is left out alone, in its own words") {
+  const std::string text =
+      "cube(1);\nroof(method = \"voronoi\") square(size = [4, 2]);\nlinear_extrude(height = 1) "
+      "text(text = \"a\");";
+  for (const auto& [trouble, told] :
+       {std::pair<std::string, std::string>{"no memory", "no memory"}, {"", "doesn't know it"}}) {
+    Answering program({"", trouble});
+    OpenscadOptions options;
+    options.program = &program;
+    const OpenscadResult result = read_openscad_csg(text, options);
+    REQUIRE(result.scene);
+    CHECK(result.scene->objects.size() == 1);
+    std::vector<ImportWarning> left;
+    for (const ImportWarning& w : result.warnings) {
+      if (w.leaves_out) left.push_back(w);
+    }
+    REQUIRE(left.size() == (trouble.empty() ? 1 : 2));
+    CHECK(left[0].where == "line 2");
+    CHECK_THAT(left[0].text, Catch::StartsWith("roof() is left out: ") && Catch::Contains(told));
   }
 }
 
