@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "cli/foreign_meshes.hpp"
 #include "cli/openscad_process.hpp"
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/brlcad/database.hpp"
@@ -91,12 +92,20 @@ bool is_own_format(const fs::path& path) {
   return path.extension() == ".json" || path.extension() == ".cbor";
 }
 
-void read_json(const fs::path& path, SceneInput& input) {
+MeshReading mesh_reading(const ModelChoice& choice) {
+  return {.repairs = choice.repairs, .foreign = [](const fs::path& file) {
+            return read_foreign_meshes(file, mesh_reader_program());
+          }};
+}
+
+void read_json(const fs::path& path, const ModelChoice& choice, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
-  ReadResult read = read_scene_text(text, mesh_files_beside(path));
+  std::vector<ImportWarning> warnings;
+  ReadResult read = read_scene_text(text, mesh_files_beside(path, mesh_reading(choice), &warnings));
   if (!read.scene) {
     throw Failure(ExitStatus::kBadInput, problems_of(path, read.errors));
   }
+  note(std::move(warnings), path, choice, input);
   input.scene = std::move(*read.scene);
   // A farm opens no files: then the meshes are sent in a text made for it.
   if (!read.used_files) input.text = std::move(text).take();
@@ -164,17 +173,23 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
   input.scene = std::move(*read.scene);
 }
 
-void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
-  auto read = read_mesh_file(path);
+void import_mesh(const fs::path& path, const control::JobOptions& options,
+                 const ModelChoice& choice, SceneInput& input) {
+  auto read = read_mesh_file(path, mesh_reading(choice));
   if (const auto* fault = std::get_if<MeshFault>(&read)) {
     // The problem has the file's name in front already.
     const std::string name = path.string() + ": ";
     throw bad_scene(path,
                     fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
   }
+  auto& solids = std::get<MeshSolids>(read);
+  note(std::move(solids.warnings), path, choice, input);
+  std::vector<SceneMesh> meshes;
+  for (MeshSolid& s : solids.solids)
+    meshes.push_back({std::move(s.name), std::move(s.shape), s.color});
   Frame how;
   set_overrides(options, how);
-  input.scene = scene_of_mesh(std::move(std::get<MeshShape>(read)), how);
+  input.scene = scene_of_meshes(std::move(meshes), how);
 }
 
 Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
@@ -238,6 +253,11 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     throw usage_failure("--facets",
                         "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
   }
+  if (choice.repairs && !is_mesh_file(path) && !is_own_format(path)) {
+    throw usage_failure("--repair", "is for meshes (" + mesh_endings_text() +
+                                        ", and those that a .json names), not for " +
+                                        path.string());
+  }
   SceneInput input;
   input.name = path.filename().string();
   if (is_openscad(path)) {
@@ -245,9 +265,9 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
   } else if (is_brlcad(path)) {
     import_brlcad(path, options, choice, input);
   } else if (is_own_format(path)) {
-    read_json(path, input);
+    read_json(path, choice, input);
   } else if (is_mesh_file(path)) {
-    import_mesh(path, options, input);
+    import_mesh(path, options, choice, input);
   } else {
     throw bad_scene(path, "expected a name ending in " + scene_endings_text());
   }

@@ -20,6 +20,8 @@ struct ModelChoice {
   bool facets = false;
   /// A part of a model that can't be had is an error, not left out with a warning.
   bool is_strict = false;
+  /// For mesh files: open ones are repaired (mesh/repair_mesh.hpp).
+  bool repairs = false;
   /// For BRL-CAD: the objects to show; if empty, all that nothing refers to.
   std::vector<std::string> objects;
   /// The file of a view script for rt; if empty, azimuth and elevation count.

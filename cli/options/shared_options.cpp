@@ -20,6 +20,8 @@ void add_import_options(Declaring& options, ModelChoice& choice) {
   options.flag("--facets", choice.facets, "OpenSCAD: what is round as OpenSCAD's own facets");
   options.flag("--strict", choice.is_strict,
                "Refuse a model of which a part would be left out, instead of warning");
+  options.flag("--repair", choice.repairs,
+               "Mesh files: join corners and fill flat holes of open meshes, and say so");
 }
 
 void add_model_choice(Declaring& options, ModelChoice& choice) {

@@ -7,10 +7,12 @@
 
 #include "formats/mesh/part_groups.hpp"
 #include "formats/mesh/repair_text.hpp"
-#include "spelling.hpp"
 
 namespace graycube {
 namespace {
+
+/// Kinds of repairs, and meshes that are left out.
+constexpr std::size_t kMostKinds = 8;
 
 MeshSolid solid_of(const MeshPart& part, TriangleMesh mesh, std::uint32_t digits) {
   return {part.name, MeshShape{std::move(mesh), digits}, part.color};
@@ -70,29 +72,32 @@ class PartCloser {
       solids_.emplace(place, solid_of(whole, std::move(*mesh), whole.polygons.digits));
       return;
     }
+    leave_out(place, whole.name, count, std::get<MeshFault>(std::move(closed)));
+  }
+
+  void leave_out(std::uint32_t place, const std::string& name, std::size_t count, MeshFault fault) {
+    const std::string where = name.empty() ? "mesh " + std::to_string(place + 1) : name;
+    for (std::size_t n = 0; n < count; ++n)
+      warnings_.leave_out("mesh", where, "left out: " + fault.why);
+    if (left_out_ == 0) first_fault_ = {where + ": " + fault.why, fault.is_open};
     left_out_ += count;
-    if (left_out_ > count) return;
-    first_name_ = whole.name;
-    first_fault_ = std::get<MeshFault>(std::move(closed));
+    if (meshes_ == 1) first_fault_ = std::move(fault);
   }
 
   std::variant<MeshSolids, MeshFault> result() {
     if (meshes_ == 0) return MeshFault{"no face encloses anything"};
-    if (solids_.empty() && left_out_ == 1) return std::move(first_fault_);
-    std::string why = left_out_ > 0 ? left_out_text() : "";
-    if (solids_.empty()) return MeshFault{std::move(why), first_fault_.is_open};
+    if (solids_.empty()) {
+      if (meshes_ > 1) {
+        first_fault_.why =
+            "none of its " + std::to_string(meshes_) + " meshes is closed; " + first_fault_.why;
+      }
+      return std::move(first_fault_);
+    }
     MeshSolids result;
     for (auto& [place, solid] : solids_) result.solids.push_back(std::move(solid));
-    result.repairs = texts_of(repairs_);
-    result.left_out = std::move(why);
+    for (std::string& text : texts_of(repairs_)) warnings_.add(text, "", text);
+    result.warnings = warnings_.take();
     return result;
-  }
-
-  std::string left_out_text() const {
-    std::string text =
-        std::to_string(left_out_) + " of " + std::to_string(meshes_) + " meshes left out";
-    if (!first_name_.empty()) text += (left_out_ > 1 ? ", first " : ", ") + quoted(first_name_);
-    return text + ": " + first_fault_.why;
   }
 
   std::vector<MeshPart> parts_;
@@ -101,8 +106,8 @@ class PartCloser {
   std::map<std::uint32_t, MeshSolid> solids_;
   MeshRepairs repairs_;
   std::size_t meshes_ = 0, left_out_ = 0;
-  std::string first_name_;
   MeshFault first_fault_;
+  ImportWarnings warnings_{kMostKinds};
 };
 
 }  // namespace
@@ -112,7 +117,10 @@ std::variant<MeshSolids, MeshFault> closed_parts(std::vector<MeshPart> parts, Op
 }
 
 std::variant<MeshSolids, MeshFault> closed_body(std::vector<MeshPart> parts, OpenMeshes open) {
-  if (parts.size() == 1) return closed_parts(std::move(parts), open);
+  if (parts.size() == 1) {
+    parts[0].name.clear();
+    return closed_parts(std::move(parts), open);
+  }
   MeshPart whole;
   whole.polygons = united(parts);
   auto closed = closed_mesh(whole.polygons);

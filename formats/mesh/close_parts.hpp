@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/mesh/mesh_parts.hpp"
+#include "formats/report/import_warnings.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -22,10 +23,8 @@ struct MeshSolid {
 
 struct MeshSolids {
   std::vector<MeshSolid> solids;
-  /// What was repaired, a line a kind.
-  std::vector<std::string> repairs;
-  /// What was left out and why, one line; empty if nothing was.
-  std::string left_out;
+  /// What was repaired, and what was left out and why.
+  std::vector<ImportWarning> warnings;
 };
 
 enum class OpenMeshes { kLeaveOut, kRepair };
@@ -36,7 +35,8 @@ enum class OpenMeshes { kLeaveOut, kRepair };
 /// are left out that is a fault.
 std::variant<MeshSolids, MeshFault> closed_parts(std::vector<MeshPart> parts, OpenMeshes open);
 
-/// The same with all parts taken for one body first, which they are where it is closed.
+/// The same with all parts taken for one body first, which they are where it is closed. One body
+/// has no name.
 std::variant<MeshSolids, MeshFault> closed_body(std::vector<MeshPart> parts, OpenMeshes open);
 
 }  // namespace graycube

@@ -29,15 +29,15 @@ void add_repairs(MeshRepairs& sum, const MeshRepairs& more) {
 std::vector<std::string> texts_of(const MeshRepairs& repairs) {
   std::vector<std::string> texts;
   if (repairs.joined_corners > 0) {
-    texts.push_back("joined " + counted(repairs.joined_corners, "corner", "corners") +
+    texts.push_back("repaired: joined " + counted(repairs.joined_corners, "corner", "corners") +
                     " with others up to " + short_number(repairs.farthest_joined) + " away");
   }
   if (repairs.dropped_faces > 0) {
-    texts.push_back("left out " + counted(repairs.dropped_faces, "face", "faces") +
+    texts.push_back("repaired: dropped " + counted(repairs.dropped_faces, "face", "faces") +
                     " that the mesh has twice");
   }
   if (repairs.filled_holes > 0) {
-    texts.push_back("filled " + counted(repairs.filled_holes, "flat hole", "flat holes") +
+    texts.push_back("repaired: filled " + counted(repairs.filled_holes, "flat hole", "flat holes") +
                     " of up to " + std::to_string(repairs.most_filled_edges) + " edges");
   }
   return texts;

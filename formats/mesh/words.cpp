@@ -54,11 +54,9 @@ void Words::skip_line() {
   while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
 }
 
-std::string_view Words::rest_of_line() {
-  at_line_end();
-  const std::size_t begin = at_;
-  skip_line();
-  std::size_t end = at_;
+std::string_view Words::text_up_to(const Words& later) const {
+  std::size_t begin = at_, end = later.at_;
+  while (begin < end && is_space(text_[begin])) ++begin;
   while (end > begin && is_space(text_[end - 1])) --end;
   return text_.substr(begin, end - begin);
 }
