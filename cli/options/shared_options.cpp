@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cli/option_values.hpp"
+#include "formats/mesh/mesh_file.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
@@ -10,7 +11,8 @@ namespace graycube {
 void add_scene(Declaring& options, std::string& scene) {
   options.option({.names = "SCENE",
                   .help = "A scene file (.json, .cbor), OpenSCAD's program (.scad) or evaluated "
-                          "tree (.csg), BRL-CAD's database (.g, .asc), a mesh (.stl, .off)",
+                          "tree (.csg), BRL-CAD's database (.g, .asc), meshes (" +
+                          mesh_endings_text() + ")",
                   .kind = ValueKind::kFile,
                   .is_required = true},
                  [&scene](const std::string& text) { scene = text; });

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> kOwnEndings{".stl", ".off"};
 /// Those that were tried with the library; it reads more.
-constexpr std::array<std::string_view, 10> kForeignEndings{".obj", ".ply", ".3mf", ".gltf", ".glb",
-                                                           ".dae", ".fbx", ".3ds", ".amf",  ".x3d"};
+constexpr std::array<std::string_view, 9> kForeignEndings{".obj", ".ply", ".3mf", ".gltf", ".glb",
+                                                          ".dae", ".3ds", ".amf", ".x3d"};
 
 bool has_ending(const fs::path& path, std::string_view ending) {
   return equal_words(path.extension().string(), ending);

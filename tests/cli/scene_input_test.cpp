@@ -131,10 +131,9 @@ TEST_CASE("what is no scene file is told apart") {
   CHECK(refusal([&] {
           read_scene_input(folder / "none.json");
         }).ends_with("No such file or directory"));
-  CHECK(
-      refusal([&] {
-        read_scene_input(folder.path());
-      }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
+  CHECK(refusal([&] {
+          read_scene_input(folder.path());
+        }).ends_with("expected a name ending in " + scene_endings_text()));
   ModelChoice facets;
   facets.facets = true;
   CHECK(refusal([&] {
@@ -200,7 +199,7 @@ TEST_CASE("every ending that is told of is read, and no other") {
   }
   CHECK(refusal([&] { read_scene_input("part.step"); }) ==
         "graycube: scene: part.step: expected a name ending in .json, .cbor, .scad, .csg, .g, "
-        ".asc, .stl or .off");
+        ".asc, .stl, .off, .obj, .ply, .3mf, .gltf, .glb, .dae, .3ds, .amf or .x3d");
 }
 
 TEST_CASE("what is not built is refused at a pointer that any material's name can be read from") {

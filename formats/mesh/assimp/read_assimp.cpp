@@ -15,6 +15,8 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/mesh/assimp/mark_skipping_files.hpp"
+#include "formats/mesh/mesh_file.hpp"
 #include "formats/mesh/words.hpp"
 
 namespace graycube {
@@ -163,6 +165,7 @@ std::string message_of(const Assimp::Importer& importer) {
 
 Parts read_by_assimp(const std::filesystem::path& path) try {
   Assimp::Importer importer;
+  importer.SetIOHandler(new MarkSkippingFiles(kMaxMeshFileBytes));  // the importer deletes it
   // Places and faces are all that counts: the rest is dropped at once.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |

@@ -146,6 +146,7 @@ TEST_CASE("what is wrong with an OFF file is said with the line and the word") {
   CHECK(why("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") == "line 5: no point 3, there are 3");
   CHECK(why("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 zero\n3 0 1 2\n") ==
         "line 4: expected a point's three numbers, found \"zero\"");
+  CHECK(why("OFF\n4000000 1 0\n").find("line 2: more points or faces") == 0);
   CHECK(why("nOFF 4\n3 1 0\n").find("4 dimensions") != std::string::npos);
   CHECK(why("ZOFF 3 1 0").find("expected \"OFF\"") != std::string::npos);
   CHECK(why("\xFE\xFF").find("UTF-16") != std::string::npos);
