@@ -58,6 +58,15 @@ std::string read_file(const fs::path& path, std::size_t most) {
   return text;
 }
 
+/// The file's text with lines that end with "\n" or "\r\n", and without the byte order mark that
+/// some programs begin UTF-8 with.
+std::string read_text_file(const fs::path& path, std::size_t most) {
+  std::string text = read_file(path, most);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
+  return text;
+}
+
 /// The place FILE:7 for "line 7", FILE:WHERE for other places.
 std::string place(const fs::path& path, std::string_view where) {
   constexpr std::string_view prefix = "line ";
@@ -113,7 +122,7 @@ void read_json(const fs::path& path, const ModelChoice& choice, SceneInput& inpu
 
 /// The .csg text of an OpenSCAD file; for a .scad file, the text that the program makes of it.
 std::string openscad_text(const fs::path& path, OpenscadProcess* program) {
-  if (path.extension() == ".csg") return read_file(path, kMaxOpenscadBytes);
+  if (path.extension() == ".csg") return read_text_file(path, kMaxOpenscadBytes);
   read_file(path, kMaxOpenscadBytes);  // says why when it can't be read
   if (program == nullptr) {
     throw bad_scene(path,
@@ -192,6 +201,12 @@ void import_mesh(const fs::path& path, const control::JobOptions& options,
   input.scene = scene_of_meshes(std::move(meshes), how);
 }
 
+/// A database's bytes: a text, or the numbers of a .g file.
+std::string brlcad_bytes(const fs::path& path) {
+  return path.extension() == ".asc" ? read_text_file(path, kMaxBrlcadBytes)
+                                    : read_file(path, kMaxBrlcadBytes);
+}
+
 Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
   std::vector<Problem> problems;
   for (const BrlcadMessage& e : errors) {
@@ -205,10 +220,10 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options,
   BrlcadOptions how;
   set_overrides(options, how);
   how.objects = choice.objects;
-  if (!choice.view.empty()) how.view = read_file(choice.view, kMaxBrlcadViewBytes);
+  if (!choice.view.empty()) how.view = read_text_file(choice.view, kMaxBrlcadViewBytes);
   how.azimuth_degrees = choice.azimuth_degrees;
   how.elevation_degrees = choice.elevation_degrees;
-  BrlcadResult read = read_brlcad(read_file(path, kMaxBrlcadBytes), how);
+  BrlcadResult read = read_brlcad(brlcad_bytes(path), how);
   if (!read.scene) throw failure_of(path, read.errors);
   note(std::move(read.warnings), path, choice, input);
   input.scene = std::move(*read.scene);
@@ -233,7 +248,7 @@ bool is_brlcad(const fs::path& path) {
 }
 
 std::string brlcad_tops_text(const fs::path& path) {
-  const BrlcadTops read = list_brlcad_tops(read_file(path, kMaxBrlcadBytes));
+  const BrlcadTops read = list_brlcad_tops(brlcad_bytes(path));
   if (!read.errors.empty()) throw failure_of(path, read.errors);
   std::string text;
   for (const BrlcadTop& top : read.tops) {

@@ -199,7 +199,13 @@ double enclosed_volume(const TriangleMesh& mesh) {
   const auto before = [](const Vec3& a, const Vec3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
   };
-  const Vec3 o = *std::min_element(mesh.points.begin(), mesh.points.end(), before);
+  // Points that no triangle uses must not matter: they are dropped later.
+  Vec3 o = mesh.points[mesh.triangles.front()[0]];
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t i : t) {
+      if (before(mesh.points[i], o)) o = mesh.points[i];
+    }
+  }
   double sum = 0;
   for (const Triangle& t : mesh.triangles) {
     sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));

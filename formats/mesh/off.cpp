@@ -24,25 +24,26 @@ struct Header {
   }
 };
 
-/// The header that a word like "STCN4nOFF" stands for.
+/// The header that a word like "STCN4nOFF" stands for; the letters may come in any order.
 std::optional<Header> header_of(std::string_view word) {
   if (word.size() < 3 || !equal_words(word.substr(word.size() - 3), "OFF")) return std::nullopt;
-  // Only the case of this letter tells normals from dimensions, and only beside capitals.
+  // Only its case tells dimensions from normals, and only beside capitals.
   const bool has_case = word.ends_with("OFF");
   word.remove_suffix(3);
   Header header;
-  const auto take = [&](std::string_view letters) {
-    if (word.size() < letters.size() || !equal_words(word.substr(0, letters.size()), letters))
-      return false;
+  const auto take = [&](std::string_view letters, bool& announced) {
+    if (announced || !equal_words(word.substr(0, letters.size()), letters)) return false;
     word.remove_prefix(letters.size());
-    return true;
+    return announced = true;
   };
-  header.has_textures = take("ST");
-  header.has_colors = take("C");
-  if (!has_case || word.starts_with('N')) header.has_normals = take("N");
-  header.has_fourth = take("4");
-  header.has_dimensions = take("n");
-  return word.empty() ? std::optional(header) : std::nullopt;
+  while (!word.empty()) {
+    const bool is_small = has_case && word.starts_with('n');
+    const bool is_known = take("ST", header.has_textures) || take("C", header.has_colors) ||
+                          take("4", header.has_fourth) ||
+                          take("N", is_small ? header.has_dimensions : header.has_normals);
+    if (!is_known) return std::nullopt;
+  }
+  return header;
 }
 
 /// The coordinates of a point, the fourth dividing the others.

@@ -82,6 +82,9 @@ inline void fuzz_parts(const std::variant<std::vector<MeshPart>, MeshFault>& rea
         const auto& triangles = s.shape.mesh.triangles;
         GRAYCUBE_CHECK(!triangles.empty(), "a solid of nothing");
         GRAYCUBE_CHECK(MeshEdges(triangles).unbalanced_count() == 0, "an open solid");
+        const auto again = closed_mesh(s.shape.mesh);
+        const auto* mesh = std::get_if<TriangleMesh>(&again);
+        GRAYCUBE_CHECK(mesh != nullptr && *mesh == s.shape.mesh, "closed again it is another");
       }
     }
   }

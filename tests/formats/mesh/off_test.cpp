@@ -88,6 +88,7 @@ TEST_CASE("an OFF file is read with any header, and with what points and faces h
       {"CNOFF", " 0 0 1 255 0 0 255"},
       {"STOFF", " 0.5 0.5"},
       {"STCNOFF", " 0 0 1 255 0 0 255 0.5 0.5"},
+      {"NCSTOFF", " 0 0 1 255 0 0 255 0.5 0.5"},
       {"4OFF", " 1"},
       {"C4OFF", " 1 255 0 0 255"},
       {"nOFF\n3"},
@@ -148,6 +149,7 @@ TEST_CASE("what is wrong with an OFF file is said with the line and the word") {
         "line 4: expected a point's three numbers, found \"zero\"");
   CHECK(why("OFF\n4000000 1 0\n").find("line 2: more points or faces") == 0);
   CHECK(why("nOFF 4\n3 1 0\n").find("4 dimensions") != std::string::npos);
+  CHECK(why("CCOFF 3 1 0").find("expected \"OFF\"") != std::string::npos);
   CHECK(why("ZOFF 3 1 0").find("expected \"OFF\"") != std::string::npos);
   CHECK(why("\xFE\xFF").find("UTF-16") != std::string::npos);
 }
