@@ -151,36 +151,56 @@ std::optional<MeshFault> fault_of_edges(TriangleMesh& mesh) {
   return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
 }
 
-/// The mesh with points that differ by rounding made one; without triangles if nothing is left.
-TriangleMesh joined_within_rounding(TriangleMesh mesh) {
-  double largest = 0;
-  for (const Vec3& p : mesh.points) largest = std::max(largest, max_abs(p));
-  std::vector<std::uint32_t> all(mesh.points.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const auto number = joined_points(mesh.points, all, kRoundingShare * largest);
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& i : t) i = number[i];
-  }
+/// Makes the orientation consistent and outward, or says why that can't be done.
+std::optional<MeshFault> orient(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, has_equal_corners);
+  if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
+  if (auto fault = fault_of_edges(mesh)) return fault;
+  if (enclosed_volume(mesh) < 0) turn_inside_out(mesh);
+  renumber(mesh);
+  return std::nullopt;
+}
+
+/// The mesh of faces and points that are in order, as it is.
+TriangleMesh welded_and_cut(const PolygonMesh& polygons) {
+  Welder weld(polygons.points);
+  std::vector<std::uint32_t> corners = polygons.corners;
+  for (std::uint32_t& c : corners) c = weld[c];
+  TriangleMesh mesh{weld.take(), {}};
+  std::vector<std::uint32_t> face;
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : polygons.face_ends) {
+    face.clear();
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (face.empty() || face.back() != corners[i]) face.push_back(corners[i]);
+    }
+    while (face.size() > 1 && face.back() == face.front()) face.pop_back();
+    if (face.size() >= 3) cut_face(mesh.points, face, mesh.triangles);
+    begin = end;
+  }
   return mesh;
 }
 
-/// Makes the orientation consistent and outward, or says why that can't be done.
-std::variant<TriangleMesh, MeshFault> oriented(TriangleMesh mesh) {
-  std::erase_if(mesh.triangles, has_equal_corners);
-  if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
-  // A mesh that is closed keeps all of its points, however close they are.
-  if (MeshEdges(mesh.triangles).unbalanced_count() > 0) {
-    TriangleMesh joined = joined_within_rounding(mesh);
-    if (fault_of_edges(mesh)) {
-      if (joined.triangles.empty()) return MeshFault{"no face encloses anything"};
-      if (auto fault = fault_of_edges(joined)) return *std::move(fault);
-      mesh = std::move(joined);
-    }
-  }
-  if (enclosed_volume(mesh) < 0) turn_inside_out(mesh);
-  renumber(mesh);
+std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygons) {
+  TriangleMesh mesh = welded_and_cut(polygons);
+  if (auto fault = orient(mesh)) return *std::move(fault);
   return mesh;
+}
+
+/// Moves corners to the points that they become when points within a distance are joined.
+void join(std::span<const Vec3> points, double distance, std::span<std::uint32_t> corners) {
+  std::vector<std::uint32_t> used(corners.begin(), corners.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const auto number = joined_points(points, used, distance);
+  for (std::uint32_t& c : corners) c = number[c];
+}
+
+/// The distance within which corners differ by rounding.
+double rounding_of(std::span<const Vec3> points, std::span<const std::uint32_t> corners) {
+  double largest = 0;
+  for (const std::uint32_t i : corners) largest = std::max(largest, max_abs(points[i]));
+  return kRoundingShare * largest;
 }
 
 }  // namespace
@@ -216,28 +236,23 @@ double enclosed_volume(const TriangleMesh& mesh) {
 std::variant<TriangleMesh, MeshFault> welded_mesh(const PolygonMesh& polygons) {
   if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
   if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
-  Welder weld(polygons.points);
-  std::vector<std::uint32_t> corners = polygons.corners;
-  for (std::uint32_t& c : corners) c = weld[c];
-  TriangleMesh mesh{weld.take(), {}};
-  std::vector<std::uint32_t> face;
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : polygons.face_ends) {
-    face.clear();
-    for (std::uint32_t i = begin; i < end; ++i) {
-      if (face.empty() || face.back() != corners[i]) face.push_back(corners[i]);
-    }
-    while (face.size() > 1 && face.back() == face.front()) face.pop_back();
-    if (face.size() >= 3) cut_face(mesh.points, face, mesh.triangles);
-    begin = end;
-  }
-  return mesh;
+  return welded_and_cut(polygons);
 }
 
-std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
-  auto welded = welded_mesh(polygons);
-  if (std::holds_alternative<MeshFault>(welded)) return welded;
-  return oriented(std::get<TriangleMesh>(std::move(welded)));
+std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons, double join_within) {
+  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
+  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+  // A mesh that is closed as written keeps all of its points, however close they are.
+  auto as_written = cut_and_oriented(polygons);
+  if (std::holds_alternative<TriangleMesh>(as_written)) return as_written;
+  for (const double distance : {rounding_of(polygons.points, polygons.corners), join_within}) {
+    if (!(distance > 0)) continue;
+    PolygonMesh joined = polygons;
+    join(joined.points, distance, joined.corners);
+    auto closed = cut_and_oriented(joined);
+    if (std::holds_alternative<TriangleMesh>(closed)) return closed;
+  }
+  return as_written;
 }
 
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
@@ -256,7 +271,14 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
     }
   }
   triangles.points = weld.take();
-  return oriented(std::move(triangles));
+  auto fault = orient(triangles);
+  if (!fault) return triangles;
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : triangles.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  join(triangles.points, rounding_of(triangles.points, corners), corners);
+  for (std::size_t i = 0; i < corners.size(); ++i) triangles.triangles[i / 3][i % 3] = corners[i];
+  if (orient(triangles)) return *std::move(fault);
+  return triangles;
 }
 
 void turn_inside_out(TriangleMesh& mesh) {

@@ -37,14 +37,18 @@ struct MeshFault {
 /// The closed mesh: points with bitwise equal coordinates become one (−0 is 0), points that no face
 /// uses and triangles with two equal corners are dropped. Every edge must be used by as many faces
 /// one way as the other. If that fails but every edge has two faces, faces are turned to agree with
-/// their neighbours. If that fails, too, points that differ by no more than kRoundingShare
-/// (mesh/join_points.hpp) of the largest coordinate are one. A mesh whose volume is negative is
-/// turned inside out as a whole. A result given to this function again comes back unchanged.
+/// their neighbours. A mesh whose volume is negative is turned inside out as a whole. A result
+/// given to this function again comes back unchanged.
+///
+/// A mesh that has no inside as it is written is tried again with points joined that are within
+/// kRoundingShare (mesh/join_points.hpp) of the largest coordinate, and then within `join_within`:
+/// programs compute a corner in two ways. The fault is that of the mesh as written.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
 /// contradicting edges.
-std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons);
+std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons,
+                                                  double join_within = 0);
 /// Like closed_mesh() above, for triangles.
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);
 
