@@ -56,8 +56,8 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);
 /// triangles. Faults: those of points, faces and their numbers.
 std::variant<TriangleMesh, MeshFault> welded_mesh(const PolygonMesh& polygons);
 
-/// The volume that a closed mesh of one triangle or more encloses, negative where its triangles turn
-/// inwards. It is reckoned about a corner of the mesh, so that far meshes keep their digits.
+/// The volume that a closed mesh of one triangle or more encloses, negative where its triangles
+/// turn inwards. It is reckoned about a corner of the mesh, so that far meshes keep their digits.
 double enclosed_volume(const TriangleMesh& mesh);
 
 /// "(1, 2, 3)", with all digits.
