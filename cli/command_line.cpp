@@ -194,8 +194,7 @@ class Parser {
     ConvertCommand& convert = declared.command;
     Declaring& options = declared.options;
     options.option({.names = "IN",
-                    .help = "A scene (.json, .cbor, .scad, .csg, .g, .asc, .stl, .off) or a "
-                            "picture (.exr)",
+                    .help = "A scene (" + scene_endings_text() + ") or a picture (.exr)",
                     .kind = ValueKind::kFile,
                     .is_required = true},
                    [&convert](const std::string& text) { convert.in = text; });

@@ -11,6 +11,7 @@
 
 #include "cli/failure.hpp"
 #include "cli/file_ending.hpp"
+#include "cli/foreign_meshes.hpp"
 #include "cli/openscad/model_view.hpp"
 #include "cli/openscad_process.hpp"
 #include "formats/brlcad/brlcad.hpp"
@@ -60,6 +61,15 @@ std::string read_file(const fs::path& path, std::size_t most) {
   return text;
 }
 
+/// The file's text with lines that end with "\n" or "\r\n", and without the byte order mark that
+/// some programs begin UTF-8 with.
+std::string read_text_file(const fs::path& path, std::size_t most) {
+  std::string text = read_file(path, most);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
+  return text;
+}
+
 /// The place FILE:7 for "line 7", FILE:WHERE for other places.
 std::string place(const fs::path& path, std::string_view where) {
   constexpr std::string_view prefix = "line ";
@@ -94,12 +104,20 @@ bool is_own_format(const fs::path& path) {
   return has_ending(path, ".json") || has_ending(path, ".cbor");
 }
 
-void read_json(const fs::path& path, SceneInput& input) {
+MeshReading mesh_reading(const ModelChoice& choice) {
+  return {.repairs = choice.repairs, .foreign = [](const fs::path& file) {
+            return read_foreign_meshes(file, mesh_reader_program());
+          }};
+}
+
+void read_json(const fs::path& path, const ModelChoice& choice, SceneInput& input) {
   PaddedText text(read_file(path, kMaxSubmitBytes));
-  ReadResult read = read_scene_text(text, mesh_files_beside(path));
+  std::vector<ImportWarning> warnings;
+  ReadResult read = read_scene_text(text, mesh_files_beside(path, mesh_reading(choice), &warnings));
   if (!read.scene) {
     throw Failure(ExitStatus::kBadInput, problems_of(path, read.errors));
   }
+  note(std::move(warnings), path, choice, input);
   input.scene = std::move(*read.scene);
   // A farm opens no files: then the meshes are sent in a text made for it.
   if (!read.used_files) input.text = std::move(text).take();
@@ -109,7 +127,7 @@ void read_json(const fs::path& path, SceneInput& input) {
 /// the view that the file sets.
 std::string openscad_text(const fs::path& path, OpenscadProcess* program,
                           std::optional<OpenscadView>& view) {
-  std::string model = read_file(path, kMaxOpenscadBytes);
+  std::string model = read_text_file(path, kMaxOpenscadBytes);
   if (has_ending(path, ".csg")) return model;
   if (program == nullptr) {
     throw bad_scene(path,
@@ -174,17 +192,29 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
   input.scene = std::move(*read.scene);
 }
 
-void import_mesh(const fs::path& path, const control::JobOptions& options, SceneInput& input) {
-  auto read = read_mesh_file(path);
+void import_mesh(const fs::path& path, const control::JobOptions& options,
+                 const ModelChoice& choice, SceneInput& input) {
+  auto read = read_mesh_file(path, mesh_reading(choice));
   if (const auto* fault = std::get_if<MeshFault>(&read)) {
     // The problem has the file's name in front already.
     const std::string name = path.string() + ": ";
     throw bad_scene(path,
                     fault->why.starts_with(name) ? fault->why.substr(name.size()) : fault->why);
   }
+  auto& solids = std::get<MeshSolids>(read);
+  note(std::move(solids.warnings), path, choice, input);
+  std::vector<SceneMesh> meshes;
+  for (MeshSolid& s : solids.solids)
+    meshes.push_back({std::move(s.name), std::move(s.shape), s.color});
   Frame how;
   set_overrides(options, how);
-  input.scene = scene_of_mesh(std::move(std::get<MeshShape>(read)), how);
+  input.scene = scene_of_meshes(std::move(meshes), how);
+}
+
+/// A database's bytes: a text, or the numbers of a .g file.
+std::string brlcad_bytes(const fs::path& path) {
+  return path.extension() == ".asc" ? read_text_file(path, kMaxBrlcadBytes)
+                                    : read_file(path, kMaxBrlcadBytes);
 }
 
 Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& errors) {
@@ -200,10 +230,10 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options,
   BrlcadOptions how;
   set_overrides(options, how);
   how.objects = choice.objects;
-  if (!choice.view.empty()) how.view = read_file(choice.view, kMaxBrlcadViewBytes);
+  if (!choice.view.empty()) how.view = read_text_file(choice.view, kMaxBrlcadViewBytes);
   how.azimuth_degrees = choice.azimuth_degrees;
   how.elevation_degrees = choice.elevation_degrees;
-  BrlcadResult read = read_brlcad(read_file(path, kMaxBrlcadBytes), how);
+  BrlcadResult read = read_brlcad(brlcad_bytes(path), how);
   if (!read.scene) throw failure_of(path, read.errors);
   note(std::move(read.warnings), path, choice, input);
   input.scene = std::move(*read.scene);
@@ -226,7 +256,7 @@ bool is_openscad(const fs::path& path) {
 bool is_brlcad(const fs::path& path) { return has_ending(path, ".g") || has_ending(path, ".asc"); }
 
 std::string brlcad_tops_text(const fs::path& path) {
-  const BrlcadTops read = list_brlcad_tops(read_file(path, kMaxBrlcadBytes));
+  const BrlcadTops read = list_brlcad_tops(brlcad_bytes(path));
   if (!read.errors.empty()) throw failure_of(path, read.errors);
   std::string text;
   for (const BrlcadTop& top : read.tops) {
@@ -246,6 +276,11 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     throw usage_failure("--facets",
                         "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
   }
+  if (choice.repairs && !is_mesh_file(path) && !is_own_format(path)) {
+    throw usage_failure("--repair", "is for meshes (" + mesh_endings_text() +
+                                        ", and those that a .json names), not for " +
+                                        path.string());
+  }
   SceneInput input;
   input.name = path.filename().string();
   if (is_openscad(path)) {
@@ -253,9 +288,9 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
   } else if (is_brlcad(path)) {
     import_brlcad(path, options, choice, input);
   } else if (is_own_format(path)) {
-    read_json(path, input);
+    read_json(path, choice, input);
   } else if (is_mesh_file(path)) {
-    import_mesh(path, options, input);
+    import_mesh(path, options, choice, input);
   } else {
     throw bad_scene(path, "expected a name ending in " + scene_endings_text());
   }

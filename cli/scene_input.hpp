@@ -22,6 +22,8 @@ struct ModelChoice {
   bool is_strict = false;
   /// Nothing is told of how long it takes.
   bool is_quiet = false;
+  /// For mesh files: open ones are repaired (mesh/repair_mesh.hpp).
+  bool repairs = false;
   /// For BRL-CAD: the objects to show; if empty, all that nothing refers to.
   std::vector<std::string> objects;
   /// The file of a view script for rt; if empty, azimuth and elevation count.
@@ -42,17 +44,18 @@ struct SceneInput {
   std::vector<Problem> warnings;
 };
 
-/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl or .off, one
-/// mesh) and finds all its errors. `options` gives a picture's size and depth to import for. Throws
-/// a Failure of status 2 with a problem for each error, `scene: FILE:POINTER: MESSAGE`.
+/// Reads SCENE (.json, .cbor; .scad or .csg of OpenSCAD; .g or .asc from BRL-CAD; .stl, .off and
+/// others, meshes) and finds all its errors. `options` gives a picture's size and depth to import
+/// for. Throws a Failure of status 2 with a problem for each error, `scene: FILE:POINTER: MESSAGE`.
 SceneInput read_scene_input(const std::filesystem::path& path,
                             const control::JobOptions& options = {},
                             const ModelChoice& choice = {});
 
 /// The endings of the file names that read_scene_input reads.
-inline constexpr std::array<std::string_view, 8> kSceneEndings{".json", ".cbor", ".scad", ".csg",
-                                                               ".g",    ".asc",  ".stl",  ".off"};
-/// All endings as text: ".json, .cbor, … .stl or .off".
+inline constexpr std::array<std::string_view, 17> kSceneEndings{
+    ".json", ".cbor", ".scad", ".csg", ".g",   ".asc", ".stl", ".off", ".obj",
+    ".ply",  ".3mf",  ".gltf", ".glb", ".dae", ".3ds", ".amf", ".x3d"};
+/// All endings as text: ".json, .cbor, … .amf or .x3d".
 std::string scene_endings_text();
 
 /// Whether the file is OpenSCAD's, by its name's ending.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cli/option_values.hpp"
+#include "formats/mesh/mesh_file.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
@@ -10,7 +11,8 @@ namespace graycube {
 void add_scene(Declaring& options, std::string& scene) {
   options.option({.names = "SCENE",
                   .help = "A scene file (.json, .cbor), OpenSCAD's program (.scad) or evaluated "
-                          "tree (.csg), BRL-CAD's database (.g, .asc), a mesh (.stl, .off)",
+                          "tree (.csg), BRL-CAD's database (.g, .asc), meshes (" +
+                          mesh_endings_text() + ")",
                   .kind = ValueKind::kFile,
                   .is_required = true},
                  [&scene](const std::string& text) { scene = text; });
@@ -20,6 +22,8 @@ void add_import_options(Declaring& options, ModelChoice& choice) {
   options.flag("--facets", choice.facets, "OpenSCAD: what is round as OpenSCAD's own facets");
   options.flag("--strict", choice.is_strict,
                "Refuse a model of which a part would be left out, instead of warning");
+  options.flag("--repair", choice.repairs,
+               "Mesh files: join corners and fill flat holes of open meshes, and say so");
 }
 
 void add_model_choice(Declaring& options, ModelChoice& choice) {

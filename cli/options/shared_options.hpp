@@ -13,7 +13,8 @@ namespace graycube {
 
 void add_scene(Declaring& options, std::string& scene);
 
-/// Options for models of which some part may be missing or facetted: --facets and --strict.
+/// Options for models of which some part may be missing, facetted or open: --facets, --strict
+/// and --repair.
 void add_import_options(Declaring& options, ModelChoice& choice);
 
 /// Options that choose what to show of a model that doesn't tell that itself.

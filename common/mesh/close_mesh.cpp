@@ -18,16 +18,6 @@ namespace {
 
 constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
-std::string text_of(const Vec3& p) {
-  std::string text = "(";
-  for (int a = 0; a < 3; ++a) {
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, p[a]).ptr;
-    text.append(a > 0 ? ", " : "").append(digits, end);
-  }
-  return text + ")";
-}
-
 std::string counted(std::size_t count, const char* singular, const char* plural) {
   return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }
@@ -112,36 +102,22 @@ std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
 
 bool has_equal_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Six times the volume, about a point of the mesh so that far meshes keep their digits; the same
-/// but for its sign when all triangles are turned over.
-double volume(const TriangleMesh& mesh) {
-  const auto before = [](const Vec3& a, const Vec3& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-  };
-  const Vec3 o = *std::min_element(mesh.points.begin(), mesh.points.end(), before);
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
-  }
-  return sum;
-}
-
 std::string text_of_edge(const TriangleMesh& mesh, const MeshEdge& e) {
-  return "the edge from " + text_of(mesh.points[e.from]) + " to " + text_of(mesh.points[e.to]);
+  return "the edge from " + text_of_point(mesh.points[e.from]) + " to " +
+         text_of_point(mesh.points[e.to]);
 }
 
 MeshFault open_fault(const TriangleMesh& mesh, const MeshEdges& edges, const MeshEdge& first) {
   const auto uses = edges.uses(first);
   const std::string where = text_of_edge(mesh, first);
-  const std::string many =
-      counted(edges.unbalanced_count(), "edge", "edges") + " of " + std::to_string(edges.count());
-  if (uses.forward + uses.backward == 1) {
-    return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)",
-            true};
-  }
+  const std::size_t open = edges.unbalanced_count();
+  const std::string many = counted(open, "edge", "edges") + " of " + std::to_string(edges.count()) +
+                           (open == 1 ? " is open" : " are open");
+  if (uses.forward + uses.backward == 1)
+    return {"not closed: " + where + " belongs to one face only; " + many, true};
   return {"not a closed surface: " + where + " is used by " + std::to_string(uses.forward) +
-              " of its faces one way and by " + std::to_string(uses.backward) + " the other (" +
-              many + " are wrong)",
+              " of its faces one way and by " + std::to_string(uses.backward) + " the other; " +
+              many,
           true};
 }
 
@@ -180,13 +156,13 @@ std::optional<MeshFault> orient(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, has_equal_corners);
   if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
   if (auto fault = fault_of_edges(mesh)) return fault;
-  if (volume(mesh) < 0) turn_inside_out(mesh);
+  if (enclosed_volume(mesh) < 0) turn_inside_out(mesh);
   renumber(mesh);
   return std::nullopt;
 }
 
-/// The mesh of faces and points that are in order.
-std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygons) {
+/// The mesh of faces and points that are in order, as it is.
+TriangleMesh welded_and_cut(const PolygonMesh& polygons) {
   Welder weld(polygons.points);
   std::vector<std::uint32_t> corners = polygons.corners;
   for (std::uint32_t& c : corners) c = weld[c];
@@ -202,6 +178,11 @@ std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygo
     if (face.size() >= 3) cut_face(mesh.points, face, mesh.triangles);
     begin = end;
   }
+  return mesh;
+}
+
+std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygons) {
+  TriangleMesh mesh = welded_and_cut(polygons);
   if (auto fault = orient(mesh)) return *std::move(fault);
   return mesh;
 }
@@ -223,6 +204,40 @@ double rounding_of(std::span<const Vec3> points, std::span<const std::uint32_t> 
 }
 
 }  // namespace
+
+std::string text_of_point(const Vec3& p) {
+  std::string text = "(";
+  for (int a = 0; a < 3; ++a) {
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, p[a]).ptr;
+    text.append(a > 0 ? ", " : "").append(digits, end);
+  }
+  return text + ")";
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+  };
+  // Points that no triangle uses must not matter: they are dropped later.
+  Vec3 o = mesh.points[mesh.triangles.front()[0]];
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t i : t) {
+      if (before(mesh.points[i], o)) o = mesh.points[i];
+    }
+  }
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
+  }
+  return sum / 6;
+}
+
+std::variant<TriangleMesh, MeshFault> welded_mesh(const PolygonMesh& polygons) {
+  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
+  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+  return welded_and_cut(polygons);
+}
 
 std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons, double join_within) {
   if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);

@@ -52,6 +52,17 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons,
 /// Like closed_mesh() above, for triangles.
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);
 
+/// The first steps of closed_mesh() only: points with equal coordinates are one, faces are cut into
+/// triangles. Faults: those of points, faces and their numbers.
+std::variant<TriangleMesh, MeshFault> welded_mesh(const PolygonMesh& polygons);
+
+/// The volume that a closed mesh of one triangle or more encloses, negative where its triangles
+/// turn inwards. It is reckoned about a corner of the mesh, so that far meshes keep their digits.
+double enclosed_volume(const TriangleMesh& mesh);
+
+/// "(1, 2, 3)", with all digits.
+std::string text_of_point(const Vec3& p);
+
 /// Turns all triangles over.
 void turn_inside_out(TriangleMesh& mesh);
 

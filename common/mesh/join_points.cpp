@@ -82,7 +82,7 @@ std::vector<std::uint32_t> joined_points(std::span<const Vec3> points,
   double largest = 0;
   for (const std::uint32_t i : chosen) largest = std::max(largest, max_abs(points[i]));
   // Cells farther out couldn't be counted.
-  if (!(distance > kLeastShare * largest) || !(distance > 0)) return number;
+  if (!(distance > kLeastShare * largest) || !std::isfinite(distance)) return number;
   PointGrid grid(points, chosen.size(), distance);
   for (const std::uint32_t i : chosen) {
     const std::uint32_t near = grid.nearest(points[i]);

@@ -126,15 +126,36 @@ TEST_CASE("a part that is left out is a warning, and an error when the import is
         "graycube: scene: " + where + ": is not in the database, and left out");
 }
 
+TEST_CASE("a byte order mark and any line ends make no difference") {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"a.json", kBall},
+      {"a.csg", "group() {\n sphere($fn = 0, $fa = 12, $fs = 2, r = 3);\n}\n"},
+      {"a.asc", testing::kV4Head + testing::v4_sphere("s", 0, 0, 0, 1) + testing::v4_region("r") +
+                    testing::v4_member('u', "s")},
+      {"a.off", kTetrahedron}};
+  for (const auto& [name, text] : files) {
+    const Scene plain = read_scene_input(write_file(folder / name, text)).scene;
+    CHECK(plain.objects.size() == 1);
+    for (const char* line_end : {"\n", "\r\n", "\r"}) {
+      for (const char* mark : {"", "\xEF\xBB\xBF"}) {
+        std::string other;
+        for (const char c : text) c == '\n' ? other += line_end : other += c;
+        INFO(name << " with line ends of " << std::string(line_end).size() << " bytes");
+        CHECK(read_scene_input(write_file(folder / name, mark + other)).scene == plain);
+      }
+    }
+  }
+}
+
 TEST_CASE("what is no scene file is told apart") {
   const TemporaryFolder folder;
   CHECK(refusal([&] {
           read_scene_input(folder / "none.json");
         }).ends_with("No such file or directory"));
-  CHECK(
-      refusal([&] {
-        read_scene_input(folder.path());
-      }).ends_with("expected a name ending in .json, .cbor, .scad, .csg, .g, .asc, .stl or .off"));
+  CHECK(refusal([&] {
+          read_scene_input(folder.path());
+        }).ends_with("expected a name ending in " + scene_endings_text()));
   ModelChoice facets;
   facets.facets = true;
   CHECK(refusal([&] {
@@ -200,7 +221,7 @@ TEST_CASE("every ending that is told of is read, and no other") {
   }
   CHECK(refusal([&] { read_scene_input("part.step"); }) ==
         "graycube: scene: part.step: expected a name ending in .json, .cbor, .scad, .csg, .g, "
-        ".asc, .stl or .off");
+        ".asc, .stl, .off, .obj, .ply, .3mf, .gltf, .glb, .dae, .3ds, .amf or .x3d");
 }
 
 TEST_CASE("what is not built is refused at a pointer that any material's name can be read from") {

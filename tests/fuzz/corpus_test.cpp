@@ -14,6 +14,7 @@
 #include "fuzz/json_fuzz.hpp"
 #include "fuzz/mesh_fuzz.hpp"
 #include "fuzz/openscad_fuzz.hpp"
+#include "fuzz/part_stream_fuzz.hpp"
 #include "fuzz/proto_fuzz.hpp"
 #include "fuzz/scene_fuzz.hpp"
 
@@ -50,6 +51,9 @@ TEST_CASE("no input that was fuzzed harms the reader of BRL-CAD's databases") {
 TEST_CASE("no input that was fuzzed harms the reader of CBOR") { replay("cbor", fuzz_cbor); }
 TEST_CASE("no input that was fuzzed harms the readers of mesh files") {
   replay("mesh", testing::fuzz_mesh);
+}
+TEST_CASE("no input that was fuzzed harms the reader of meshes from another program") {
+  replay("part_stream", testing::fuzz_part_stream);
 }
 TEST_CASE("no input that was fuzzed harms the reader of OpenSCAD's trees") {
   replay("openscad", testing::fuzz_openscad);

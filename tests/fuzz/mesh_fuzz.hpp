@@ -7,10 +7,13 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "formats/mesh/close_parts.hpp"
+#include "formats/mesh/mesh_parts.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/stl.hpp"
 #include "formats/view/mesh_scene.hpp"
@@ -59,10 +62,44 @@ inline void fuzz_polygons(const std::variant<PolygonMesh, MeshFault>& read) {
   GRAYCUBE_CHECK(!again.scene || *again.scene == scene, "another scene");
 }
 
+/// Whatever is left out or repaired, the solids of a file's parts are closed.
+inline void fuzz_parts(const std::variant<std::vector<MeshPart>, MeshFault>& read) {
+  if (const auto* fault = std::get_if<MeshFault>(&read)) {
+    GRAYCUBE_CHECK(!fault->why.empty(), "a fault without a word");
+    return;
+  }
+  const auto& parts = std::get<std::vector<MeshPart>>(read);
+  fuzz_polygons(united(parts));
+  for (const OpenMeshes open : {OpenMeshes::kLeaveOut, OpenMeshes::kRepair}) {
+    for (const auto& result : {closed_body(parts, open), closed_parts(parts, open)}) {
+      if (const auto* fault = std::get_if<MeshFault>(&result)) {
+        GRAYCUBE_CHECK(!fault->why.empty(), "a fault without a word");
+        continue;
+      }
+      const auto& solids = std::get<MeshSolids>(result).solids;
+      GRAYCUBE_CHECK(!solids.empty(), "neither a solid nor a fault");
+      for (const MeshSolid& s : solids) {
+        const auto& triangles = s.shape.mesh.triangles;
+        GRAYCUBE_CHECK(!triangles.empty(), "a solid of nothing");
+        GRAYCUBE_CHECK(MeshEdges(triangles).unbalanced_count() == 0, "an open solid");
+        const auto again = closed_mesh(s.shape.mesh);
+        const auto* mesh = std::get_if<TriangleMesh>(&again);
+        GRAYCUBE_CHECK(mesh != nullptr && *mesh == s.shape.mesh, "closed again it is another");
+      }
+    }
+  }
+}
+
 inline void fuzz_mesh(std::string_view bytes) {
   if (bytes.size() > kMaxMeshFuzzBytes) return;
-  fuzz_polygons(read_stl(bytes));
-  fuzz_polygons(read_off(bytes));
+  fuzz_parts(read_stl(bytes));
+  auto off = read_off(bytes);
+  fuzz_polygons(off);
+  if (auto* mesh = std::get_if<PolygonMesh>(&off)) {
+    std::vector<MeshPart> parts(1);
+    parts[0].polygons = std::move(*mesh);
+    fuzz_parts(std::move(parts));
+  }
 }
 
 }  // namespace graycube::testing

@@ -15,7 +15,7 @@ fi
 bin=$1 seconds=$2
 shift 2
 names=("$@")
-((${#names[@]})) || names=(brlcad openscad mesh cbor scene_json proto_batch proto_control proto_model)
+((${#names[@]})) || names=(brlcad openscad mesh part_stream cbor scene_json proto_batch proto_control proto_model)
 
 learnt=$(mktemp -d)
 trap 'rm -rf -- "$learnt"' EXIT
@@ -27,7 +27,7 @@ for name in "${names[@]}"; do
   case $name in
     brlcad) seeds+=("$top/scenes/brlcad") longest=2500 ;;
     openscad) longest=1200 ;;
-    mesh) longest=1500 ;;
+    mesh | part_stream) longest=1500 ;;
     scene_json) seeds+=("$top/scenes") ;;
   esac
   options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=1536 -malloc_limit_mb=512 -max_len="$longest"

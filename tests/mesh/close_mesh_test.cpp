@@ -55,6 +55,17 @@ TEST_CASE("a mesh turned inside out is turned back as a whole, cavities kept") {
   CHECK(volume_of(closed(hollow)) == Approx(63));
 }
 
+TEST_CASE("a far corner of a face without area doesn't matter for which side is outside") {
+  PolygonMesh turned;
+  append(turned, box_polygons({0, 0, 0}, {1, 2, 3}), true);
+  turned.points.push_back({-1e200, 0, 0});
+  turned.add_face(std::array{8u, 8u, 0u});
+  turned.add_face(std::array{8u, 0u, 8u, 0u});
+  const TriangleMesh mesh = closed(turned);
+  CHECK(mesh.points.size() == 8);
+  CHECK(volume_of(mesh) == Approx(6));
+}
+
 TEST_CASE("closing a closed mesh changes nothing") {
   PolygonMesh turned;
   append(turned, ring_polygons(3, 1, 7, 5), true);

@@ -32,6 +32,7 @@ VENDORS = {
     "CLI/": ("cli/command_line.cpp", "cli/options/declaring.cpp", "frontal/main.cpp", "node/main.cpp"),
     "Imf": ("common/film/exr_file.cpp",),
     "OpenEXR/": ("common/film/exr_file.cpp",),
+    "assimp/": ("formats/mesh/assimp/",),
     "benchmark/": ("bench/",),
     "embree": ("bench/",),
     "httplib.h": ("frontal/http_server.cpp",),

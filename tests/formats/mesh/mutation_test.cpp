@@ -1,8 +1,8 @@
 // Hostile input: whatever happens to a mesh file, reading it ends with a mesh or with a fault.
-#include <cstring>
 #include <random>
 
 #include "catch.hpp"
+#include "formats/mesh/stl_samples.hpp"
 #include "fuzz/mesh_fuzz.hpp"
 #include "mesh/samples.hpp"
 
@@ -26,39 +26,7 @@ std::string off_text() {
   return text;
 }
 
-std::string stl_text() {
-  const TriangleMesh box = closed(box_polygons({0, 0, 0}, {1, 2, 3}));
-  std::string text = "solid box\n";
-  for (const Triangle& t : box.triangles) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const std::uint32_t i : t) {
-      const Vec3& p = box.points[i];
-      text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
-              std::to_string(p.z) + "\n";
-    }
-    text += "endloop\nendfacet\n";
-  }
-  return text + "endsolid box\n";
-}
-
-std::string stl_bytes() {
-  const TriangleMesh box = closed(box_polygons({0, 0, 0}, {1, 2, 3}));
-  std::string bytes(80, ' ');
-  const auto put = [&](auto v) {
-    char raw[sizeof v];
-    std::memcpy(raw, &v, sizeof v);
-    bytes.append(raw, sizeof v);
-  };
-  put(static_cast<std::uint32_t>(box.triangles.size()));
-  for (const Triangle& t : box.triangles) {
-    for (int i = 0; i < 3; ++i) put(0.0f);
-    for (const std::uint32_t i : t) {
-      for (int a = 0; a < 3; ++a) put(static_cast<float>(box.points[i][a]));
-    }
-    put(std::uint16_t{0});
-  }
-  return bytes;
-}
+TriangleMesh box() { return closed(box_polygons({0, 0, 0}, {1, 2, 3})); }
 
 void mutate(std::string& bytes, std::mt19937& random) {
   if (bytes.empty()) return;
@@ -81,7 +49,7 @@ void mutate(std::string& bytes, std::mt19937& random) {
 
 TEST_CASE("whatever happens to a mesh file, it is read or refused") {
   int seed = 0;
-  for (const std::string& whole : {off_text(), stl_text(), stl_bytes()}) {
+  for (const std::string& whole : {off_text(), stl_text(box()), stl_bytes(box())}) {
     fuzz_mesh(whole);
     for (int i = 0; i < 1000; ++i) {
       std::mt19937 random(static_cast<unsigned>(++seed));
