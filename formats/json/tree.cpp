@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "formats/json/padded_text.hpp"
-#include "formats/json/pointer.hpp"
+#include "json_pointer.hpp"
 #include "spelling.hpp"
 
 namespace graycube {
