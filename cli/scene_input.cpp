@@ -20,6 +20,7 @@
 #include "formats/openscad/openscad.hpp"
 #include "formats/view/mesh_scene.hpp"
 #include "proto/job_settings.hpp"
+#include "scene/scene_fault.hpp"
 #include "shading/credit_limits.hpp"
 
 namespace graycube {
@@ -234,6 +235,7 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
                         "is for OpenSCAD's files (.scad, .csg), not for " + path.string());
   }
   SceneInput input;
+  input.path = path;
   input.name = path.filename().string();
   if (is_openscad(path)) {
     import_openscad(path, options, choice, input);
@@ -252,6 +254,20 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
 void check_is_built(const fs::path& path, const Scene& scene) {
   std::vector<Problem> problems = problems_of(path, unbuilt_parts(scene));
   if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
+}
+
+Model compile_input(const SceneInput& input) {
+  try {
+    return compile_scene(input.scene);
+  } catch (const UnrenderableScene& e) {
+    std::vector<Problem> problems;
+    for (const SceneFault& f : e.faults()) {
+      const bool is_placed = is_own_format(input.path) && !f.pointer.empty();
+      problems.push_back(
+          {"scene", input.path.string() + (is_placed ? ":" + f.pointer : ""), f.message});
+    }
+    throw Failure(ExitStatus::kBadInput, std::move(problems));
+  }
 }
 
 void prepare_for_farm(SceneInput& input, const control::JobOptions& options) {

@@ -4,7 +4,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
-#include "scene/compile_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -22,7 +21,7 @@ ExitStatus run(const CheckCommand& command) {
   check_is_built(command.scene, input.scene);
   for (const Problem& warning : input.warnings) print(warning);
   const std::size_t materials = input.scene.materials.size();
-  const Model model = compile_scene(input.scene);
+  const Model model = compile_input(input);
   const RenderSettings& s = model.settings;
   std::string image = std::to_string(s.image.width) + " x " + std::to_string(s.image.height);
   if (s.image.samples > 1) {
