@@ -70,6 +70,10 @@ void check_is_built(const std::filesystem::path& path, const Scene& scene);
 /// which importers name after their places, for others.
 Model compile_input(const SceneInput& input);
 
+/// Throws a Failure of status 2 with a problem for each setting with which only `serial` can render
+/// the scene.
+void check_farm_limits(const SceneInput& input, const RenderSettings& settings);
+
 /// Makes the scene ready to be sent: with its text, and within a farm's limits. Throws a Failure of
 /// status 2 when only `serial` can render the scene with the options' overrides.
 void prepare_for_farm(SceneInput& input, const control::JobOptions& options);

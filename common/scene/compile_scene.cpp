@@ -70,7 +70,6 @@ class Compiler {
   explicit Compiler(const Scene& scene) : scene_(scene), share_(share_of_digits(scene.digits)) {}
 
   Model run() {
-    check_settings();
     model_.settings = scene_.settings;
     for (const NamedMaterial& m : scene_.materials) model_.materials.push_back(m.material);
     const std::size_t leaves = leaf_count(scene_);
@@ -79,6 +78,7 @@ class Compiler {
     model_.primitives.reserve(leaves);
     unifier_.reserve(leaves);
     for (const SceneObject& object : scene_.objects) add_object(object);
+    check_settings();
     if (!faults_.is_empty()) throw UnrenderableScene(std::move(faults_).take());
     if (unifier_.unify()) measure_again();
     model_.delta = delta();
@@ -99,14 +99,14 @@ class Compiler {
   /// Eye and lights keep to the range of solids; the reader has checked all else.
   void check_settings() {
     const Camera& camera = scene_.settings.camera;
-    check_point("/camera/eye", camera.eye);
-    check_point("/camera/look_at", camera.look_at);
+    check_point("/camera/eye", "the eye", camera.eye);
+    check_point("/camera/look_at", "the point looked at", camera.look_at);
     const auto& lights = scene_.settings.lights;
     for (std::size_t i = 0; i < lights.size(); ++i)
-      check_point("/lights/" + std::to_string(i) + "/position", lights[i].position);
+      check_point("/lights/" + std::to_string(i) + "/position", "the light", lights[i].position);
   }
-  void check_point(std::string pointer, const Vec3& point) {
-    if (!is_within_range(point)) faults_.add(std::move(pointer), "lies beyond 1e18");
+  void check_point(std::string pointer, const std::string& what, const Vec3& point) {
+    if (!is_within_range(point)) faults_.add(std::move(pointer), what + " lies beyond 1e18");
   }
 
   void add_object(const SceneObject& object) {

@@ -116,6 +116,7 @@ TEST_CASE("an eye or a light beyond the range is an error") {
   const auto faults = faults_of(scene);
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].pointer == "/camera/eye");
+  CHECK(faults[0].message == "the eye lies beyond 1e18");
   CHECK(faults[1].pointer == "/lights/1/position");
 }
 
