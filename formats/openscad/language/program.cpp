@@ -4,7 +4,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "formats/mesh/mesh_file.hpp"
+#include "formats/mesh/off.hpp"
 
 namespace graycube {
 namespace {
