@@ -7,6 +7,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "geometry/simd.hpp"
+#include "scene/scene_fault.hpp"
 
 namespace graycube {
 namespace {
@@ -39,6 +40,9 @@ int guarded_main(int argc, char** argv) {
   } catch (const Failure& failure) {
     for (const Problem& problem : failure.problems()) print(problem);
     status = failure.status();
+  } catch (const UnrenderableScene& scene) {
+    for (const SceneFault& f : scene.faults()) print({"scene", f.pointer, f.message});
+    status = ExitStatus::kBadInput;
   } catch (const std::bad_alloc&) {
     print({"memory", "this process", "there is not enough"});
   } catch (const std::exception& e) {

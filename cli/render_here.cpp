@@ -9,7 +9,6 @@
 #include "process/clocks.hpp"
 #include "proto/job_settings.hpp"
 #include "proto/statistics.hpp"
-#include "scene/compile_scene.hpp"
 #include "trace/render_serial.hpp"
 #include "version.hpp"
 
@@ -67,7 +66,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
 
   const auto loading = Clock::now();
   apply_overrides(options, scene.scene.settings);
-  Model model = compile_scene(scene.scene);
+  Model model = compile_input(scene);
   scene = {};
   s.image = model.settings.image;
   s.primitives = model.primitives.size();

@@ -24,6 +24,7 @@
 #include "formats/openscad/openscad.hpp"
 #include "formats/view/mesh_scene.hpp"
 #include "proto/job_settings.hpp"
+#include "scene/scene_fault.hpp"
 #include "shading/credit_limits.hpp"
 
 namespace graycube {
@@ -225,6 +226,15 @@ Failure failure_of(const fs::path& path, const std::vector<BrlcadMessage>& error
   return {ExitStatus::kBadInput, std::move(problems)};
 }
 
+Failure failure_of(const fs::path& path, const UnrenderableScene& scene) {
+  std::vector<Problem> problems;
+  for (const SceneFault& f : scene.faults()) {
+    const bool is_placed = is_own_format(path) && !f.pointer.empty();
+    problems.push_back({"scene", path.string() + (is_placed ? ":" + f.pointer : ""), f.message});
+  }
+  return {ExitStatus::kBadInput, std::move(problems)};
+}
+
 void import_brlcad(const fs::path& path, const control::JobOptions& options,
                    const ModelChoice& choice, SceneInput& input) {
   BrlcadOptions how;
@@ -282,6 +292,7 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
                                         path.string());
   }
   SceneInput input;
+  input.path = path;
   input.name = path.filename().string();
   if (is_openscad(path)) {
     import_openscad(path, options, choice, input);
@@ -302,16 +313,33 @@ void check_is_built(const fs::path& path, const Scene& scene) {
   if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
 }
 
+Model compile_input(const SceneInput& input) {
+  try {
+    return compile_scene(input.scene);
+  } catch (const UnrenderableScene& e) {
+    throw failure_of(input.path, e);
+  }
+}
+
+void check_farm_limits(const SceneInput& input, const RenderSettings& settings) {
+  std::vector<Problem> problems;
+  for (const ExceededLimit& limit : exceeded_credit_limits(settings)) {
+    problems.push_back({"scene", input.name + ":" + std::string(limit.where),
+                        "only --algorithm serial takes more than " + std::to_string(limit.most) +
+                            ", found " + std::to_string(limit.found)});
+  }
+  if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
+}
+
 void prepare_for_farm(SceneInput& input, const control::JobOptions& options) {
   RenderSettings settings = input.scene.settings;
   apply_overrides(options, settings);
-  for (const ExceededLimit& limit : exceeded_credit_limits(settings)) {
-    throw Failure(ExitStatus::kBadInput,
-                  Problem{"scene", input.name + ":" + std::string(limit.where),
-                          "only --algorithm serial takes more than " + std::to_string(limit.most) +
-                              ", found " + std::to_string(limit.found)});
+  check_farm_limits(input, settings);
+  try {
+    if (input.text.empty()) input.text = write_scene_text(input.scene);
+  } catch (const UnrenderableScene& e) {
+    throw failure_of(input.path, e);
   }
-  if (input.text.empty()) input.text = write_scene_text(input.scene);
   if (input.text.size() > kMaxSubmitBytes) {
     throw Failure(ExitStatus::kBadInput,
                   Problem{"scene", input.name, "larger than a farm takes; use --algorithm serial"});

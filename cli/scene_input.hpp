@@ -9,6 +9,7 @@
 
 #include "cli/failure.hpp"
 #include "proto/messages.hpp"
+#include "scene/compile_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -34,6 +35,7 @@ struct ModelChoice {
 };
 
 struct SceneInput {
+  std::filesystem::path path;
   /// The file's name without folders.
   std::string name;
   Scene scene;
@@ -69,6 +71,15 @@ std::string brlcad_tops_text(const std::filesystem::path& path);
 /// Throws a Failure of status 2 when the scene asks for something that the format has but this
 /// version can't compute.
 void check_is_built(const std::filesystem::path& path, const Scene& scene);
+
+/// Compiles the scene; throws a Failure of status 2 with a problem for each solid, light or setting
+/// that can't be computed. These are named by JSON pointers for scene files, and by their objects,
+/// which importers name after their places, for others.
+Model compile_input(const SceneInput& input);
+
+/// Throws a Failure of status 2 with a problem for each setting with which only `serial` can render
+/// the scene.
+void check_farm_limits(const SceneInput& input, const RenderSettings& settings);
 
 /// Makes the scene ready to be sent: with its text, and within a farm's limits. Throws a Failure of
 /// status 2 when only `serial` can render the scene with the options' overrides.

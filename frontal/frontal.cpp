@@ -1,12 +1,28 @@
 #include "frontal/frontal.hpp"
 
+#include <exception>
 #include <utility>
 
+#include "check.hpp"
 #include "frontal/parts/message_senders.hpp"
 #include "overloaded.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {
+namespace {
+
+/// Does work for the job that is on: a check that fails there ends that job, not the farm.
+template <typename Work>
+void in_job(Jobs& jobs, Work&& work) {
+  try {
+    const ChecksThrow checks_throw;
+    work();
+  } catch (const std::exception& e) {
+    if (!jobs.fail_internally(e.what())) throw;
+  }
+}
+
+}  // namespace
 
 Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
@@ -29,7 +45,7 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
   const auto rank = nodes_.rank_of(peer);
   if (rank) nodes_.heard(*rank, now_s_);
   if (looks_like_batch(message.frame)) {
-    if (rank) jobs_.on_light(message.frame);
+    if (rank) in_job(jobs_, [&] { jobs_.on_light(message.frame); });
     return;
   }
   const auto decoded = decode(message.text());
@@ -38,7 +54,8 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
   }
   const auto& m = std::get<ControlMessage>(decoded);
   if (const auto* hello = std::get_if<control::Hello>(&m)) return on_hello(peer, *hello);
-  rank ? on_node(*rank, m) : on_client(peer, m, message.payload);
+  if (!rank) return on_client(peer, m, message.payload);
+  in_job(jobs_, [&] { on_node(*rank, m); });
 }
 
 // ---- nodes
@@ -92,8 +109,10 @@ void Frontal::lose(Rank rank, const std::string& how) {
 }
 
 void Frontal::give_result(PreparationResult result) {
-  jobs_.give_result(std::move(result));
-  if (nodes_.all_here()) jobs_.load_what_waits();
+  in_job(jobs_, [&] {
+    jobs_.give_result(std::move(result));
+    if (nodes_.all_here()) jobs_.load_what_waits();
+  });
 }
 
 // ---- clients

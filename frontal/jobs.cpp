@@ -149,7 +149,8 @@ std::optional<PreparationWork> Jobs::take_work() {
 void Jobs::give_result(PreparationResult result) {
   if (!running_ || running_->id() != result.job) return;  // cancelled meanwhile
   if (result.scene) return running_->prepared(*std::move(result.scene));
-  fail({JobState::kFailed, FailureCode::kBadInput, std::move(result.errors)});
+  const FailureCode code = result.is_internal ? FailureCode::kFailed : FailureCode::kBadInput;
+  fail({JobState::kFailed, code, std::move(result.errors)});
 }
 
 void Jobs::load_what_waits() {
@@ -213,6 +214,13 @@ void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t
 void Jobs::node_was_lost(const std::string& name, const std::string& how, bool was_starting) {
   if (!running_ || !(running_->is_loaded() || was_starting)) return;
   fail({JobState::kFailed, FailureCode::kFailed, {{name, how}}});
+}
+
+bool Jobs::fail_internally(const std::string& why) {
+  if (!running_) return false;
+  const std::string scene = running_->info().scene;
+  fail({JobState::kFailed, FailureCode::kFailed, {{scene, "internal error: " + why}}});
+  return true;
 }
 
 // ---- how jobs get on and end

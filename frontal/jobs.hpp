@@ -60,6 +60,9 @@ class Jobs {
   /// `last_ping`: the sequence of the newest ping that was sent.
   void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping);
 
+  /// Tells that a check failed, or an exception came, while the running job was worked on: that job
+  /// fails. Without a job that is on, false.
+  [[nodiscard]] bool fail_internally(const std::string& why);
   /// Tells that a node is lost, which ends a job that was loaded. A node that can't be started ends
   /// any job that is on.
   void node_was_lost(const std::string& name, const std::string& how, bool was_starting);

@@ -4,7 +4,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
-#include "scene/compile_scene.hpp"
+#include "proto/model_slice.hpp"
 
 namespace graycube {
 namespace {
@@ -22,8 +22,15 @@ ExitStatus run(const CheckCommand& command) {
   check_is_built(command.scene, input.scene);
   for (const Problem& warning : input.warnings) print(warning);
   const std::size_t materials = input.scene.materials.size();
-  const Model model = compile_scene(input.scene);
+  const Model model = compile_input(input);
   const RenderSettings& s = model.settings;
+  // What is fine is fine for every algorithm.
+  check_farm_limits(input, s);
+  if (!fits_model_limits(model)) {
+    throw Failure(ExitStatus::kBadInput, Problem{"scene", command.scene,
+                                                 "larger than a farm takes; only --algorithm "
+                                                 "serial renders it"});
+  }
   std::string image = std::to_string(s.image.width) + " x " + std::to_string(s.image.height);
   if (s.image.samples > 1) {
     image += ", " + std::to_string(s.image.samples * s.image.samples) + " rays per pixel";

@@ -12,7 +12,6 @@
 #include "process/clocks.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/statistics.hpp"
-#include "scene/compile_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -31,7 +30,7 @@ constexpr std::size_t kMostExpansion = 4;
 /// The bytes that go to the farm: the scene compiled, which saves the frontal from reading it
 /// again, or its text.
 SharedBytes bytes_to_send(SceneInput scene) {
-  const Model model = compile_scene(scene.scene);
+  const Model model = compile_input(scene);
   scene.scene = {};
   const std::size_t most = std::min(kMaxSubmitBytes, kMostExpansion * scene.text.size());
   if (fits_model_limits(model) && encoded_model_bytes(model) <= most) return encode_model(model);

@@ -101,7 +101,9 @@ class SplitFinder {
     const double scale = kBins / (last - first);
     std::array<std::size_t, kBins + 1> begins{}, ends{};
     const auto bin = [&](double v) {
-      return static_cast<std::size_t>(std::clamp((v - first) * scale, 0.0, kBins - 1.0));
+      const double at = (v - first) * scale;
+      // Written so that NaN, which ends at infinity give, stays within the bins.
+      return at > 0 ? static_cast<std::size_t>(std::min(at, kBins - 1.0)) : std::size_t{0};
     };
     for (const double v : lo) ++begins[bin(v)];
     for (const double v : hi) ++ends[bin(v)];

@@ -1,13 +1,14 @@
 #include "csg/build_primitive.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "check.hpp"
 #include "csg/box.hpp"
 #include "csg/elliptic_cone.hpp"
 #include "csg/elliptic_torus.hpp"
 #include "csg/quadric.hpp"
+#include "csg/soundness.hpp"
 #include "csg/sphere.hpp"
 #include "csg/torus.hpp"
 #include "mesh/close_mesh.hpp"
@@ -15,10 +16,19 @@
 namespace graycube {
 namespace {
 
+/// All NaN for a map without an inverse, which why_unsound() then finds.
 Affine inverse_of(const Affine& map) {
-  const auto inverse = map.inverse();
-  GRAYCUBE_CHECK(inverse.has_value(), "a primitive's map is singular");
-  return *inverse;
+  if (const auto inverse = map.inverse()) return *inverse;
+  Affine none;
+  for (auto& row : none.m) row.fill(std::numeric_limits<double>::quiet_NaN());
+  return none;
+}
+
+/// The inverse of the map that applies `frame`, then `to_world`. Each of the two may have one where
+/// their product is too ill-conditioned: a wide disc in space that is stretched across it.
+Affine inverse_of(const Affine& to_world, const Affine& frame) {
+  if (const auto inverse = compose(to_world, frame).inverse()) return *inverse;
+  return compose(inverse_of(frame), inverse_of(to_world));
 }
 
 /// The map whose columns are x, y, z and the translation `origin`.
@@ -46,6 +56,13 @@ Affine frame_about(const Vec3& origin, const Vec3& axis, double radial, double a
   return frame(radial * x, radial * y, axial * axis, origin);
 }
 
+/// The unit vector along `v`; all NaN where its length is none or beyond doubles.
+Vec3 unit_or_nan(const Vec3& v) {
+  const double l = length(v);
+  if (l > 0 && std::isfinite(l)) return normalized(v);
+  return std::numeric_limits<double>::quiet_NaN() * Vec3{1, 1, 1};
+}
+
 /// Half the extent, along each world axis, of the image of the unit disc in the local x-y plane.
 Vec3 disc_extent(const Affine& to_world) {
   Vec3 e;
@@ -61,7 +78,7 @@ Aabb around(const Vec3& center, const Vec3& extent) { return {center - extent, c
 /// Caps at local z = 0 and z = 1 as planes of the world, through the ends as the scene gives them:
 /// base + (top − base) may miss top by a bit, and a cap flush with another face would not be.
 void set_caps(Primitive& p, const Vec3& world_base, const Vec3& world_top) {
-  const Vec3 normal = normalized(p.to_local.row(2));
+  const Vec3 normal = unit_or_nan(p.to_local.row(2));
   csg::set_caps(p, normal + Vec3{}, dot(normal, world_base), dot(normal, world_top));
 }
 
@@ -100,10 +117,11 @@ Primitive build_sphere(const Affine& to_world, const Vec3& center, double radius
 
 Primitive build_ellipsoid(const Affine& to_world, const Vec3& center,
                           const std::array<Vec3, 3>& axes) {
-  const Affine map = compose(to_world, frame(axes[0], axes[1], axes[2], center));
+  const Affine local = frame(axes[0], axes[1], axes[2], center);
+  const Affine map = compose(to_world, local);
   Primitive p;
   p.kind = PrimitiveKind::kEllipsoid;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   p.bounds =
       around(map.translation(), {length(map.row(0)), length(map.row(1)), length(map.row(2))});
   return p;
@@ -122,13 +140,14 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
     return p;
   }
   const Vec3 e = hi - lo;
-  const Affine map = compose(to_world, frame({e.x, 0, 0}, {0, e.y, 0}, {0, 0, e.z}, lo));
+  const Affine local = frame({e.x, 0, 0}, {0, e.y, 0}, {0, 0, e.z}, lo);
+  const Affine map = compose(to_world, local);
   p.kind = PrimitiveKind::kParallelepiped;
-  const Affine inverse = inverse_of(map);
+  const Affine inverse = inverse_of(to_world, local);
   const Vec3 low = to_world.point(lo), high = to_world.point(hi);
   Vec3 local_low, local_high;
   for (int a = 0; a < 3; ++a) {
-    const Vec3 n = normalized(inverse.row(a)) + Vec3{};
+    const Vec3 n = unit_or_nan(inverse.row(a)) + Vec3{};
     p.to_local.m[static_cast<std::size_t>(a)] = {n.x, n.y, n.z, 0};
     local_low[a] = dot(n, low) + 0.0;
     local_high[a] = dot(n, high) + 0.0;
@@ -141,10 +160,11 @@ Primitive build_box(const Affine& to_world, const Vec3& lo, const Vec3& hi) {
 
 Primitive build_cylinder(const Affine& to_world, const Vec3& base, const Vec3& top, double radius) {
   const Vec3 axis = top - base;
-  const Affine map = compose(to_world, frame_about(base, normalized(axis), radius, length(axis)));
+  const Affine local = frame_about(base, normalized(axis), radius, length(axis));
+  const Affine map = compose(to_world, local);
   Primitive p;
   p.kind = PrimitiveKind::kCylinder;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   set_caps(p, to_world.point(base), to_world.point(top));
   const Vec3 extent = disc_extent(map);
   p.bounds = union_of(around(map.point({0, 0, 0}), extent), around(map.point({0, 0, 1}), extent));
@@ -156,12 +176,12 @@ Primitive build_cone(const Affine& to_world, const Vec3& base, double base_radiu
   if (base_radius == top_radius) return build_cylinder(to_world, base, top, base_radius);
   if (base_radius < top_radius) return build_cone(to_world, top, top_radius, base, base_radius);
   const Vec3 axis = top - base;
-  const Affine map =
-      compose(to_world, frame_about(base, normalized(axis), base_radius, length(axis)));
+  const Affine local = frame_about(base, normalized(axis), base_radius, length(axis));
+  const Affine map = compose(to_world, local);
   const double top_share = top_radius / base_radius;
   Primitive p;
   p.kind = PrimitiveKind::kCone;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   set_caps(p, to_world.point(base), to_world.point(top));
   csg::set_cone_slope(p, top_share - 1);
   const Vec3 extent = disc_extent(map);
@@ -172,10 +192,11 @@ Primitive build_cone(const Affine& to_world, const Vec3& base, double base_radiu
 
 Primitive build_torus(const Affine& to_world, const Vec3& center, const Vec3& axis, double major,
                       double minor) {
-  const Affine map = compose(to_world, frame_about(center, normalized(axis), major, major));
+  const Affine local = frame_about(center, normalized(axis), major, major);
+  const Affine map = compose(to_world, local);
   Primitive p;
   p.kind = PrimitiveKind::kTorus;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   p.v = csg::torus_slots(minor / major);
   const Vec3 ring = disc_extent(map);
   const Vec3 tube{length(map.row(0)), length(map.row(1)), length(map.row(2))};
@@ -215,10 +236,11 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
     return build_elliptic_cone(to_world, base, top, b, a, top_b, top_a);
   }
   const double height = 1 - top_a;
-  const Affine map = compose(to_world, frame(a, b, axis, base));
+  const Affine local = frame(a, b, axis, base);
+  const Affine map = compose(to_world, local);
   Primitive p;
   p.kind = PrimitiveKind::kEllipticCone;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   for (double& v : p.to_local.m[2]) v *= height;
   set_caps(p, to_world.point(base), to_world.point(top));
   if (csg::lower_cap(p) > csg::upper_cap(p)) {
@@ -237,14 +259,15 @@ Primitive build_elliptic_cone(const Affine& to_world, const Vec3& base, const Ve
 
 Primitive build_elliptic_torus(const Affine& to_world, const Vec3& center, const Vec3& axis,
                                double radius, double outward, double upward, double across) {
-  const Affine map = compose(to_world, frame_about(center, normalized(axis), radius, radius));
+  const Affine local = frame_about(center, normalized(axis), radius, radius);
+  const Affine map = compose(to_world, local);
   const double m = std::sqrt(outward * outward + upward * upward);
   const double c = outward / m, s = upward / m;
   const double major = m / radius, minor = across / radius;
   const double i2 = 1 / (major * major), j2 = 1 / (minor * minor);
   Primitive p;
   p.kind = PrimitiveKind::kEllipticTorus;
-  p.to_local = inverse_of(map);
+  p.to_local = inverse_of(to_world, local);
   // The ellipse's reach in direction (u, w) of its plane.
   const auto reach = [&](double u, double w) {
     const double along = major * (c * u + s * w), beside = minor * (c * w - s * u);
@@ -324,12 +347,23 @@ Primitive build_quadric(const Affine& to_world, const std::array<double, 4>& q, 
 
 Primitive build_mesh(const Affine& to_world, const TriangleMesh& mesh, std::vector<Mesh>& meshes) {
   TriangleMesh surface = mesh;
-  for (Vec3& p : surface.points) p = to_world.point(p) + Vec3{0, 0, 0};
-  if (to_world.determinant() < 0) turn_inside_out(surface);
-  meshes.emplace_back(std::move(surface));
+  Aabb bounds = Aabb::nothing();
+  bool finite = true;
+  for (Vec3& p : surface.points) {
+    p = to_world.point(p) + Vec3{0, 0, 0};
+    bounds.include(p);
+    finite = finite && is_finite(p);
+  }
   Primitive p;
   p.kind = PrimitiveKind::kMesh;
-  p.mesh = static_cast<std::uint32_t>(meshes.size() - 1);
+  p.mesh = static_cast<std::uint32_t>(meshes.size());
+  p.bounds = bounds;
+  if (!finite || !is_within_range(bounds)) {
+    p.v.fill(std::numeric_limits<double>::quiet_NaN());
+    return p;
+  }
+  if (to_world.determinant() < 0) turn_inside_out(surface);
+  meshes.emplace_back(std::move(surface));
   p.bounds = meshes.back().bounds();
   return p;
 }

@@ -42,16 +42,13 @@ std::optional<double> balancing_factor(const Vec3& v) {
   return factor;
 }
 
-}  // namespace
-
-double Affine::determinant() const { return dot(row(0), cross(row(1), row(2))); }
-
-std::optional<Affine> Affine::inverse() const {
-  const auto f0 = balancing_factor(row(0));
-  const auto f1 = balancing_factor(row(1));
-  const auto f2 = balancing_factor(row(2));
+/// The inverse of a map whose rows may have any lengths.
+std::optional<Affine> inverse_by_rows(const Affine& map) {
+  const auto f0 = balancing_factor(map.row(0));
+  const auto f1 = balancing_factor(map.row(1));
+  const auto f2 = balancing_factor(map.row(2));
   if (!f0 || !f1 || !f2) return std::nullopt;
-  const Vec3 r0 = *f0 * row(0), r1 = *f1 * row(1), r2 = *f2 * row(2);
+  const Vec3 r0 = *f0 * map.row(0), r1 = *f1 * map.row(1), r2 = *f2 * map.row(2);
 
   const Vec3 c0 = cross(r1, r2);
   const double det = dot(r0, c0);
@@ -65,10 +62,39 @@ std::optional<Affine> Affine::inverse() const {
   const Vec3 i0{entry(c0.x, *f0), entry(c1.x, *f1), entry(c2.x, *f2)};
   const Vec3 i1{entry(c0.y, *f0), entry(c1.y, *f1), entry(c2.y, *f2)};
   const Vec3 i2{entry(c0.z, *f0), entry(c1.z, *f1), entry(c2.z, *f2)};
-  const Vec3 t = translation();
-  const Affine result = from_rows(i0, i1, i2, {-dot(i0, t), -dot(i1, t), -dot(i2, t)});
-  if (!result.is_finite()) return std::nullopt;
-  return result;
+  const Vec3 t = map.translation();
+  return from_rows(i0, i1, i2, {-dot(i0, t), -dot(i1, t), -dot(i2, t)});
+}
+
+/// The inverse of a map whose columns may have very different lengths, as those of a frame that is
+/// turned against the axes have: with columns of about one length it is inverted by its rows, whose
+/// inverse then gets the columns' factors.
+std::optional<Affine> inverse_by_columns(const Affine& map) {
+  Affine balanced = map;
+  std::array<double, 3> factors{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto factor = balancing_factor(column(map, j));
+    if (!factor) return std::nullopt;
+    factors[j] = *factor;
+    for (auto& row : balanced.m) row[j] *= *factor;
+  }
+  auto inverse = inverse_by_rows(balanced);
+  if (!inverse) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (double& v : inverse->m[i]) v = v * factors[i] + 0.0;
+  }
+  return inverse;
+}
+
+}  // namespace
+
+double Affine::determinant() const { return dot(row(0), cross(row(1), row(2))); }
+
+std::optional<Affine> Affine::inverse() const {
+  for (const auto way : {inverse_by_rows, inverse_by_columns}) {
+    if (auto result = way(*this); result && result->is_finite()) return result;
+  }
+  return std::nullopt;
 }
 
 std::optional<double> Affine::similarity_scale() const {

@@ -36,9 +36,9 @@ struct Affine {
 
   /// Determinant of the linear part.
   double determinant() const;
-  /// The inverse map, or nothing when the linear part is singular or so ill-conditioned
-  /// (determinant below 1e-12 times the product of the row lengths) that no digit of it would be
-  /// right.
+  /// The inverse map, or nothing when it leaves the range of doubles, or when the linear part is
+  /// singular or so ill-conditioned (determinant below 1e-12 times the product of the row lengths)
+  /// that no digit of it would be right. Factors of whole columns don't count as ill conditions.
   std::optional<Affine> inverse() const;
   /// The factor by which every length grows, when the map is a similarity to within rounding
   /// (columns orthogonal and of one length to 1e-14 relative); nothing otherwise.

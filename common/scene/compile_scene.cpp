@@ -12,11 +12,16 @@
 #include "coincidence/coincidence.hpp"
 #include "coincidence/exactness.hpp"
 #include "csg/build_primitive.hpp"
+#include "csg/kinds.hpp"
+#include "csg/soundness.hpp"
 #include "csg/tree.hpp"
 #include "geometry/infinity.hpp"
 #include "overloaded.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
+#include "scene/scene_fault.hpp"
+#include "scene/scene_place.hpp"
+#include "spelling.hpp"
 
 namespace graycube {
 namespace {
@@ -73,6 +78,8 @@ class Compiler {
     model_.primitives.reserve(leaves);
     unifier_.reserve(leaves);
     for (const SceneObject& object : scene_.objects) add_object(object);
+    check_settings();
+    if (!faults_.is_empty()) throw UnrenderableScene(std::move(faults_).take());
     if (unifier_.unify()) measure_again();
     model_.delta = delta();
     return std::move(model_);
@@ -86,7 +93,21 @@ class Compiler {
     bool inverted = false;
     /// The node is a root, and its map, whose digits are few, is that of all roots.
     bool is_around_all = false;
+    ScenePlace place;
   };
+
+  /// Eye and lights keep to the range of solids; the reader has checked all else.
+  void check_settings() {
+    const Camera& camera = scene_.settings.camera;
+    check_point("/camera/eye", "the eye", camera.eye);
+    check_point("/camera/look_at", "the point looked at", camera.look_at);
+    const auto& lights = scene_.settings.lights;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      check_point("/lights/" + std::to_string(i) + "/position", "the light", lights[i].position);
+  }
+  void check_point(std::string pointer, const std::string& what, const Vec3& point) {
+    if (!is_within_range(point)) faults_.add(std::move(pointer), what + " lies beyond 1e18");
+  }
 
   void add_object(const SceneObject& object) {
     Object out;
@@ -95,7 +116,8 @@ class Compiler {
     emit(object.csg, {.to_world = {},
                       .material = object.material,
                       .inverted = false,
-                      .is_around_all = has_one_rounded_root_map_});
+                      .is_around_all = has_one_rounded_root_map_,
+                      .place = {.index = out.id}});
     out.node_count = static_cast<std::uint32_t>(model_.nodes.size()) - out.first_node;
     out.bounds = bounds_of(model_.tree(out), model_.primitives);
     model_.objects.push_back(out);
@@ -106,20 +128,26 @@ class Compiler {
     if (std::exchange(context.is_around_all, false))
       context.to_world = moving_all_alike(context.to_world, kRoundedShare, share_);
     if (node.material != kInheritMaterial) context.material = node.material;
-    std::visit(
-        Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
-                   [&](const ReferenceNode& n) { emit(scene_.shapes[n.shape].node, context); },
-                   [&](const PrismShape& shape) { emit_prism(shape, context); },
-                   [&](const auto& shape) {
-                     emit_leaf(node, build(context.to_world.map, shape), context);
-                   }},
-        node.value);
+    std::visit(Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
+                          [&](const ReferenceNode& n) { emit_shape(n, context); },
+                          [&](const PrismShape& shape) { emit_prism(shape, context); },
+                          [&](const auto& shape) {
+                            emit_leaf(node, build(context.to_world.map, shape), context);
+                          }},
+               node.value);
+  }
+
+  void emit_shape(const ReferenceNode& n, const Context& context) {
+    Context inner = context;
+    inner.place = {&context.place, ScenePlace::Step::kShape, n.shape};
+    emit(scene_.shapes[n.shape].node, inner);
   }
 
   void emit_operation(const OperationNode& n, const Context& context) {
     if (n.operation == Operation::kComplement) {
       Context inverted = context;
       inverted.inverted = !context.inverted;
+      inverted.place = {&context.place, ScenePlace::Step::kOnlyChild, 0};
       emit(n.children.front(), inverted);
       return;
     }
@@ -130,6 +158,7 @@ class Compiler {
     if (n.children.size() > 1) model_.nodes.push_back({kind, 0, 1});
     for (std::size_t i = 0; i < n.children.size(); ++i) {
       Context child = context;
+      child.place = {&context.place, ScenePlace::Step::kChild, i};
       if (n.operation == Operation::kDifference && i > 0) child.inverted = !context.inverted;
       const std::size_t at = model_.nodes.size();
       emit(n.children[i], child);
@@ -144,13 +173,30 @@ class Compiler {
 
   void emit_prism(const PrismShape& shape, const Context& context) {
     const auto solid = prism_of(shape);
-    GRAYCUBE_CHECK(solid.has_value(), "a prism without an area, of %zu points",
-                   shape.points.size());
-    emit(*solid, context);
+    if (solid) return emit(*solid, context);
+    report(context.place, "prism", "goes round no area to working precision");
+    emit(CsgNode{SphereShape{{}, 1}, {}, kInheritMaterial}, context);
+  }
+
+  void report(const ScenePlace& place, std::string_view kind, std::string_view why) {
+    if (!faults_.has_room()) return faults_.count();
+    const std::string& object = scene_.objects[place.object()].name;
+    std::string text = "the " + std::string(kind);
+    if (!object.empty()) text += " of " + quoted(object);
+    text += " " + std::string(why);
+    if (place.is_in_shape()) text += ", where " + root_pointer(place) + " uses it";
+    faults_.add(place.pointer(scene_), std::move(text));
+  }
+  static std::string root_pointer(const ScenePlace& place) {
+    return "/objects/" + std::to_string(place.object()) + "/csg";
   }
 
   void emit_leaf(const CsgNode& leaf, Primitive primitive, const Context& context) {
     GRAYCUBE_CHECK(context.material != kInheritMaterial, "a leaf without a material");
+    if (const char* why = why_unsound(primitive, model_.planes)) {
+      report(context.place, csg::traits_of(primitive.kind).name, why);
+      primitive = {};
+    }
     primitive.material = context.material;
     const auto kind = context.inverted ? TreeNode::Kind::kInvertedLeaf : TreeNode::Kind::kLeaf;
     model_.nodes.push_back({kind, static_cast<std::uint32_t>(model_.primitives.size()), 1});
@@ -230,6 +276,7 @@ class Compiler {
   const Scene& scene_;
   double share_;
   bool has_one_rounded_root_map_ = share_ > kRoundedShare&& has_one_root_map(scene_);
+  SceneFaults faults_;
   Model model_;
   CoincidenceUnifier unifier_{model_};
   /// The largest finite coordinate of the primitives' bounds so far.

@@ -9,7 +9,9 @@ namespace graycube {
 
 /// The scene must have passed read_scene's checks (no cycles, every leaf has a material, all maps
 /// invertible). Objects whose tree is always empty space or everything are kept: they just have no
-/// surface.
+/// surface. Throws an UnrenderableScene (scene/scene_fault.hpp) with all solids, lights and places
+/// of the eye that leave the range of csg/soundness.hpp; all callers therefore accept the same
+/// scenes.
 Model compile_scene(const Scene& scene);
 
 }  // namespace graycube

@@ -14,8 +14,8 @@ namespace {
 /// height.
 constexpr double kReachBeyond = 0.25;
 
-/// Sides that are all but level make cones no wider than this.
-constexpr double kWidestCone = 1e40;
+/// Sides that are all but level make cones no wider than this, which is within kMaxCoordinate.
+constexpr double kWidestCone = 1e17;
 
 CsgNode leaf(decltype(CsgNode::value) value) {
   return {std::move(value), std::nullopt, kInheritMaterial};

@@ -47,6 +47,10 @@ class CreditSplit {
   std::size_t shadow_rays_, secondary_rays_;
 };
 
+bool is_finite(const Rgb& light) {
+  return std::isfinite(light.r) && std::isfinite(light.g) && std::isfinite(light.b);
+}
+
 /// Makes `r` a ray from `origin` that inherits its parent's pixel and generation. Written
 /// in place, number by number: a temporary copy would wait for its parts to reach the
 /// cache.
@@ -62,6 +66,12 @@ void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const
   r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
   r.region = region;
   r.hops = parent.hops;
+}
+
+/// Whether all numbers of a ray are finite and its direction has a length. Others bring no light:
+/// extreme scenes make them, and no node accepts them.
+bool is_traceable(const Vec3& origin, const Vec3& direction, const Rgb& weight) {
+  return is_finite(origin) && dot(direction, direction) > 0.5 && is_finite(weight);
 }
 
 }  // namespace
@@ -104,10 +114,15 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
     const Rgb weight = coefficient * task.weight;
     if (!(max_component(weight) > 0)) return;
     if (max_component(weight) < domain_.settings().min_weight) return;
+    const Vec3 unit = normalized(direction);
+    if (!is_traceable(p, unit, weight)) {
+      ++step.rounding.non_finite;
+      return;
+    }
     ++step.rays.created[static_cast<std::size_t>(kind)];
     ++at.secondary_rays;
     OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
-    spawn(task, kind, region_of(at), p, normalized(direction), weight, sent.task);
+    spawn(task, kind, region_of(at), p, unit, weight, sent.task);
     sent.slot = at.ray->slot;
     sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
   };
@@ -173,6 +188,10 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   const Rgb weight =
       task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
   if (!(max_component(weight) > 0)) return;
+  if (!is_finite(weight)) [[unlikely]] {
+    ++step.rounding.non_finite;
+    return;
+  }
   const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
   ShadowWay way{origin_epsilon(p), distance - origin_epsilon(p)};
   if (domain_.has_horizons()) {

@@ -109,6 +109,7 @@ bool split_blocks(const std::vector<Demand>& demand, std::uint64_t most_texels,
                   std::vector<LightDepths>& depths) {
   double farthest = 0;
   for (const Demand& d : demand) farthest = std::max(farthest, d.far);
+  if (!(farthest > 0) || !std::isfinite(farthest)) return false;
   for (std::uint32_t finest = LightDepths::kMostSplit; finest >= 1; --finest) {
     std::uint64_t texels = 0;
     for (std::size_t l = 0; l < depths.size(); ++l) {

@@ -1,6 +1,7 @@
 // Turns a BRL-CAD database into a scene: chooses the objects, places the eye and the lights.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "csg/model.hpp"
@@ -9,6 +10,7 @@
 #include "formats/brlcad/scene_builder.hpp"
 #include "formats/brlcad/view.hpp"
 #include "scene/compile_scene.hpp"
+#include "scene/scene_fault.hpp"
 
 namespace graycube {
 namespace {
@@ -123,13 +125,25 @@ void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps,
   light(kFillDirection, kFillBrightness);
 }
 
+/// Nothing, after reporting, when solids can't be computed; they are named with their regions.
+std::optional<Model> compiled(const Scene& scene, BrlcadReport& report) {
+  try {
+    return compile_scene(scene);
+  } catch (const UnrenderableScene& e) {
+    for (const SceneFault& f : e.faults()) report.error("", f.message);
+  }
+  return std::nullopt;
+}
+
 void place_eye(const BrlcadOptions& options,
                const std::vector<std::pair<std::size_t, double>>& lamps, Scene& scene,
                BrlcadReport& report) {
   RenderSettings& s = scene.settings;
   s.image = options.image;
   s.max_depth = options.max_depth;
-  const std::vector<Aabb> bounds = finite_bounds(compile_scene(scene));
+  const std::optional<Model> model = compiled(scene, report);
+  if (!model) return;
+  const std::vector<Aabb> bounds = finite_bounds(*model);
   Aabb whole = Aabb::nothing();
   for (const Aabb& box : bounds) whole = union_of(whole, box);
   if (whole.is_empty()) whole = {{-1, -1, -1}, {1, 1, 1}};

@@ -97,34 +97,66 @@ class Expander {
 
   void expand_object(const TreeSummary& summary) {
     const Expanded e = expand(summary, [&](const ShapeUse& use) { report_bare(use); });
-    leaves_ = saturating_sum(leaves_, e.leaves);
-    nodes_ = saturating_sum(nodes_, e.nodes);
-    triangles_ = saturating_sum(triangles_, e.triangles);
+    total_.add(e.counts);
+    for (const ShapeUse& use : summary.uses) {
+      repeated_.add(expanded_[use.shape].counts);
+      check_repeated(use.at);
+    }
   }
 
   void check_totals(JsonIndex at) {
-    check_total(at, leaves_, kMaxLeaves, "leaves");
-    check_total(at, nodes_, kMaxExpandedNodes, "nodes");
-    check_total(at, triangles_, kMaxMeshTriangles, "triangles of meshes");
+    if (repeats_too_much_) return;
+    check_total(at, total_.leaves, kMaxLeaves, "leaves");
+    check_total(at, total_.nodes, kMaxExpandedNodes, "nodes");
+    check_total(at, total_.triangles, kMaxMeshTriangles, "triangles of meshes");
   }
 
  private:
+  struct Counts {
+    std::uint64_t leaves = 0, nodes = 0, triangles = 0, planes = 0;
+
+    void add(const Counts& o) {
+      leaves = saturating_sum(leaves, o.leaves);
+      nodes = saturating_sum(nodes, o.nodes);
+      triangles = saturating_sum(triangles, o.triangles);
+      planes = saturating_sum(planes, o.planes);
+    }
+  };
   struct Expanded {
-    std::uint64_t leaves = 0, nodes = 0, triangles = 0;
+    Counts counts;
     std::uint32_t depth = 0;
     JsonIndex bare_leaf = 0;
   };
+
+  static std::string written(std::uint64_t count) {
+    return count == kMany ? "more than 2^64" : std::to_string(count);
+  }
+
+  /// Reports, once for all refs, that they repeat too much.
+  void check_repeated(JsonIndex at) {
+    if (repeats_too_much_) return;
+    const auto check = [&](std::uint64_t count, std::uint64_t limit, const char* what) {
+      if (count <= limit) return;
+      repeats_too_much_ = true;
+      errors_.add(at, "with this ref, refs make " + written(count) + " " + what + ", at most " +
+                          std::to_string(limit) + " are accepted");
+    };
+    check(repeated_.leaves, kMaxRepeatedLeaves, "leaves");
+    check(repeated_.nodes, kMaxRepeatedNodes, "nodes");
+    check(repeated_.planes, kMaxRepeatedPlanes, "planes of polyhedra");
+    check(repeated_.triangles, kMaxRepeatedTriangles, "triangles of meshes");
+  }
 
   /// The tree's counts with its refs expanded; `on_bare` is told of uses that leave a leaf without
   /// a material.
   template <typename OnBare>
   Expanded expand(const TreeSummary& summary, const OnBare& on_bare) {
-    Expanded e{summary.leaves, summary.nodes, summary.triangles, summary.depth, summary.bare_leaf};
+    Expanded e{{summary.leaves, summary.nodes, summary.triangles, summary.planes},
+               summary.depth,
+               summary.bare_leaf};
     for (const ShapeUse& use : summary.uses) {
       const Expanded& shape = expanded_[use.shape];
-      e.leaves = saturating_sum(e.leaves, shape.leaves);
-      e.nodes = saturating_sum(e.nodes, shape.nodes);
-      e.triangles = saturating_sum(e.triangles, shape.triangles);
+      e.counts.add(shape.counts);
       if (use.depth + shape.depth > kMaxTreeDepth)
         errors_.add(use.at, "the tree is deeper than " + std::to_string(kMaxTreeDepth) +
                                 " levels when its refs are expanded");
@@ -147,16 +179,17 @@ class Expander {
 
   void check_total(JsonIndex at, std::uint64_t total, std::uint64_t limit, const char* what) {
     if (total <= limit) return;
-    const std::string found = total == kMany ? "more than 2^64" : std::to_string(total);
-    errors_.add(at, "the objects have " + found + " " + what + " when refs are expanded, at most " +
-                        std::to_string(limit) + " are accepted");
+    errors_.add(at, "the objects have " + written(total) + " " + what +
+                        " when refs are expanded, at most " + std::to_string(limit) +
+                        " are accepted");
   }
 
   const JsonTree& tree_;
   ErrorReport& errors_;
   const NameTable& names_;
   std::vector<Expanded> expanded_;
-  std::uint64_t leaves_ = 0, nodes_ = 0, triangles_ = 0;
+  Counts total_, repeated_;
+  bool repeats_too_much_ = false;
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ struct TreeSummary {
   std::uint64_t leaves = 0;
   std::uint64_t nodes = 0;
   std::uint64_t triangles = 0;
+  /// Planes of polyhedra.
+  std::uint64_t planes = 0;
   std::uint32_t depth = 0;
   /// The first leaf without a material of its own or above it; 0 if there is none.
   JsonIndex bare_leaf = 0;
@@ -36,7 +38,8 @@ struct TreeSummary {
 /// Reports cycles of refs, trees deeper than kMaxTreeDepth, more leaves, nodes or triangles of
 /// meshes than kMaxLeaves, kMaxExpandedNodes and kMaxMeshTriangles, and uses of shapes whose leaves
 /// stay without a material. The caller reports bare leaves of the objects' own trees. Too many
-/// leaves are reported at `objects_at`.
+/// leaves are reported at `objects_at`; if refs repeat more than kMaxRepeatedLeaves and the like,
+/// this is reported at the ref that goes beyond.
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,
                      std::vector<TreeSummary>& shapes, const std::vector<TreeSummary>& objects,
                      JsonIndex objects_at);

@@ -125,6 +125,8 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
         for (const auto& path : prism->paths) context.summary.leaves += path.size();
         if (prism->paths.empty()) context.summary.leaves += prism->points.size();
       }
+      if (const auto* polyhedron = std::get_if<PolyhedronShape>(&out.value))
+        context.summary.planes += polyhedron->planes.size();
   }
 }
 

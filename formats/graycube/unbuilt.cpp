@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "formats/json/pointer.hpp"
+#include "json_pointer.hpp"
 
 namespace graycube {
 

@@ -11,6 +11,7 @@
 
 #include "check.hpp"
 #include "formats/graycube/scene_words.hpp"
+#include "scene/scene_fault.hpp"
 
 namespace graycube {
 namespace {
@@ -42,7 +43,10 @@ class SceneWriter {
 
  private:
   void number(double v) {
-    GRAYCUBE_CHECK(std::isfinite(v), "a scene holds the number %g", v);
+    // An importer's arithmetic can come to this, with numbers near the ends of doubles.
+    if (!std::isfinite(v))
+      throw UnrenderableScene(
+          std::vector<SceneFault>{{"", "the model's numbers leave the range of doubles"}});
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, v).ptr;
     text_.append(digits, end);

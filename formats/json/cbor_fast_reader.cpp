@@ -76,7 +76,7 @@ bool FastCborReader::read_value(Key key) {
       levels_.pop_back();
     }
     Head head;
-    if (values.size() >= kMaxCborValues || !read_head(at, end, head)) return false;
+    if (values.size() >= kMaxJsonValues || !read_head(at, end, head)) return false;
     const bool wants_key = level.is_map && key.begin == 0;
     if (head.major == kText) {
       const char* const text = at;

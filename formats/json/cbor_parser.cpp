@@ -77,8 +77,8 @@ class CborEvents {
   std::size_t offset() const { return static_cast<std::size_t>(reached_ - bytes_.data()); }
 
   bool has_room() {
-    return tree_.value_count() < kMaxCborValues ||
-           filling_.fail(offset(), "more than " + std::to_string(kMaxCborValues) + " values");
+    return tree_.value_count() < kMaxJsonValues ||
+           filling_.fail(offset(), "more than " + std::to_string(kMaxJsonValues) + " values");
   }
   bool add(JsonKind kind) {
     if (!has_room()) return false;
@@ -121,8 +121,7 @@ class CborEvents {
 
 void JsonTree::read_cbor() {
   // Values mostly take two bytes or more; memory reserved in excess is never touched.
-  constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
-  values_.reserve(std::min(text_.size() / 2 + 1, kMaxReserved));
+  values_.reserve(std::min<std::size_t>(text_.size() / 2 + 1, kMaxJsonValues));
   was_read_fast_ = FastCborReader(*this).read_whole();
   if (was_read_fast_) return;
   values_.clear();

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "formats/json/padded_text.hpp"
-#include "formats/json/pointer.hpp"
+#include "json_pointer.hpp"
 #include "spelling.hpp"
 
 namespace graycube {
@@ -16,11 +16,26 @@ constexpr std::size_t kMaxExcerpt = 40;
 
 /// Scenes have a value every 10 bytes or so; memory reserved in excess is never touched.
 constexpr std::size_t kBytesPerValue = 7;
-constexpr std::size_t kMaxReserved = std::size_t{1} << 26;
 
 std::string shortest_text(double v) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, v).ptr};
+}
+
+/// At least the number of values of a JSON text: the root, one behind each comma, and one at the
+/// begin of each container, which may be empty. Escaped quotes don't end a string.
+std::size_t most_values(std::string_view text) {
+  std::size_t count = 1;
+  bool is_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') is_string = !is_string;
+    if (is_string)
+      i += c == '\\';
+    else
+      count += c == ',' || c == '[' || c == '{';
+  }
+  return count;
 }
 
 }  // namespace
@@ -30,18 +45,34 @@ JsonTree::JsonTree(std::string_view text) : JsonTree(text, nullptr) {}
 JsonTree::JsonTree(const PaddedText& text) : JsonTree(text.view(), &text) {}
 
 JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text) {
-  // Growing by doubling would touch three times the memory, and first touches are half the time.
-  values_.reserve(std::min(text.size() / kBytesPerValue + 1, kMaxReserved));
   is_cbor_ = text.starts_with(kCborMagic);
   if (is_cbor_) {
     read_cbor();
     return;
   }
+  if (!has_few_values()) return;
   was_read_fast_ = padded != nullptr && read_fast(*padded);
   if (was_read_fast_) return;
   values_.clear();
   decoded_.clear();
   read_carefully();
+}
+
+bool JsonTree::has_few_values() {
+  // Growing by doubling would touch three times the memory, and first touches are half the time.
+  constexpr std::size_t kLeastBytes = 2;  // a digit and a comma
+  std::size_t expected = text_.size() / kBytesPerValue + 1;
+  if (text_.size() / kLeastBytes >= kMaxJsonValues) {
+    expected = most_values(text_);
+    if (expected > kMaxJsonValues) {
+      values_.emplace_back();
+      syntax_error_ = {0, 0,
+                       "the text has more than " + std::to_string(kMaxJsonValues) + " values"};
+      return false;
+    }
+  }
+  values_.reserve(std::min<std::size_t>(expected, kMaxJsonValues));
+  return true;
 }
 
 std::string JsonTree::pointer(JsonIndex i) const {

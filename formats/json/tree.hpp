@@ -23,7 +23,10 @@ inline constexpr std::uint32_t kMaxJsonString = 65535;
 
 /// CBOR begins with these bytes, the tag that describes itself (RFC 8949, 3.4.6); JSON doesn't.
 inline constexpr std::string_view kCborMagic = "\xD9\xD9\xF7";
-/// Most values in CBOR, each 24 bytes of memory, since a value may be as short as a byte.
+/// Most values of a text: each takes 24 bytes of memory, and may be as short as two bytes, in CBOR
+/// as one.
+inline constexpr std::uint32_t kMaxJsonValues = 1u << 26;
+/// Most values of CBOR that is read in pieces, of which few are in memory at a time.
 inline constexpr std::uint32_t kMaxCborValues = 1u << 27;
 
 enum class JsonKind : std::uint8_t { kNull, kFalse, kTrue, kNumber, kString, kArray, kObject };
@@ -103,6 +106,9 @@ class JsonTree {
   /// False for a text that it doesn't accept; the tree then holds anything.
   bool read_fast(const PaddedText& text);
   void read_carefully();
+  /// Whether the text has at most kMaxJsonValues values; else that is the syntax error. Counts
+  /// without taking memory.
+  bool has_few_values();
   void read_cbor();
 
   struct Value {

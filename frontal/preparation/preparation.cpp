@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
+#include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/unbuilt.hpp"
 #include "frontal/preparation/partition.hpp"
@@ -12,6 +14,7 @@
 #include "proto/model_slice.hpp"
 #include "regions/macro_grid.hpp"
 #include "scene/compile_scene.hpp"
+#include "scene/scene_fault.hpp"
 #include "shading/credit_limits.hpp"
 #include "visibility/light_depths.hpp"
 
@@ -82,7 +85,12 @@ std::optional<Model> model_of(std::span<const std::byte> scene,
   for (const SceneError& e : read.errors) add_error(errors, e.pointer, e.message);
   if (!read.scene) return std::nullopt;
   for (const SceneError& e : unbuilt_parts(*read.scene)) add_error(errors, e.pointer, e.message);
-  return compile_scene(*read.scene);
+  try {
+    return compile_scene(*read.scene);
+  } catch (const UnrenderableScene& e) {
+    for (const SceneFault& f : e.faults()) add_error(errors, f.pointer, f.message);
+    return std::nullopt;
+  }
 }
 
 Algorithm chosen(Algorithm wanted, const Model& model) {
@@ -202,12 +210,13 @@ std::string choices_text(const PreparedScene& scene) {
   return text;
 }
 
-PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s) {
-  PreparationResult result;
-  result.job = work.job;
+namespace {
+
+void prepare_into(PreparationResult& result, const PreparationWork& work,
+                  const std::function<double()>& clock_s) {
   const double began_s = clock_s();
   auto whole = model_of(work.scene, result.errors);
-  if (!whole) return result;
+  if (!whole) return;
   Model& model = *whole;
   apply_overrides(work.options, model.settings);
   check_overrides(work.options, model.settings, result.errors);
@@ -215,7 +224,7 @@ PreparationResult prepare(const PreparationWork& work, const std::function<doubl
   if (result.errors.empty() && !fits_model_limits(model)) {
     add_error(result.errors, "", "the scene is larger than a farm takes; use serial");
   }
-  if (!result.errors.empty()) return result;
+  if (!result.errors.empty()) return;
   PreparedScene& scene = result.scene.emplace();
   const double loaded_s = clock_s();
   scene.load_s = loaded_s - began_s;
@@ -230,6 +239,26 @@ PreparationResult prepare(const PreparationWork& work, const std::function<doubl
     cut_for_macro(work, WholeScene(std::make_shared<const Model>(std::move(model))), scene);
   }
   scene.partition_s = clock_s() - loaded_s;
+}
+
+}  // namespace
+
+PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s) {
+  PreparationResult result;
+  const auto fail = [&](const std::string& why) {
+    result.scene.reset();
+    result.errors = {{work.scene_name, why}};
+    result.is_internal = true;
+  };
+  try {
+    const ChecksThrow checks_throw;
+    prepare_into(result, work, clock_s);
+  } catch (const std::bad_alloc&) {
+    fail("there is not enough memory to prepare it");
+  } catch (const std::exception& e) {
+    fail(std::string("internal error: ") + e.what());
+  }
+  result.job = work.job;
   return result;
 }
 

@@ -64,12 +64,15 @@ struct PreparationResult {
   std::optional<PreparedScene> scene;
   /// The scene file's mistakes, or options that don't fit it.
   std::vector<control::ErrorItem> errors;
+  /// Whether the error isn't the scene's fault: this program's, or for want of memory.
+  bool is_internal = false;
 };
 
 /// What was picked for the scene, for people: "scatter 4, horizon shadows".
 std::string choices_text(const PreparedScene& scene);
 
-/// `clock_s` tells seconds, of which only differences count. Never throws.
+/// `clock_s` tells seconds, of which only differences count. Never throws: checks that fail on the
+/// way are errors of this job alone.
 PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s);
 
 }  // namespace graycube

@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "cli/expect_failure.hpp"
@@ -231,6 +232,24 @@ TEST_CASE("what is not built is refused at a pointer that any material's name ca
   scene.materials[1].material.model = ShadingModel::kHallGreenberg;
   CHECK(refusal([&] { check_is_built("a.json", scene); }) ==
         "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; only \"phong\" is");
+}
+
+TEST_CASE("solids that can't be computed are told by pointers in scenes, by names in models") {
+  SceneInput input;
+  input.path = "far.json";
+  input.scene.materials.resize(1);
+  input.scene.objects.push_back({"part 1: sphere, line 3", 0, {}});
+  input.scene.objects.front().csg.value = SphereShape{{1e30, 0, 0}, 1};
+  CHECK(
+      refusal([&] { compile_input(input); }) ==
+      "graycube: scene: far.json:/objects/0/csg: the sphere of \"part 1: sphere, line 3\" reaches "
+      "beyond 1e18");
+  input.path = "far.csg";
+  CHECK(refusal([&] { compile_input(input); }) ==
+        "graycube: scene: far.csg: the sphere of \"part 1: sphere, line 3\" reaches beyond 1e18");
+  input.scene.objects.front().csg.value = SphereShape{{HUGE_VAL, 0, 0}, 1};
+  CHECK(refusal([&] { prepare_for_farm(input, {}); }) ==
+        "graycube: scene: far.csg: the model's numbers leave the range of doubles");
 }
 
 TEST_CASE("what only serial can render is refused before a farm is asked") {

@@ -158,3 +158,16 @@ TEST_CASE("numbers go on where an earlier frontal stopped") {
   CHECK(granted<control::Accepted>(jobs.submit({}, {})).job == 18);
   CHECK(refused(jobs.fetch({17, 0, 1, 0})) == FailureCode::kFailed);
 }
+
+TEST_CASE(
+    "an internal error ends the job that is on, by its scene's name, and the next one comes") {
+  Farm farm;
+  CHECK_FALSE(farm.jobs.fail_internally("nobody's fault"));
+  const std::uint32_t first = farm.submit(), second = farm.submit();
+  farm.load_next();
+  CHECK(farm.jobs.fail_internally("a check failed"));
+  CHECK(farm.state_of(first) == JobState::kFailed);
+  CHECK(granted<control::JobInfo>(farm.jobs.status(first)).message ==
+        "a scene: internal error: a check failed");
+  CHECK(farm.jobs.take_work()->job == second);
+}

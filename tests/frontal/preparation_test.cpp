@@ -1,7 +1,9 @@
 // Scenes come as text, or compiled by the client that read them: both are cut alike.
 #include <algorithm>
+#include <new>
 
 #include "catch.hpp"
+#include "check.hpp"
 #include "csg/random_model.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "frontal/prepared.hpp"
@@ -98,4 +100,40 @@ TEST_CASE("what a farm does not take is refused where it stands, whoever asked b
   REQUIRE(unbuilt.errors.size() == 1);
   CHECK(unbuilt.errors[0] ==
         control::ErrorItem{"/materials/a~1b/model", "not built yet; only \"phong\" is"});
+}
+
+TEST_CASE(
+    "a check that fails, or an exception, while a scene is prepared is an error of that job") {
+  PreparationWork work;
+  work.job = 7;
+  work.scene_name = "plate.json";
+  const auto failure_of = [&](const std::function<double()>& clock_s) {
+    const PreparationResult result = prepare(work, clock_s);
+    CHECK(result.job == 7);
+    CHECK_FALSE(result.scene);
+    CHECK(result.is_internal);
+    REQUIRE(result.errors.size() == 1);
+    CHECK(result.errors.front().where == "plate.json");
+    return result.errors.front().why;
+  };
+  const std::string check = failure_of([]() -> double {
+    GRAYCUBE_CHECK(1 + 1 == 3, "the clock shows %d", 13);
+    return 0;
+  });
+  CHECK(check.starts_with("internal error: "));
+  CHECK(check.ends_with("1 + 1 == 3: the clock shows 13"));
+  CHECK(failure_of([]() -> double { throw std::bad_alloc(); }) ==
+        "there is not enough memory to prepare it");
+}
+
+TEST_CASE("solids that can't be computed are the scene's errors, each with its pointer") {
+  Scene scene = RandomModel(3).scene();
+  scene.objects.assign(2, {"", 0, node_of(SphereShape{{0, 0, 1e30}, 1})});
+  const std::string text = write_scene_text(scene);
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  const PreparationResult result = cut(Bytes(bytes, bytes + text.size()), {});
+  CHECK_FALSE(result.scene);
+  CHECK_FALSE(result.is_internal);
+  REQUIRE(result.errors.size() == 2);
+  CHECK(result.errors.back().where == "/objects/1/csg");
 }

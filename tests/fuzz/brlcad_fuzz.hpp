@@ -11,7 +11,7 @@
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
-#include "scene/compile_scene.hpp"
+#include "fuzz/compiled.hpp"
 
 namespace graycube::testing {
 
@@ -29,7 +29,7 @@ inline void fuzz_brlcad(std::string_view bytes) {
     const ReadResult again = read_scene_text(write_scene_text(*read.scene));
     GRAYCUBE_CHECK(again.scene.has_value(), "%s: %s", again.errors.front().pointer.c_str(),
                    again.errors.front().message.c_str());
-    GRAYCUBE_CHECK(compile_scene(*again.scene) == compile_scene(*read.scene), "another model");
+    GRAYCUBE_CHECK(compiled(*again.scene) == compiled(*read.scene), "another model");
   }
   BrlcadOptions options;
   options.view = std::string(bytes);

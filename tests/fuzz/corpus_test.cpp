@@ -16,6 +16,7 @@
 #include "fuzz/openscad_fuzz.hpp"
 #include "fuzz/part_stream_fuzz.hpp"
 #include "fuzz/proto_fuzz.hpp"
+#include "fuzz/render_fuzz.hpp"
 #include "fuzz/scene_fuzz.hpp"
 
 using namespace graycube;
@@ -64,6 +65,9 @@ TEST_CASE(
     fuzz_json(text);
     fuzz_scene(text);
   });
+}
+TEST_CASE("no input that was fuzzed harms those who compile, slice and trace it") {
+  replay("scene_json", fuzz_render);
 }
 TEST_CASE("no input that was fuzzed harms the decoder of batches") {
   replay("proto_batch", [](std::string_view text) { fuzz_batch(as_bytes(text)); });

@@ -9,7 +9,7 @@
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/openscad/openscad.hpp"
-#include "scene/compile_scene.hpp"
+#include "fuzz/compiled.hpp"
 
 namespace graycube::testing {
 
@@ -49,7 +49,7 @@ inline bool fuzz_openscad(std::string_view text) {
     const ReadResult again = read_scene_text(write_scene_text(*read.scene));
     GRAYCUBE_CHECK(again.scene.has_value(), "%s: %s", again.errors.front().pointer.c_str(),
                    again.errors.front().message.c_str());
-    GRAYCUBE_CHECK(compile_scene(*again.scene) == compile_scene(*read.scene), "another model");
+    GRAYCUBE_CHECK(compiled(*again.scene) == compiled(*read.scene), "another model");
   }
   return accepted;
 }

@@ -15,25 +15,27 @@ fi
 bin=$1 seconds=$2
 shift 2
 names=("$@")
-((${#names[@]})) || names=(brlcad openscad mesh part_stream cbor scene_json proto_batch proto_control proto_model)
+((${#names[@]})) ||
+  names=(brlcad openscad mesh part_stream cbor scene_json scene_render proto_batch proto_control proto_model)
 
 learnt=$(mktemp -d)
 trap 'rm -rf -- "$learnt"' EXIT
 status=0
 for name in "${names[@]}"; do
-  seeds=("$here/corpus/$name")
+  seeds=("$here/corpus/${name/scene_render/scene_json}")
   # What takes long to read teaches less in the same time.
   longest=8192
   case $name in
     brlcad) seeds+=("$top/scenes/brlcad") longest=2500 ;;
     openscad) longest=1200 ;;
     mesh | part_stream) longest=1500 ;;
-    scene_json) seeds+=("$top/scenes") ;;
+    scene_json | scene_render) seeds+=("$top/scenes") ;;
   esac
   options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=1536 -malloc_limit_mb=512 -max_len="$longest"
     -seed="${GRAYCUBE_FUZZ_SEED-0}"
     -print_final_stats=1 -artifact_prefix="$name-")
-  [[ -f $here/dictionaries/$name.dict ]] && options+=(-dict="$here/dictionaries/$name.dict")
+  dictionary=$here/dictionaries/${name/scene_render/scene_json}.dict
+  [[ -f $dictionary ]] && options+=(-dict="$dictionary")
   mkdir -p "$learnt/$name"
   printf '==> %s\n' "$name"
   # The log is long: only its end, unless something was found.

@@ -7,7 +7,7 @@
 #include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
-#include "scene/compile_scene.hpp"
+#include "fuzz/compiled.hpp"
 
 namespace graycube {
 
@@ -20,7 +20,7 @@ inline bool fuzz_scene(std::string_view text) {
   GRAYCUBE_CHECK(again.scene.has_value(), "%s: %s", again.errors.front().pointer.c_str(),
                  again.errors.front().message.c_str());
   GRAYCUBE_CHECK(*again.scene == *read.scene, "another scene");
-  GRAYCUBE_CHECK(compile_scene(*again.scene) == compile_scene(*read.scene), "another model");
+  GRAYCUBE_CHECK(compiled(*again.scene) == compiled(*read.scene), "another model");
   return true;
 }
 

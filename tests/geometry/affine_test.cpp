@@ -170,3 +170,24 @@ TEST_CASE("the transposed inverse keeps normals perpendicular to their surface")
     CHECK(std::fabs(dot(mapped, map.vector(b))) < 1e-10 * length(mapped) * length(map.vector(b)));
   }
 }
+
+TEST_CASE("a frame whose axes have very different lengths has an inverse however it is turned") {
+  RandomMaps random(4);
+  for (int i = 0; i < 200; ++i) {
+    CAPTURE(i);
+    const Affine turn = random.turn();
+    const Affine wide = compose(turn, scaling({1e16, 1e16, 1e-3}));
+    const auto inverse = wide.inverse();
+    REQUIRE(inverse);
+    // The short axis keeps its digits: it is the long ones' cross product.
+    const Vec3 tip = inverse->point(wide.point({0.25, 0.5, 0}));
+    CHECK(tip.x == Approx(0.25).epsilon(1e-9));
+    CHECK(tip.y == Approx(0.5).epsilon(1e-9));
+    CHECK(length(inverse->row(2)) == Approx(1e3).epsilon(1e-9));
+  }
+  // What is nearly flat in itself stays singular.
+  Affine flat;
+  flat.m[0] = {1, 1, 0, 0};
+  flat.m[1] = {1, 1 + 1e-14, 0, 0};
+  CHECK_FALSE(compose(flat, scaling({1e16, 1, 1})).inverse());
+}

@@ -46,11 +46,13 @@ bool lacks_file(const ScadModule& module, ScadImport& import) {
   return true;
 }
 
-/// The file of an import() that is read without the program; nothing for other modules.
+/// The STL or OFF file of an import(), which is read without the program; nothing for other
+/// modules.
 std::optional<fs::path> own_mesh_file(const ScadModule& module, const ScadImport& import) {
   const std::string& folder = import.delegate.folder();
   const std::string file = file_of(module);
-  if (module.name != "import" || folder.empty() || !is_mesh_file(file)) return std::nullopt;
+  const bool is_own = is_mesh_file(file) && !is_foreign_mesh_file(file);
+  if (module.name != "import" || folder.empty() || !is_own) return std::nullopt;
   return fs::path(folder) / file;
 }
 
@@ -61,8 +63,14 @@ bool is_made(const Delegated<Shape>& part, const ScadModule& module, ScadImport&
     leave_out(module, part.trouble, import);
     return false;
   }
-  for (std::size_t i = 0; i < std::min(part.said.size(), kMaxToldLines); ++i)
-    import.warn_once(module.line, named(module) + ": openscad: " + part.said[i]);
+  for (std::size_t i = 0; i < std::min(part.said.size(), kMaxToldLines); ++i) {
+    const std::string message = named(module) + ": " + part.said[i];
+    if (part.is_partial) {
+      import.leave_out_once(message, module.line, message);
+    } else {
+      import.warn_once(module.line, message);
+    }
+  }
   return true;
 }
 

@@ -1,5 +1,7 @@
 #include "formats/openscad/program/delegate.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -44,7 +46,7 @@ template <typename Shape>
 Delegated<Shape> delegated(Result&& result) {
   Delegated<Shape> part;
   part.trouble = std::move(result.trouble);
-  part.said = std::move(result.said);
+  for (const std::string& line : result.said) part.said.push_back("openscad: " + line);
   if (part.trouble.empty() && !result.text.empty()) shape_of(result.text, part);
   return part;
 }
@@ -99,11 +101,17 @@ OpenscadProgram::Part near_origin(const OpenscadProgram::Part& part, const Vec3&
   return {text + " {\n" + part.csg + "}\n", part.name};
 }
 
-PolygonMesh polygons_of(const MeshShape& shape) {
+/// All solids of a mesh file as one mesh.
+PolygonMesh polygons_of(const MeshSolids& file) {
   PolygonMesh mesh;
-  mesh.points = shape.mesh.points;
-  mesh.digits = shape.digits;
-  for (const auto& triangle : shape.mesh.triangles) mesh.add_face(triangle);
+  for (const MeshSolid& solid : file.solids) {
+    const TriangleMesh& own = solid.shape.mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), own.points.begin(), own.points.end());
+    mesh.digits = std::max(mesh.digits, solid.shape.digits);
+    for (const auto& [a, b, c] : own.triangles)
+      mesh.add_face(std::array{first + a, first + b, first + c});
+  }
   return mesh;
 }
 
@@ -140,7 +148,12 @@ const Delegated<PolygonMesh>& OpenscadDelegate::mesh_file(const std::filesystem:
     part.trouble = fault->why.substr(fault->why.starts_with(prefix) ? prefix.size() : 0);
     return part;
   }
-  part.shape = polygons_of(std::get<MeshShape>(read));
+  const MeshSolids& file = std::get<MeshSolids>(read);
+  part.shape = polygons_of(file);
+  for (const ImportWarning& warning : file.warnings) {
+    part.said.push_back(warning.text);
+    part.is_partial |= warning.leaves_out;
+  }
   return part;
 }
 

@@ -24,8 +24,10 @@ struct Delegated {
   Shape shape;
   /// Why the part can't be had; empty if it can.
   std::string trouble;
-  /// What the program warned of.
+  /// What the program, or the reader of a mesh file, warned of.
   std::vector<std::string> said;
+  /// Some of it is left out, as `said` tells.
+  bool is_partial = false;
 };
 
 /// Asks a program once for each different text.

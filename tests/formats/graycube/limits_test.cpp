@@ -74,16 +74,45 @@ TEST_CASE("leaves are counted without expanding refs") {
         .with("shapes", doubling_shapes(levels, count))
         .with("objects", object_of(ref(levels)));
   };
-  // 8^7 = 2^21 leaves are few enough, 8^9 = 2^27 are not; 2^100 overflow every counter.
-  REQUIRE(errors_of(scene(7, 8)).empty());
-  auto errors = errors_of(scene(9, 8));
-  REQUIRE(errors.size() == 2);
-  CHECK(errors[0].pointer == "/objects");
-  CHECK(errors[0].message.find("134217728 leaves") != std::string::npos);
-  CHECK(errors[1].message.find("nodes when refs are expanded") != std::string::npos);
+  // 2^20 leaves are few enough, twice as many are not; 2^100 overflow every counter.
+  REQUIRE(errors_of(scene(20, 2)).empty());
+  auto errors = errors_of(scene(21, 2));
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].pointer == "/objects/0/csg");
+  CHECK(errors[0].message ==
+        "with this ref, refs make 2097152 leaves, at most 1048576 are accepted");
   errors = errors_of(scene(100, 2));
   REQUIRE_FALSE(errors.empty());
   CHECK(errors[0].message.find("more than 2^64 leaves") != std::string::npos);
+}
+
+TEST_CASE("the ref that goes beyond what refs may repeat is told, once") {
+  const auto errors = errors_of(
+      SceneText()
+          .with("shapes", doubling_shapes(20, 2))
+          .with("objects", object_of(union_of(kSphere, 3) + "}, {\"material\": \"red\", \"csg\": " +
+                                     union_of(ref(19), 3))));
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].pointer == "/objects/1/csg/children/2");
+}
+
+TEST_CASE("planes of polyhedra and nodes without leaves are counted where refs repeat them") {
+  std::string planes = "[0,1,0,1]";
+  for (int i = 1; i < 1024; ++i) planes += ",[0,1,0,1]";
+  const auto scene = [&](const std::string& shape, int levels) {
+    std::string shapes = R"({"s0": )" + shape;
+    for (int i = 1; i <= levels; ++i)
+      shapes += ",\"s" + std::to_string(i) + "\": " + union_of(ref(i - 1), 2);
+    return SceneText().with("shapes", shapes + "}").with("objects", object_of(ref(levels)));
+  };
+  const std::string polyhedron = R"({"type": "polyhedron", "planes": [)" + planes + "]}";
+  CHECK(errors_of(scene(polyhedron, 11)).empty());
+  auto errors = errors_of(scene(polyhedron, 12));
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].message.find("4194304 planes of polyhedra") != std::string::npos);
+  errors = errors_of(scene(below(kSphere, 200), 16));
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].message.find(" nodes, at most 8388608") != std::string::npos);
 }
 
 TEST_CASE("unused shapes don't count towards the leaves") {

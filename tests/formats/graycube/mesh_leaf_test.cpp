@@ -115,10 +115,10 @@ TEST_CASE("a mesh leaf's mistakes are told where they are") {
 }
 
 TEST_CASE("uses of one mesh count their triangles each time") {
-  // 2^21 uses of a mesh of 4 triangles are as many as are accepted.
+  // 2^19 uses of a mesh of 4 triangles are as many as are accepted.
   SceneText text;
   std::string shapes = std::string("{\"m0\": ") + kTetrahedron;
-  for (int i = 1; i <= 22; ++i) {
+  for (int i = 1; i <= 20; ++i) {
     const std::string ref = R"({"type": "ref", "shape": "m)" + std::to_string(i - 1) + "\"}";
     shapes += ", \"m" + std::to_string(i) + R"(": {"type": "union", "children": [)" + ref + "," +
               ref + "]}";
@@ -128,10 +128,10 @@ TEST_CASE("uses of one mesh count their triangles each time") {
     return R"([{"material": "red", "csg": {"type": "ref", "shape": "m)" + std::to_string(i) +
            "\"}}]";
   };
-  CHECK(read_scene_text(text.with("objects", objects(21)).text()).scene);
-  const ReadResult read = read_scene_text(text.with("objects", objects(22)).text());
+  CHECK(read_scene_text(text.with("objects", objects(19)).text()).scene);
+  const ReadResult read = read_scene_text(text.with("objects", objects(20)).text());
   REQUIRE(read.errors.size() == 1);
-  CHECK(read.errors[0].message.find("16777216 triangles of meshes") != std::string::npos);
+  CHECK(read.errors[0].message.find("4194304 triangles of meshes") != std::string::npos);
 }
 
 TEST_CASE("STL of both kinds and OFF give the same mesh") {

@@ -277,3 +277,24 @@ TEST_CASE("text positions count lines and bytes from one") {
     REQUIRE(positions[i].column == static_cast<std::uint64_t>(expected[i].second));
   }
 }
+
+TEST_CASE("more values than the limit are refused before memory is taken for any") {
+  // Two bytes each: so long a text is the least that can hold too many.
+  const auto numbers = [](std::size_t count) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < count; ++i) text += "0,";
+    text.back() = ']';
+    return text;
+  };
+  const std::string many = numbers(kMaxJsonValues);
+  const JsonTree tree(many);
+  REQUIRE(tree.syntax_error());
+  CHECK(tree.syntax_error()->message == "the text has more than 67108864 values");
+  CHECK(tree.value_count() == 1);
+  CHECK(tree.pointer(0).empty());
+  // Commas and brackets in strings are no values, also behind escaped quotes.
+  std::string long_string = "[\"\\\"" + std::string(many.size(), '[') + "\"]";
+  const JsonTree strings(long_string);
+  REQUIRE(strings.syntax_error());
+  CHECK(strings.syntax_error()->message.find("string") != std::string::npos);
+}
