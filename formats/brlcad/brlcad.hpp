@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

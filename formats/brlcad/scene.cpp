@@ -5,7 +5,7 @@
 
 #include "csg/model.hpp"
 #include "formats/brlcad/brlcad.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "formats/brlcad/scene_builder.hpp"
 #include "formats/brlcad/view.hpp"
 #include "scene/compile_scene.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "formats/brlcad/brlcad.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "formats/brlcad/parts.hpp"
 #include "formats/brlcad/shader.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "shading/material.hpp"
 
 namespace graycube {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

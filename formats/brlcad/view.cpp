@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "geometry/aabb.hpp"
 #include "shading/settings.hpp"
 

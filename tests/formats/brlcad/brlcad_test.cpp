@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "formats/brlcad/model.hpp"
 #include "formats/brlcad/reading.hpp"
 #include "formats/brlcad/view.hpp"
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

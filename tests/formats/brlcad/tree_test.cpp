@@ -1,10 +1,10 @@
 // Combinations: members, their order, and trees of any shape.
-#include "formats/brlcad/tree.hpp"
+#include "formats/brlcad/database/tree.hpp"
 
 #include <random>
 
 #include "catch.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "formats/brlcad/reading.hpp"
 
 using namespace graycube;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/brlcad/database.hpp"
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 namespace {

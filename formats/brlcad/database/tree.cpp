@@ -1,4 +1,4 @@
-#include "formats/brlcad/tree.hpp"
+#include "formats/brlcad/database/tree.hpp"
 
 #include <algorithm>
 #include <iterator>

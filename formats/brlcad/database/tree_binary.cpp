@@ -1,4 +1,4 @@
-#include "formats/brlcad/tree_binary.hpp"
+#include "formats/brlcad/database/tree_binary.hpp"
 
 #include <array>
 #include <utility>

@@ -1,9 +1,9 @@
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 

@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "formats/brlcad/report.hpp"
-#include "formats/brlcad/tree.hpp"
+#include "formats/brlcad/database/report.hpp"
+#include "formats/brlcad/database/tree.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 
