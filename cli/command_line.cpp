@@ -183,7 +183,7 @@ class Parser {
     Declaring& options = declared.options;
     compare.nodes = default_nodes();
     add_scene(options, compare.scene);
-    add_facets(options, compare.choice);
+    add_import_options(options, compare.choice);
     add_nodes(options, compare.nodes);
     add_common_options(options, compare.options);
     add_table_options(options, compare.as_json, compare.is_quiet, compare.plot);

@@ -57,15 +57,25 @@ std::string read_file(const fs::path& path, std::size_t most) {
   return text;
 }
 
-/// Splits "line 7: text" into the place FILE:7 and the text.
-Problem located(const char* what, const fs::path& path, const std::string& message) {
+/// The place FILE:7 for "line 7", FILE:WHERE for other places.
+std::string place(const fs::path& path, std::string_view where) {
   constexpr std::string_view prefix = "line ";
-  const auto colon = message.find(": ");
-  if (!message.starts_with(prefix) || colon == std::string::npos) {
-    return {what, path.string(), message};
+  if (where.starts_with(prefix)) where.remove_prefix(prefix.size());
+  return where.empty() ? path.string() : path.string() + ":" + std::string(where);
+}
+
+/// Notes an importer's warnings. Throws a Failure when a part is left out that must not be.
+void note(std::vector<ImportWarning> warnings, const fs::path& path, const ModelChoice& choice,
+          SceneInput& input) {
+  std::vector<Problem> refused;
+  for (ImportWarning& w : warnings) {
+    if (choice.is_strict && w.leaves_out) {
+      refused.push_back({"scene", place(path, w.where), w.text});
+    } else {
+      input.warnings.push_back({"warning", place(path, w.where), std::move(w.text)});
+    }
   }
-  return {what, path.string() + ":" + message.substr(prefix.size(), colon - prefix.size()),
-          message.substr(colon + 2)};
+  if (!refused.empty()) throw Failure(ExitStatus::kBadInput, std::move(refused));
 }
 
 std::vector<Problem> problems_of(const fs::path& path, const std::vector<SceneError>& errors) {
@@ -142,9 +152,6 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
       input.warnings.push_back({"openscad", path.string(), line});
     }
   }
-  for (const std::string& w : read.warnings) {
-    input.warnings.push_back(located("warning", where, w));
-  }
   if (!read.scene) {
     std::vector<Problem> problems;
     for (const OpenscadError& e : read.errors) {
@@ -153,6 +160,7 @@ void import_openscad(const fs::path& path, const control::JobOptions& options,
     }
     throw Failure(ExitStatus::kBadInput, std::move(problems));
   }
+  note(std::move(read.warnings), where, choice, input);
   input.scene = std::move(*read.scene);
 }
 
@@ -186,11 +194,8 @@ void import_brlcad(const fs::path& path, const control::JobOptions& options,
   how.azimuth_degrees = choice.azimuth_degrees;
   how.elevation_degrees = choice.elevation_degrees;
   BrlcadResult read = read_brlcad(read_file(path, kMaxBrlcadBytes), how);
-  for (const BrlcadMessage& w : read.warnings) {
-    input.warnings.push_back(
-        {"warning", path.string() + (w.where.empty() ? "" : ":" + w.where), w.text});
-  }
   if (!read.scene) throw failure_of(path, read.errors);
+  note(std::move(read.warnings), path, choice, input);
   input.scene = std::move(*read.scene);
 }
 

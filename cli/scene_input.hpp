@@ -18,6 +18,8 @@ namespace graycube {
 struct ModelChoice {
   /// For OpenSCAD: round solids are made of facets, as OpenSCAD makes them.
   bool facets = false;
+  /// A part of a model that can't be had is an error, not left out with a warning.
+  bool is_strict = false;
   /// For BRL-CAD: the objects to show; if empty, all that nothing refers to.
   std::vector<std::string> objects;
   /// The file of a view script for rt; if empty, azimuth and elevation count.

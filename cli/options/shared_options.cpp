@@ -16,12 +16,14 @@ void add_scene(Declaring& options, std::string& scene) {
                  [&scene](const std::string& text) { scene = text; });
 }
 
-void add_facets(Declaring& options, ModelChoice& choice) {
+void add_import_options(Declaring& options, ModelChoice& choice) {
   options.flag("--facets", choice.facets, "OpenSCAD: what is round as OpenSCAD's own facets");
+  options.flag("--strict", choice.is_strict,
+               "Refuse a model of which a part would be left out, instead of warning");
 }
 
 void add_model_choice(Declaring& options, ModelChoice& choice) {
-  add_facets(options, choice);
+  add_import_options(options, choice);
   options.repeatable(
       {.names = "--object",
        .value = "NAME",

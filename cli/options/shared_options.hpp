@@ -13,7 +13,8 @@ namespace graycube {
 
 void add_scene(Declaring& options, std::string& scene);
 
-void add_facets(Declaring& options, ModelChoice& choice);
+/// Options for models of which some part may be missing or facetted: --facets and --strict.
+void add_import_options(Declaring& options, ModelChoice& choice);
 
 /// Options that choose what to show of a model that doesn't tell that itself.
 void add_model_choice(Declaring& options, ModelChoice& choice);

@@ -32,7 +32,8 @@ struct BrlcadOptions {
 struct BrlcadResult {
   /// Set exactly when there is no error.
   std::optional<Scene> scene;
-  std::vector<BrlcadMessage> errors, warnings;
+  std::vector<BrlcadMessage> errors;
+  std::vector<ImportWarning> warnings;
 };
 
 /// Never throws, whatever `bytes` or the view hold.

@@ -24,7 +24,7 @@ bool SceneBuilder::enter(const std::string& name, const BrlcadObject*& object) {
   if (report_.has_errors()) return false;
   object = database_.find(name);
   if (object == nullptr) {
-    report_.warning_once("missing " + name, name, "is not in the database, and left out");
+    report_.leave_out("missing " + name, name, "is not in the database, and left out");
     return false;
   }
   if (++visits_ > kMaxVisits) {

@@ -16,12 +16,12 @@
 namespace graycube {
 
 /// `scene` is there exactly when `errors` is empty. Errors are in the order of their lines.
-/// Warnings start with "line N: " unless they are about the whole file; they tell, too, of solids
-/// that OpenSCAD leaves out.
+/// A warning's `where` is "line N", or empty when it is about the whole file; they tell, too, of
+/// solids that OpenSCAD leaves out.
 struct OpenscadResult {
   std::optional<Scene> scene;
   std::vector<OpenscadError> errors;
-  std::vector<std::string> warnings;
+  std::vector<ImportWarning> warnings;
 };
 
 /// The scene of a .csg file: OpenSCAD's axes (z up, right-handed) and its default direction

@@ -7,6 +7,7 @@
 #include "cli/expect_failure.hpp"
 #include "cli/openscad_process.hpp"
 #include "cli/temporary_folder.hpp"
+#include "formats/brlcad/model.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/json/cbor_writer.hpp"
 
@@ -107,6 +108,22 @@ TEST_CASE("an OpenSCAD tree's errors have the file and the line") {
   CHECK(refusal([&] {
           read_scene_input(path);
         }).starts_with("graycube: scene: " + path.string() + ":2: "));
+}
+
+TEST_CASE("a part that is left out is a warning, and an error when the import is strict") {
+  const TemporaryFolder folder;
+  const auto path =
+      write_file(folder / "a.asc", testing::kV4Head + testing::v4_sphere("s", 0, 0, 0, 1) +
+                                       testing::v4_region("r") + testing::v4_member('u', "s") +
+                                       testing::v4_member('-', "gone"));
+  const std::string where = path.string() + ":gone";
+  const SceneInput input = read_scene_input(path);
+  REQUIRE(input.warnings.size() == 1);
+  CHECK(input.warnings[0] == Problem{"warning", where, "is not in the database, and left out"});
+  ModelChoice choice;
+  choice.is_strict = true;
+  CHECK(refusal([&] { read_scene_input(path, {}, choice); }) ==
+        "graycube: scene: " + where + ": is not in the database, and left out");
 }
 
 TEST_CASE("what is no scene file is told apart") {

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace graycube {
+namespace {
+
+std::string where(int line) { return line > 0 ? "line " + std::to_string(line) : ""; }
+
+}  // namespace
 
 void OpenscadReport::error(int line, std::string message) {
   if (errors_.size() >= kMaxOpenscadErrors) {
@@ -14,11 +19,15 @@ void OpenscadReport::error(int line, std::string message) {
 }
 
 void OpenscadReport::warning(int line, const std::string& message) {
-  if (warnings_.size() >= kMaxOpenscadWarnings) {
-    ++dropped_warnings_;
-    return;
-  }
-  warnings_.push_back(line > 0 ? "line " + std::to_string(line) + ": " + message : message);
+  warning(message, line, message);
+}
+
+void OpenscadReport::warning(const std::string& kind, int line, const std::string& message) {
+  warnings_.add(kind, where(line), message);
+}
+
+void OpenscadReport::leave_out(const std::string& kind, int line, const std::string& message) {
+  warnings_.leave_out(kind, where(line), message);
 }
 
 std::vector<OpenscadError> OpenscadReport::take_errors() {
@@ -30,11 +39,6 @@ std::vector<OpenscadError> OpenscadReport::take_errors() {
   return std::move(errors_);
 }
 
-std::vector<std::string> OpenscadReport::take_warnings() {
-  if (dropped_warnings_ > 0) {
-    warnings_.push_back("and " + std::to_string(dropped_warnings_) + " more warnings");
-  }
-  return std::move(warnings_);
-}
+std::vector<ImportWarning> OpenscadReport::take_warnings() { return warnings_.take(); }
 
 }  // namespace graycube

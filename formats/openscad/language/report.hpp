@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/openscad/language/limits.hpp"
+#include "formats/report/import_warnings.hpp"
 
 namespace graycube {
 
@@ -14,25 +15,30 @@ struct OpenscadError {
   std::string message;
 };
 
-/// Keeps the first kMaxOpenscadErrors errors and kMaxOpenscadWarnings warnings, and counts the
-/// rest.
+/// Keeps the first kMaxOpenscadErrors errors and kMaxOpenscadWarnings kinds of warnings, and counts
+/// the rest.
 class OpenscadReport {
  public:
   /// Line 0 stands for the whole file.
   void error(int line, std::string message);
+  /// A warning; those with the same message are one, with a count.
   void warning(int line, const std::string& message);
+  /// A warning of a kind that other messages have in common.
+  void warning(const std::string& kind, int line, const std::string& message);
+  /// The same for a part that is missing in the scene because of it.
+  void leave_out(const std::string& kind, int line, const std::string& message);
   bool has_errors() const { return !errors_.empty(); }
 
   /// The errors by line, those of one line in the order in which they were found; then, with line
   /// 0, how many more there were.
   std::vector<OpenscadError> take_errors();
-  std::vector<std::string> take_warnings();
+  /// `where` is "line N" or empty.
+  std::vector<ImportWarning> take_warnings();
 
  private:
   std::vector<OpenscadError> errors_;
-  std::vector<std::string> warnings_;
+  ImportWarnings warnings_{kMaxOpenscadWarnings};
   std::size_t dropped_errors_ = 0;
-  std::size_t dropped_warnings_ = 0;
 };
 
 }  // namespace graycube

@@ -19,7 +19,11 @@ inline std::vector<std::string> errors_of(const std::string& text) {
 }
 
 inline std::vector<std::string> warnings_of(const std::string& text) {
-  return read_openscad_csg(text).warnings;
+  std::vector<std::string> lines;
+  for (const ImportWarning& warning : read_openscad_csg(text).warnings) {
+    lines.push_back((warning.where.empty() ? "" : warning.where + ": ") + warning.text);
+  }
+  return lines;
 }
 
 inline Scene scene_of(const std::string& text, const OpenscadOptions& options = {}) {
