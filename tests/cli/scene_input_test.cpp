@@ -209,7 +209,8 @@ TEST_CASE("what is not built is refused at a pointer that any material's name ca
   scene.materials[1].name = "glass/~old";
   scene.materials[1].material.model = ShadingModel::kHallGreenberg;
   CHECK(refusal([&] { check_is_built("a.json", scene); }) ==
-        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; only \"phong\" is");
+        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; \"phong\" and "
+        "\"rt\" are");
 }
 
 TEST_CASE("what only serial can render is refused before a farm is asked") {
