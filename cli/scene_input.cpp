@@ -15,7 +15,7 @@
 #include "cli/openscad/model_view.hpp"
 #include "cli/openscad_process.hpp"
 #include "formats/brlcad/brlcad.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/unbuilt.hpp"
 #include "formats/graycube/write_scene.hpp"

@@ -6,6 +6,7 @@
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
+#include "shading/rt_model.hpp"
 
 namespace graycube {
 namespace {
@@ -175,9 +176,11 @@ class ModelReader {
   const char* light(PointLight& light) {
     light.position = get_vec(r_);
     light.color = get_rgb(r_);
-    const auto falloff = r_.get<std::uint8_t>();
+    const auto bits = r_.get<std::uint8_t>();
+    const unsigned falloff = bits & ~unsigned{kShadowlessBit};
     if (falloff > 1) return "unknown falloff";
     light.falloff = static_cast<Falloff>(falloff);
+    light.shadows = (bits & kShadowlessBit) == 0;
     return is_finite(light.position) && is_color(light.color) ? nullptr : "a value out of range";
   }
 
@@ -189,10 +192,8 @@ class ModelReader {
       *v = r_.get<double>();
       valid = valid && is_coefficient(*v);
     }
-    const auto shading = r_.get<std::uint8_t>();
-    if (shading > static_cast<std::uint8_t>(ShadingModel::kHallGreenberg))
-      return "unknown shading model";
-    m.model = static_cast<ShadingModel>(shading);
+    m.model = static_cast<ShadingModel>(r_.get<std::uint8_t>());
+    if (m.model > ShadingModel::kHallGreenberg && !is_rt_model(m)) return "unknown shading model";
     return valid && m.transmit <= 1 && m.ior > 0 ? nullptr : "a coefficient out of range";
   }
 

@@ -52,7 +52,8 @@ void put_settings(ByteWriter& w, const RenderSettings& s, double delta) {
 void put_light(ByteWriter& w, const PointLight& light) {
   put_vec(w, light.position);
   put_rgb(w, light.color);
-  w.put(static_cast<std::uint8_t>(light.falloff));
+  const auto falloff = static_cast<std::uint8_t>(light.falloff);
+  w.put(static_cast<std::uint8_t>(falloff | (light.shadows ? 0 : kShadowlessBit)));
 }
 
 void put_material(ByteWriter& w, const Material& m) {

@@ -4,6 +4,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
+#include "formats/brlcad/overlaps.hpp"
 #include "proto/model_slice.hpp"
 
 namespace graycube {
@@ -11,6 +12,17 @@ namespace {
 
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural) {
   return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+/// Names the regions of a database, and those that fill the same space.
+void print_regions(const Scene& scene, const Model& model) {
+  for (const SceneObject& object : scene.objects) std::printf("region %s\n", object.name.c_str());
+  const BrlcadOverlaps overlaps = find_brlcad_overlaps(model);
+  for (const BrlcadOverlap& o : overlaps.pairs) {
+    std::printf("overlap: %s and %s at %g %g %g, %g mm deep\n", scene.objects[o.first].name.c_str(),
+                scene.objects[o.second].name.c_str(), o.point.x, o.point.y, o.point.z, o.depth);
+  }
+  if (!overlaps.is_whole) std::puts("overlap: there may be more; the search was ended");
 }
 
 }  // namespace
@@ -23,6 +35,7 @@ ExitStatus run(const CheckCommand& command) {
   for (const Problem& warning : input.warnings) print(warning);
   const std::size_t materials = input.scene.materials.size();
   const Model model = compile_input(input);
+  if (is_brlcad(command.scene)) print_regions(input.scene, model);
   const RenderSettings& s = model.settings;
   // What is fine is fine for every algorithm.
   check_farm_limits(input, s);

@@ -9,6 +9,9 @@ double ellipse(const Primitive& p, double outwards, double z) {
   return outwards * (p.v[0] * outwards + 2 * p.v[1] * z) + p.v[2] * z * z;
 }
 double ring_distance(const Vec3& l) { return std::sqrt(l.x * l.x + l.y * l.y) - 1; }
+/// The same, measured from the opposite side of the ring.
+double opposite_distance(const Vec3& l) { return -std::sqrt(l.x * l.x + l.y * l.y) - 1; }
+bool reaches_across(const Primitive& p) { return p.v[3] > 1; }
 
 }  // namespace
 
@@ -18,7 +21,7 @@ Spans elliptic_torus_spans(const Primitive& p, const Ray& ray) {
   const double speed = length(d);
   const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
   const double nearest = -dot(o, u);
-  const Vec3 q = o + nearest * u;
+  const Vec3 q = (reaches_across(p)) ? off_the_axis(o + nearest * u, u) : o + nearest * u;
   const double radius2 = (1 + p.v[3]) * (1 + p.v[3]) + p.v[4] * p.v[4];
   const double reach2 = radius2 - dot(q, q);
   if (!(reach2 > 0)) return {};
@@ -32,20 +35,30 @@ Spans elliptic_torus_spans(const Primitive& p, const Ray& ray) {
                     alpha * r2.c + gamma * u.z * u.z};
   const double h0 = 2 * alpha - 2 * beta * q.z, h1 = -2 * beta * u.z;
   const ProductQuartic<2> line{{{{1, g, g}, {-1, product(h0, h1, h0, h1), r2}}}};
-  return quartic_spans(line, QuarticRange::of_ray((nearest - reach) / speed,
-                                                  (nearest + reach) / speed, nearest, speed));
+  const Spans spans = quartic_spans(
+      line,
+      QuarticRange::of_ray((nearest - reach) / speed, (nearest + reach) / speed, nearest, speed));
+  if (!reaches_across(p)) return spans;
+  return without_spindle(spans, ray,
+                         [&](const Vec3& at) { return elliptic_torus_contains(p, at); });
 }
 
 bool elliptic_torus_contains(const Primitive& p, const Vec3& q) {
   const Vec3 l = p.to_local.point(q);
-  return ellipse(p, ring_distance(l), l.z) <= 1;
+  return ellipse(p, ring_distance(l), l.z) <= 1 ||
+         (reaches_across(p) && ellipse(p, opposite_distance(l), l.z) <= 1);
 }
 
 Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q) {
   const Vec3 l = p.to_local.point(q);
-  const double outwards = ring_distance(l);
+  double outwards = ring_distance(l);
+  const auto off = [&](double distance) { return std::fabs(ellipse(p, distance, l.z) - 1); };
+  if (reaches_across(p) && off(opposite_distance(l)) < off(outwards)) {
+    outwards = opposite_distance(l);
+  }
+  // Negative on the opposite side, where away from the axis is towards the ring.
   const double rho = 1 + outwards;
-  const double slope = rho > 0 ? (p.v[0] * outwards + p.v[1] * l.z) / rho : 0;
+  const double slope = rho != 0 ? (p.v[0] * outwards + p.v[1] * l.z) / rho : 0;
   return normalized(
       p.to_local.transposed_vector({l.x * slope, l.y * slope, p.v[1] * outwards + p.v[2] * l.z}));
 }

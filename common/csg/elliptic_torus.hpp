@@ -1,6 +1,7 @@
-// Ellipses turned about an axis that they don't reach. In the primitive's frame, with ρ² = x² + y²,
-// v[0] (ρ − 1)² + 2 v[1] (ρ − 1) z + v[2] z² ≤ 1; the ellipse reaches v[3] outwards and v[4] along
-// the axis.
+// Ellipses turned about an axis. In the primitive's frame, with ρ² = x² + y², v[0] (ρ − 1)² +
+// 2 v[1] (ρ − 1) z + v[2] z² ≤ 1; the ellipse reaches v[3] outwards and v[4] along the axis. One
+// that reaches across the axis leaves no hole, and its part beyond the axis is turned like the
+// rest.
 #pragma once
 
 #include "csg/roots.hpp"

@@ -237,4 +237,26 @@ Spans quartic_spans(const Line& line, const QuarticRange& range, const Find& fin
   return spans;
 }
 
+/// The point, moved aside a little if the line through it in direction u is the z axis: there a
+/// figure that reaches across the axis, turned about it, meets itself, and its quartic only touches
+/// zero.
+inline Vec3 off_the_axis(const Vec3& point, const Vec3& u) {
+  constexpr double kAside = 1e-9;
+  const bool is_axis = u.x == 0 && u.y == 0 && point.x == 0 && point.y == 0;
+  return is_axis ? Vec3{kAside, 0, point.z} : point;
+}
+
+/// Joins two spans when the solid holds what is between them. A figure that reaches across its
+/// axis, turned about it, encloses a spindle within itself, where its quartic is positive again;
+/// the spindle belongs to the solid.
+template <typename Contains>
+Spans without_spindle(const Spans& spans, const Ray& ray, Contains&& contains) {
+  if (spans.count < 2) return spans;
+  const double middle = 0.5 * (spans.interval[0].leave + spans.interval[1].enter);
+  if (!contains(ray.at(middle))) return spans;
+  Spans joined;
+  joined.add(spans.interval[0].enter, spans.interval[1].leave);
+  return joined;
+}
+
 }  // namespace graycube::csg

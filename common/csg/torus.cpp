@@ -72,14 +72,17 @@ Spans torus_spans(const Primitive& p, const Ray& ray) {
   const double speed = length(d);
   const Vec3 u = {d.x / speed, d.y / speed, d.z / speed};
   const double nearest = -dot(o, u);
-  const Vec3 q = o + nearest * u;
+  const Vec3 q = (minor > 1) ? off_the_axis(o + nearest * u, u) : o + nearest * u;
   const double reach2 = (1 + minor) * (1 + minor) - dot(q, q);
   if (!(reach2 > 0)) return {};
   const TorusLine line{dot(q, u), dot(q, q) + 1 - minor * minor, u.x * u.x + u.y * u.y,
                        q.x * u.x + q.y * u.y, q.x * q.x + q.y * q.y};
   const auto near = part_near_torus(q, u, minor, std::sqrt(reach2));
   if (!near) return {};
-  return quartic_spans(line, QuarticRange::of_line(near->enter, near->leave, nearest, speed));
+  const Spans spans =
+      quartic_spans(line, QuarticRange::of_line(near->enter, near->leave, nearest, speed));
+  if (!(minor > 1)) return spans;
+  return without_spindle(spans, ray, [&](const Vec3& at) { return torus_contains(p, at); });
 }
 
 bool torus_contains(const Primitive& p, const Vec3& q) {

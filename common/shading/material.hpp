@@ -6,7 +6,13 @@
 
 namespace graycube {
 
-enum class ShadingModel : std::uint8_t { kPhong, kTorranceSparrow, kHallGreenberg };
+enum class ShadingModel : std::uint8_t {
+  kPhong,
+  kTorranceSparrow,
+  kHallGreenberg,
+  kRt = 16,  // as BRL-CAD's rt shades its plastic, glass and mirror
+  kRtLamp,   // as rt shows a lamp
+};
 
 /// Coefficients of the photometric model, all ≥ 0, transmit ≤ 1, ior > 0.
 struct Material {

@@ -53,6 +53,8 @@ struct PointLight {
   Vec3 position;
   Rgb color{1, 1, 1};
   Falloff falloff = Falloff::kNone;
+  /// Whether solids between the light and a surface keep it in the dark.
+  bool shadows = true;
 
   friend bool operator==(const PointLight&, const PointLight&) = default;
 };

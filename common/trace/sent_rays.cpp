@@ -7,6 +7,7 @@
 
 #include "geometry/infinity.hpp"
 #include "shading/phong.hpp"
+#include "shading/rt_model.hpp"
 #include "trace/first_hit.hpp"
 #include "trace/step.hpp"
 #include "visibility/cube_texels.hpp"
@@ -74,6 +75,14 @@ bool is_traceable(const Vec3& origin, const Vec3& direction, const Rgb& weight) 
   return is_finite(origin) && dot(direction, direction) > 0.5 && is_finite(weight);
 }
 
+/// What of unit white light from l a surface of the material reflects along the ray.
+Rgb reflected_light(const Material& m, double n_dot_l, const Vec3& mirror, const Vec3& l) {
+  return is_rt_model(m) ? rt_reflected(m, n_dot_l, mirror, l) : phong(m, n_dot_l, mirror, l);
+}
+
+/// The surface of a solid that is seen from within: rt lights only its outside.
+constexpr Material kUnlit{.color = {0, 0, 0}, .ambient = 0, .diffuse = 0};
+
 }  // namespace
 
 /// `is_beyond` tells that the ray had left its macro-region before the hit.
@@ -84,6 +93,11 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
   const Material& m = model.materials[solid.material];
   if (task.kind == RayKind::kPrimary && model.settings.aovs.any()) {
     note_first_hit(domain_, task, hit, step);
+  }
+  if (hit.t < 0 && is_rt_model(m)) {
+    contribute(ray, kRtCutGrey * task.weight, step);
+    open_[ray.slot].credit.add_power(task.credit_exponent);
+    return;
   }
   const Vec3& d = task.ray.direction;
   const Vec3 p = task.ray.at(hit.t);
@@ -97,8 +111,15 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
   SurfacePoint& at =
       surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
   if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
-  const Rgb ambient = (m.ambient * (1 - m.transmit)) * (m.color * model.settings.ambient);
-  contribute(ray, task.weight * ambient, step);
+  if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) at.material = &kUnlit;
+  contribute(ray, task.weight * ambient_light(*at.material, -dot(n, d)), step);
+}
+
+/// What the surface sends out of the scene's ambient light; `cosine` is that of the viewing angle.
+Rgb Evaluator::ambient_light(const Material& m, double cosine) const {
+  const Rgb& ambient = domain_.settings().ambient;
+  if (is_rt_model(m)) return rt_ambient(m, cosine) * ambient;
+  return (m.ambient * (1 - m.transmit)) * (m.color * ambient);
 }
 
 /// The region of the surface: its ray need not have been traced through the regions between.
@@ -110,8 +131,10 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
                                     Step& step) {
   const Material& m = *at.material;
   const RayTask& task = at.ray->task;
-  const auto send = [&](RayKind kind, const Vec3& direction, double coefficient) {
-    const Rgb weight = coefficient * task.weight;
+  if (m.model == ShadingModel::kRtLamp) return;
+  const auto send = [&](RayKind kind, const Vec3& direction, double coefficient,
+                        const Rgb& tint = {1, 1, 1}) {
+    const Rgb weight = coefficient * task.weight * tint;
     if (!(max_component(weight) > 0)) return;
     if (max_component(weight) < domain_.settings().min_weight) return;
     const Vec3 unit = normalized(direction);
@@ -126,10 +149,15 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
     sent.slot = at.ray->slot;
     sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
   };
+  const bool is_rt = m.model == ShadingModel::kRt;
   if (m.transmit > 0) {
     const auto through = refracted(task.ray.direction, n, entering ? 1 / m.ior : m.ior);
+    // rt takes glass as one thing: it colours and splits light where this enters, and mirrors
+    // nothing from within but what can't leave.
+    if (is_rt && through && !entering) return send(RayKind::kRefraction, *through, 1);
+    if (is_rt && through) send(RayKind::kRefraction, *through, m.transmit, m.color);
     if (!through) return send(RayKind::kReflection, at.mirror, 1);
-    send(RayKind::kRefraction, *through, m.transmit);
+    if (!is_rt) send(RayKind::kRefraction, *through, m.transmit);
   }
   if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
 }
@@ -186,11 +214,15 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   if (source.falloff == Falloff::kInverseSquare)
     intensity = (1 / (distance * distance)) * intensity;
   const Rgb weight =
-      task.weight * (intensity * phong(*at.material, cosine_[surface], at.mirror, l));
+      task.weight * (intensity * reflected_light(*at.material, cosine_[surface], at.mirror, l));
   if (!(max_component(weight) > 0)) return;
   if (!is_finite(weight)) [[unlikely]] {
     ++step.rounding.non_finite;
     return;
+  }
+  if (!source.shadows) {
+    --step.rays.created[static_cast<std::size_t>(RayKind::kShadow)];
+    return contribute(*at.ray, weight, step);
   }
   const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
   ShadowWay way{origin_epsilon(p), distance - origin_epsilon(p)};

@@ -104,6 +104,7 @@ class Evaluator {
   /// One number for each surface of a wave.
   using Coordinates = std::array<double, kWaveRays>;
 
+  Rgb ambient_light(const Material& m, double cosine) const;
   void trace_block(const PixelRect& block, Step& step);
   void finish_pixels(Step& step);
   void trace_all(Step& step);

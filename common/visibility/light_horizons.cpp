@@ -29,6 +29,7 @@ LightHorizons LightHorizons::of(const Model& model) {
     distances.assign(kTexels, kFloatInf);
     const LightView view(model, light.position);
     for (const Object& object : model.objects) {
+      if (!light.shadows) break;
       seen.clear();
       view.look_at(object, seen);
       for (const Sight& s : seen) distances[s.texel] = std::min(distances[s.texel], s.begin);

@@ -26,6 +26,7 @@ Occluders Occluders::of(const Model& model) {
     l.reach = LightHorizons::reach_of(model, light);
     l.first.assign(LightHorizons::kTexels + 1, 0);
     for (std::uint32_t object = 0; object < model.objects.size(); ++object) {
+      if (!light.shadows) break;
       seen.clear();
       view.look_at(model.objects[object], seen);
       count += seen.size();

@@ -1,5 +1,5 @@
-// BRL-CAD databases as scenes: text of versions 4 and 5 (.asc), binary of version 5 (.g). Regions
-// become objects; the camera is rt's.
+// BRL-CAD databases as scenes: text (.asc) and binaries (.g) of versions 4 and 5. Regions become
+// objects; the camera is rt's.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {

@@ -1,6 +1,7 @@
 // BRL-CAD's solids of triangles, ars and bot.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -61,6 +62,16 @@ void move_outwards(TriangleMesh& mesh, double grow) {
     mesh.points[i] = mesh.points[i] + grow * shifts[i].solve();
 }
 
+/// What is said of all faults of a kind is apart from where this one is.
+BrlcadNode left_out(const MeshFault& fault) {
+  constexpr std::string_view kBetween = ": ";
+  const std::size_t end = std::min(fault.why.find(kBetween), fault.why.size());
+  BrlcadNode node;
+  node.problem = "its mesh: " + fault.why.substr(0, end);
+  if (end < fault.why.size()) node.detail = fault.why.substr(end + kBetween.size());
+  return node;
+}
+
 }  // namespace
 
 BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, double grow) {
@@ -69,24 +80,22 @@ BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, doub
   for (const Vec3& v : mesh.vertices) {
     surface.points.push_back(to_world.point(v));
     if (!(max_abs(surface.points.back()) <= kMostBrlcadSize)) {
-      return {std::nullopt, "its numbers are out of range", false};
+      return {std::nullopt, "its numbers are out of range", false, {}, {}};
     }
   }
   surface.triangles = mesh.faces;
   auto closed = closed_mesh(std::move(surface));
-  if (auto* fault = std::get_if<MeshFault>(&closed))
-    return {std::nullopt, "its mesh: " + fault->why, false};
+  if (auto* fault = std::get_if<MeshFault>(&closed)) return left_out(*fault);
   auto& solid = std::get<TriangleMesh>(closed);
   if (grow != 0) {
     move_outwards(solid, grow);
     // Points that have met are joined.
     closed = closed_mesh(std::move(solid));
-    if (auto* fault = std::get_if<MeshFault>(&closed))
-      return {std::nullopt, "its mesh: " + fault->why, false};
+    if (auto* fault = std::get_if<MeshFault>(&closed)) return left_out(*fault);
   }
   CsgNode node;
   node.value = MeshShape{std::move(std::get<TriangleMesh>(closed))};
-  return {std::move(node), {}, false};
+  return {std::move(node), {}, false, {}, {}};
 }
 
 }  // namespace graycube

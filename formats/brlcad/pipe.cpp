@@ -9,7 +9,8 @@ namespace graycube::brlcad {
 BrlcadNode particle(const Values& p, double grow) {
   const Vec3 v = p.point(0), h = p.vector(1);
   const double rv = p.number(6) * p.scale() + grow, rh = p.number(7) * p.scale() + grow;
-  if (!(rv > 0 && rh > 0)) return problem("a radius is not above 0");
+  if (!(p.number(6) >= 0 && p.number(7) >= 0 && std::fmax(rv, rh) > 0))
+    return problem("a radius is below 0, or both are 0");
   const double l = length(h);
   if (!(std::fabs(rv - rh) < l * (1 - kTiny))) {
     return built(node_of(rv >= rh ? SphereShape{v, rv} : SphereShape{v + h, rh}));
@@ -18,10 +19,12 @@ BrlcadNode particle(const Values& p, double grow) {
   const double sine = (rv - rh) / l;
   const double cosine = std::sqrt(1 - sine * sine);
   const Vec3 along = (1 / l) * h;
-  return built(operation(
-      Operation::kUnion,
-      {node_of(SphereShape{v, rv}), node_of(SphereShape{v + h, rh}),
-       round_cone(v + rv * sine * along, rv * cosine, v + h + rh * sine * along, rh * cosine)}));
+  std::vector<CsgNode> parts;
+  if (rv > 0) parts.push_back(node_of(SphereShape{v, rv}));
+  if (rh > 0) parts.push_back(node_of(SphereShape{v + h, rh}));
+  parts.push_back(
+      round_cone(v + rv * sine * along, rv * cosine, v + h + rh * sine * along, rh * cosine));
+  return built(operation(Operation::kUnion, std::move(parts)));
 }
 
 namespace {
@@ -32,8 +35,9 @@ struct PipePoint {
 };
 
 /// The solid that a pipe's outside (or inside) sweeps: cones, and sectors of tori around the bends.
-bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
-           std::vector<CsgNode>& out, std::string& why) {
+/// A bend tighter than its tube is thick is a sector of a torus that closes its hole, as by rt.
+void sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
+           std::vector<CsgNode>& out) {
   const auto radius = [&](const PipePoint& p) {
     return 0.5 * (is_inner ? p.inner : p.outer) + grow;
   };
@@ -54,7 +58,8 @@ bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
     const Vec3 back = normalized(points[i - 1].at - here.at);
     const Vec3 ahead = normalized(points[i + 1].at - here.at);
     const Vec3 normal = cross(back, ahead);
-    if (!(length(normal) > 1e-7)) {
+    // Without a bend the straight parts meet at the point, and nothing rounds the corner.
+    if (!(length(normal) > 1e-7 && here.bend > kBrlcadSkin)) {
       straight(here.at, points[i - 1], here);
       from = here.at;
       continue;
@@ -62,24 +67,18 @@ bool sweep(const std::vector<PipePoint>& points, bool is_inner, double grow,
     // tan of half the bend's angle: the angle between −back and ahead.
     const double cosine = dot(back, ahead);
     const double reach = here.bend * std::sqrt((1 + cosine) / (1 - cosine));
-    if (here.bend < 0.5 * here.outer * (1 - kEqualRatio)) {
-      why = "a bend is tighter than its tube is thick";
-      return false;
-    }
     const Vec3 start = here.at + reach * back;
     straight(start, points[i - 1], here);
     from = here.at + reach * ahead;
     if (!has_any(here)) continue;
     const Vec3 inwards = normalized(back + ahead);
     const Vec3 center = here.at + std::sqrt(reach * reach + here.bend * here.bend) * inwards;
-    const double minor = std::fmin(radius(here), here.bend * (1 - kTiny));
     std::vector<CsgNode> sector;
-    sector.push_back(node_of(TorusShape{center, normal, here.bend, minor}));
+    sector.push_back(round_torus(center, normal, here.bend, radius(here) - grow, grow));
     sector.push_back(node_of(HalfSpaceShape{back, dot(back, center) + grow}));
     sector.push_back(node_of(HalfSpaceShape{ahead, dot(ahead, center) + grow}));
     out.push_back(operation(Operation::kIntersection, std::move(sector)));
   }
-  return true;
 }
 
 }  // namespace
@@ -97,10 +96,9 @@ BrlcadNode pipe(const Values& p, double grow) {
   }
   if (points.size() < 2) return problem("it has fewer than two points");
   std::vector<CsgNode> outside, inside;
-  std::string why;
-  if (!sweep(points, false, grow, outside, why)) return problem(why);
+  sweep(points, false, grow, outside);
   // The bore that is subtracted ends flush with the tube: it is grown when the tube is not.
-  if (is_hollow && !sweep(points, true, kBrlcadSkin - grow, inside, why)) return problem(why);
+  if (is_hollow) sweep(points, true, kBrlcadSkin - grow, inside);
   if (outside.empty()) return problem("it has no length");
   std::vector<CsgNode> parts;
   parts.push_back(operation(Operation::kUnion, std::move(outside)));

@@ -6,7 +6,8 @@
 
 #include "csg/model.hpp"
 #include "formats/brlcad/brlcad.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/lights.hpp"
 #include "formats/brlcad/scene_builder.hpp"
 #include "formats/brlcad/view.hpp"
 #include "scene/compile_scene.hpp"
@@ -89,42 +90,6 @@ std::vector<Aabb> finite_bounds(const Model& model) {
   return all;
 }
 
-constexpr double kLampDistance = 1.0001;
-/// Lights for a model without lamps: over the eye's left and right shoulder, in sizes of the model.
-constexpr Vec3 kKeyDirection{-0.8, 0.9, 1.2}, kFillDirection{1.0, 0.2, 0.7};
-constexpr double kKeyBrightness = 1.0, kFillBrightness = 0.4, kLightDistance = 4;
-
-void add_lights(const std::vector<std::pair<std::size_t, double>>& lamps,
-                const std::vector<Aabb>& bounds, const Aabb& whole, Scene& scene,
-                BrlcadReport& report) {
-  auto& lights = scene.settings.lights;
-  for (const auto& [object, brightness] : lamps) {
-    if (lights.size() == kMaxCreditLights) {
-      report.warning("",
-                     "lamps beyond the first " + std::to_string(kMaxCreditLights) + " don't shine");
-      break;
-    }
-    const Aabb& box = bounds[object];
-    if (box.is_empty()) continue;
-    // The light is just outside of the lamp, so that the lamp doesn't shade it.
-    const Vec3 towards = normalized(whole.center() - box.center());
-    const double radius = 0.5 * length(box.hi - box.lo);
-    const Rgb color = scene.materials[scene.objects[object].material].material.color;
-    lights.push_back(
-        {box.center() + kLampDistance * radius * towards, brightness * color, Falloff::kNone});
-  }
-  if (!lights.empty()) return;
-  const BrlcadAxes axes = brlcad_axes(scene.settings.camera);
-  const double size = std::max(length(whole.hi - whole.lo), 1e-3);
-  const auto light = [&](const Vec3& d, double brightness) {
-    const Vec3 to = d.x * axes.right + d.y * axes.up + d.z * axes.backward;
-    lights.push_back({whole.center() + kLightDistance * size * to,
-                      Rgb{brightness, brightness, brightness}, Falloff::kNone});
-  };
-  light(kKeyDirection, kKeyBrightness);
-  light(kFillDirection, kFillBrightness);
-}
-
 /// Nothing, after reporting, when solids can't be computed; they are named with their regions.
 std::optional<Model> compiled(const Scene& scene, BrlcadReport& report) {
   try {
@@ -135,9 +100,8 @@ std::optional<Model> compiled(const Scene& scene, BrlcadReport& report) {
   return std::nullopt;
 }
 
-void place_eye(const BrlcadOptions& options,
-               const std::vector<std::pair<std::size_t, double>>& lamps, Scene& scene,
-               BrlcadReport& report) {
+void place_eye(const BrlcadOptions& options, const std::vector<brlcad::LampObject>& lamps,
+               Scene& scene, BrlcadReport& report) {
   RenderSettings& s = scene.settings;
   s.image = options.image;
   s.max_depth = options.max_depth;
@@ -147,13 +111,15 @@ void place_eye(const BrlcadOptions& options,
   Aabb whole = Aabb::nothing();
   for (const Aabb& box : bounds) whole = union_of(whole, box);
   if (whole.is_empty()) whole = {{-1, -1, -1}, {1, 1, 1}};
+  std::optional<BrlcadView> view;
   if (options.view) {
-    const auto camera = read_brlcad_view(*options.view, report);
-    if (camera) s.camera = *camera;
+    view = read_brlcad_view(*options.view, report);
   } else {
-    s.camera = brlcad_camera(options.azimuth_degrees, options.elevation_degrees, whole);
+    view = brlcad_view(options.azimuth_degrees, options.elevation_degrees, whole);
   }
-  if (!report.has_errors()) add_lights(lamps, bounds, whole, scene, report);
+  if (!view) return;
+  s.camera = view->camera;
+  light_scene(lamps, bounds, view->size, scene, report);
 }
 
 }  // namespace
@@ -172,8 +138,14 @@ BrlcadResult read_brlcad(std::string_view bytes, const BrlcadOptions& options) {
       builder.add(name);
     }
     Scene scene = builder.take();
-    if (!report.has_errors() && scene.objects.empty())
-      report.warning("", "there is nothing to see");
+    if (!report.has_errors() && scene.objects.empty()) {
+      const std::string left_out = report.take_left_out();
+      if (left_out.empty()) {
+        report.warning("", "there is nothing to see");
+      } else {
+        report.error("", "nothing is left to render: " + left_out);
+      }
+    }
     if (!report.has_errors()) place_eye(options, builder.lamps(), scene, report);
     if (!report.has_errors()) result.scene = std::move(scene);
   }

@@ -1,6 +1,7 @@
 #include "formats/brlcad/scene_builder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "formats/brlcad/solids.hpp"
 
@@ -12,6 +13,7 @@ using Op = BrlcadTree::Op;
 /// Most visits of names, so that combinations of nothing can't take for ever.
 constexpr std::size_t kMaxVisits = std::size_t{1} << 23;
 constexpr std::array<int, 3> kWhite{255, 255, 255};
+constexpr const char* kBrokenMatrix = "their matrix is no invertible affine map";
 
 }  // namespace
 
@@ -24,7 +26,7 @@ bool SceneBuilder::enter(const std::string& name, const BrlcadObject*& object) {
   if (report_.has_errors()) return false;
   object = database_.find(name);
   if (object == nullptr) {
-    report_.leave_out("missing " + name, name, "is not in the database, and left out");
+    report_.left_out("members", "the database doesn't hold them", name);
     return false;
   }
   if (++visits_ > kMaxVisits) {
@@ -62,7 +64,7 @@ void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut
       collect_tree(*comb->tree, state, cuts);
     }
   } else {
-    add_object(name, solid(*object, state.to_world, false), surface_of(state, nullptr), cuts);
+    add_object(name, solid(*object, state.to_world, false), surface_of(name, state, nullptr), cuts);
   }
   path_.pop_back();
 }
@@ -70,15 +72,19 @@ void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut
 void SceneBuilder::collect_tree(const BrlcadTree& tree, const State& state,
                                 std::vector<Cut>& cuts) {
   switch (tree.op) {
-    case Op::kLeaf: return collect(tree.name, within(state, tree), cuts);
+    case Op::kLeaf:
+      if (tree.has_broken_matrix) {
+        return report_.left_out("members", kBrokenMatrix, path_.back()->name + "/" + tree.name);
+      }
+      return collect(tree.name, within(state, tree), cuts);
     case Op::kUnion:
       for (const BrlcadTree& child : tree.children) collect_tree(child, state, cuts);
       return;
     case Op::kDifference:
     case Op::kIntersection: return collect_cut(tree, state, cuts);
     default:
-      add_object(path_.back()->name, build(tree, state.to_world, false), surface_of(state, nullptr),
-                 cuts);
+      add_object(path_.back()->name, build(tree, state.to_world, false),
+                 surface_of(path_.back()->name, state, nullptr), cuts);
   }
 }
 
@@ -88,8 +94,13 @@ void SceneBuilder::collect_cut(const BrlcadTree& tree, const State& state, std::
   bool is_empty = false;
   for (std::size_t i = 1; i < tree.children.size() && !is_empty; ++i) {
     Part part = build(tree.children[i], state.to_world, is_minus);
-    is_empty = !part.node && !is_minus;
-    if (part.node) cuts.push_back({is_minus, std::move(*part.node), part.levels});
+    std::string lacks = std::exchange(lacks_, {});
+    is_empty = !part.node && !is_minus && lacks.empty();
+    if (!lacks.empty()) {
+      cuts.push_back({is_minus, {}, 0, std::move(lacks)});
+    } else if (part.node) {
+      cuts.push_back({is_minus, std::move(*part.node), part.levels, {}});
+    }
   }
   if (!is_empty) collect_tree(tree.children.front(), state, cuts);
   cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(before), cuts.end());
@@ -108,31 +119,46 @@ void SceneBuilder::inherit(const BrlcadComb& comb, State& state) {
 
 void SceneBuilder::region(const BrlcadObject& object, const BrlcadComb& comb, const State& state,
                           const std::vector<Cut>& cuts) {
-  if (comb.air != 0) return;
-  add_object(object.name, build(*comb.tree, state.to_world, false), surface_of(state, &comb), cuts);
+  if (comb.air != 0) return report_.air(object.name);
+  add_object(object.name, build(*comb.tree, state.to_world, false),
+             surface_of(object.name, state, &comb), cuts);
 }
 
-BrlcadSurface SceneBuilder::surface_of(const State& state, const BrlcadComb* region) {
+BrlcadSurface SceneBuilder::surface_of(const std::string& name, const State& state,
+                                       const BrlcadComb* region) {
   std::array<int, 3> rgb = state.rgb.value_or(kWhite);
-  if (region != nullptr) {
+  if (region != nullptr && !state.rgb) {
+    // The last range that holds the number counts: later ones are laid over those before.
     for (const BrlcadColorRange& range : database_.colors) {
       if (region->region_id >= range.low && region->region_id <= range.high) rgb = range.rgb;
     }
   }
-  return brlcad_surface(state.shader, rgb, report_);
+  return brlcad_surface(state.shader, rgb, name, report_);
 }
 
-MaterialIndex SceneBuilder::material_of(const Material& m) {
+MaterialIndex SceneBuilder::material_of(const BrlcadSurface& surface) {
+  const Material& m = surface.material;
   const std::array<double, 10> key{m.color.r,  m.color.g,   m.color.b, m.ambient,  m.diffuse,
                                    m.specular, m.shininess, m.reflect, m.transmit, m.ior};
   const auto index = static_cast<MaterialIndex>(scene_.materials.size());
+  const std::string name = "material " + std::to_string(index + 1);
+  if (surface.is_light) {
+    // A lamp's brightness, which its material tells, is only known when all lamps are.
+    scene_.materials.push_back({name, m});
+    return index;
+  }
   const auto [known, is_new] = materials_.emplace(key, index);
-  if (is_new) scene_.materials.push_back({"material " + std::to_string(index + 1), m});
+  if (is_new) scene_.materials.push_back({name, m});
   return known->second;
 }
 
 void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSurface& surface,
                               const std::vector<Cut>& cuts) {
+  std::string lacks = std::exchange(lacks_, {});
+  for (const Cut& cut : cuts) {
+    if (lacks.empty()) lacks = cut.lacks;
+  }
+  if (!lacks.empty()) return report_.left_out("regions", lacks, name);
   for (const Cut& cut : cuts) {
     if (!part.node) return;
     leaves_ += leaves_below(cut.node);
@@ -140,8 +166,8 @@ void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSu
                 {cut.node, cut.levels});
   }
   if (!part.node || !check_limits(name, part)) return;
-  if (surface.is_light) lamps_.emplace_back(scene_.objects.size(), surface.brightness);
-  scene_.objects.push_back({printable(name), material_of(surface.material), std::move(*part.node)});
+  if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp});
+  scene_.objects.push_back({printable(name), material_of(surface), std::move(*part.node)});
 }
 
 std::string SceneBuilder::printable(std::string name) {
@@ -176,6 +202,7 @@ Part SceneBuilder::build(const std::string& name, const Affine& to_world, bool i
 Part SceneBuilder::build(const BrlcadTree& tree, const Affine& to_world, bool is_cut) {
   switch (tree.op) {
     case Op::kLeaf:
+      if (tree.has_broken_matrix) lack("a member's matrix is no invertible affine map");
       return build(tree.name, tree.matrix ? compose(to_world, *tree.matrix) : to_world, is_cut);
     case Op::kNot: {
       Part part = build(tree.children.front(), to_world, !is_cut);
@@ -206,7 +233,7 @@ Part SceneBuilder::build(const BrlcadTree& tree, const Affine& to_world, bool is
 
 Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, bool is_cut) {
   if (const auto* foreign = std::get_if<BrlcadForeign>(&object.value)) {
-    report_.error(object.name, foreign->kind + " is not supported");
+    lack(foreign->kind + " is not supported");
     return {};
   }
   if (++leaves_ > kMaxBrlcadLeaves) {
@@ -223,13 +250,14 @@ Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, boo
   }
   BrlcadNode built = brlcad_node(is, to_world, is_cut ? kBrlcadSkin : 0);
   if (!built.node) {
-    if (built.is_error) {
-      report_.error(object.name, built.problem);
+    if (built.is_unsupported) {
+      lack(built.problem);
     } else {
-      report_.warning_once("solid " + object.name, object.name, built.problem + "; it is left out");
+      report_.left_out("solids", built.problem, object.name, built.detail);
     }
     return {};
   }
+  if (!built.change.empty()) report_.changed("solids", built.change, object.name);
   return {std::move(built.node), levels_of(*built.node)};
 }
 

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "formats/brlcad/brlcad.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/lights.hpp"
 #include "formats/brlcad/parts.hpp"
 #include "formats/brlcad/shader.hpp"
 
@@ -29,6 +30,8 @@ struct Cut {
   bool is_minus = false;
   CsgNode node;
   std::size_t levels = 0;
+  /// Why the solid can't be built; the regions that it cuts are left out then.
+  std::string lacks;
 };
 
 class SceneBuilder {
@@ -38,8 +41,8 @@ class SceneBuilder {
 
   void add(const std::string& name);
   Scene take() { return std::move(scene_); }
-  /// Objects that shine, by their index, and how brightly.
-  const std::vector<std::pair<std::size_t, double>>& lamps() const { return lamps_; }
+  /// The regions that shine.
+  const std::vector<LampObject>& lamps() const { return lamps_; }
 
  private:
   /// Goes into a name; false when it can't: unknown, a cycle, too deep, or after an error.
@@ -60,12 +63,18 @@ class SceneBuilder {
   void region(const BrlcadObject& object, const BrlcadComb& comb, const State& state,
               const std::vector<Cut>& cuts);
 
-  BrlcadSurface surface_of(const State& state, const BrlcadComb* region);
+  BrlcadSurface surface_of(const std::string& name, const State& state, const BrlcadComb* region);
 
-  MaterialIndex material_of(const Material& m);
+  MaterialIndex material_of(const BrlcadSurface& surface);
 
+  /// Adds a region, unless something of it can't be built: then it is left out.
   void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
                   const std::vector<Cut>& cuts);
+
+  /// Notes that the part under way can't be built.
+  void lack(const std::string& why) {
+    if (lacks_.empty()) lacks_ = why;
+  }
 
   /// The name as UTF-8, which a scene's text must be; names in databases may be any bytes.
   static std::string printable(std::string name);
@@ -85,7 +94,9 @@ class SceneBuilder {
   std::map<std::array<double, 10>, MaterialIndex> materials_;
   std::vector<const BrlcadObject*> path_;
   std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
-  std::vector<std::pair<std::size_t, double>> lamps_;
+  std::vector<LampObject> lamps_;
+  /// Why the part under way can't be built; empty when it can.
+  std::string lacks_;
 };
 
 }  // namespace graycube::brlcad

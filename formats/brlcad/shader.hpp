@@ -1,24 +1,39 @@
-// BRL-CAD's shaders as materials.
+// BRL-CAD's shaders as materials and lamps.
 #pragma once
 
 #include <array>
 #include <string>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "shading/material.hpp"
 
 namespace graycube {
 
+/// rt's ambient light: how much of a surface's colour it brings where the surface faces the eye.
+inline constexpr double kBrlcadAmbient = 0.4;
+
+/// A lamp's parameters, with rt's defaults.
+struct BrlcadLamp {
+  /// Lumens, which count relative to the brightest lamp; or, if above 0, the part of full light.
+  double intensity = 1, fraction = -1;
+  bool has_shadows = true;
+  /// Shines from where the lamp is, seen from the origin, in parallel rays.
+  bool is_infinite = false;
+  bool is_invisible = false;
+  /// Half the angle of its beam.
+  double angle_degrees = 180;
+};
+
 struct BrlcadSurface {
   Material material;
   bool is_light = false;
-  /// For lights: the part of full brightness.
-  double brightness = 1;
+  BrlcadLamp lamp;
 };
 
-/// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. Others than
-/// plastic, glass, mirror and light become plastic, with one warning a kind.
+/// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. A `stack` is
+/// its last member that is known. Others than plastic, glass, mirror and light become plastic,
+/// which is told once a kind; `region` is the name that is told.
 BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb,
-                             BrlcadReport& report);
+                             const std::string& region, BrlcadReport& report);
 
 }  // namespace graycube

@@ -79,12 +79,12 @@ CsgNode operation(Operation op, std::vector<CsgNode> children) {
   return node_of(OperationNode{op, std::move(children)});
 }
 
-BrlcadNode problem(std::string why) { return {std::nullopt, std::move(why), false}; }
-BrlcadNode refusal(std::string why) { return {std::nullopt, std::move(why), true}; }
+BrlcadNode problem(std::string why) { return {std::nullopt, std::move(why), false, {}, {}}; }
+BrlcadNode unsupported(std::string why) { return {std::nullopt, std::move(why), true, {}, {}}; }
 
 BrlcadNode built(CsgNode node) {
   if (!IsSound::is_sound_node(node)) return problem("it is empty, or its numbers are out of range");
-  return {std::move(node), {}, false};
+  return {std::move(node), {}, false, {}, {}};
 }
 
 Affine frame(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
@@ -96,6 +96,16 @@ Affine frame(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
 Vec3 longer(const Vec3& v, double grow) {
   const double l = length(v);
   return l > 0 ? (1 + grow / l) * v : v;
+}
+
+CsgNode round_torus(const Vec3& center, const Vec3& axis, double major, double minor, double grow,
+                    std::optional<Affine> transform) {
+  if (minor <= major * (1 + kEqualRatio)) {
+    const double tube = std::fmin(minor + grow, major * (1 - kTiny));
+    return node_of(TorusShape{center, axis, major, tube}, transform);
+  }
+  const double tube = minor + grow;
+  return node_of(EllipticTorusShape{center, axis, major, tube, 0, tube}, transform);
 }
 
 CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double top_radius) {

@@ -26,8 +26,8 @@ CsgNode operation(Operation op, std::vector<CsgNode> children);
 
 /// The result for a solid that rt leaves out, too.
 BrlcadNode problem(std::string why);
-/// The result for a solid that is an error.
-BrlcadNode refusal(std::string why);
+/// The result for a solid that rt would draw.
+BrlcadNode unsupported(std::string why);
 /// The result for a node, unless the scene reader would refuse a value in it.
 BrlcadNode built(CsgNode node);
 
@@ -55,6 +55,11 @@ struct Values {
   /// The factor by which the map makes lengths grow, as the cube root of that of volumes.
   double scale() const { return std::cbrt(std::fabs(map.determinant())); }
 };
+
+/// A torus whose tube is `grow` thicker than `minor`. One whose tube is thicker than its ring
+/// closes its hole, with a dent at each end of the axis.
+CsgNode round_torus(const Vec3& center, const Vec3& axis, double major, double minor, double grow,
+                    std::optional<Affine> transform = std::nullopt);
 
 /// A cone between two circles about an axis, or a cylinder; the larger end's radius is above 0.
 CsgNode round_cone(const Vec3& base, double base_radius, const Vec3& top, double top_radius);

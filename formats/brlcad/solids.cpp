@@ -34,7 +34,7 @@ BrlcadNode superell(const Values& p, double grow) {
   if (p.number(12) == 1 && p.number(13) == 1) {
     return ellipsoid(p.point(0), {p.vector(1), p.vector(2), p.vector(3)}, grow);
   }
-  return refusal("superell with other exponents than n = e = 1 is not supported");
+  return unsupported("superell with other exponents than n = e = 1 is not supported");
 }
 
 /// The lengths of a semi-axis at a cone's two ends.
@@ -83,13 +83,10 @@ BrlcadNode tgc(const Values& p, double grow) {
 }
 
 BrlcadNode torus(const Values& p, double grow) {
-  double major = p.number(6), minor = p.number(7);
+  const double major = p.number(6), minor = p.number(7);
   const Vec3 axis = p.raw(1);
   if (!(major > 0 && minor > 0 && length(axis) > 0)) return problem("a radius or its axis is zero");
-  if (minor > major * (1 + kEqualRatio)) return problem("its tube is thicker than its ring");
-  const double scale = p.scale();
-  minor = std::fmin(minor + grow / scale, major * (1 - kTiny));
-  return built(node_of(TorusShape{p.raw(0), axis, major, minor}, p.map));
+  return built(round_torus(p.raw(0), axis, major, minor, grow / p.scale(), p.map));
 }
 
 BrlcadNode half(const Values& p, double grow) {
@@ -125,6 +122,7 @@ BrlcadNode arb(const Values& p, double grow) {
   const double size = length(box.hi - box.lo);
   const double slack = std::fmax(kBrlcadSkin, kBrlcadPlanar * size);
   PolyhedronShape shape;
+  bool is_flat = true;
   for (const auto& face : kArbFaces) {
     std::vector<Vec3> distinct;
     for (const std::size_t i : face) {
@@ -143,10 +141,7 @@ BrlcadNode arb(const Values& p, double grow) {
     n = normalized(n);
     double offset = dot(n, distinct[0]);
     for (const Vec3& q : distinct) {
-      if (std::fabs(dot(n, q) - offset) <= slack) continue;
-      return refusal("a face is not flat: a corner lies " +
-                     std::to_string(std::fabs(dot(n, q) - offset)) +
-                     " mm off the plane of the others");
+      is_flat = is_flat && std::fabs(dot(n, q) - offset) <= slack;
     }
     if (dot(n, center) > offset) {
       n = -n;
@@ -158,7 +153,9 @@ BrlcadNode arb(const Values& p, double grow) {
     }
   }
   if (shape.planes.size() < 4) return problem("it has no volume");
-  return built(node_of(std::move(shape)));
+  BrlcadNode node = built(node_of(std::move(shape)));
+  if (!is_flat) node.change = "faces aren't flat and lie in the plane of their first three corners";
+  return node;
 }
 
 /// A quadric's box in a frame whose axes are made longer by `grow` on both sides; the surface
@@ -232,8 +229,10 @@ BrlcadNode eto(const Values& p, double grow) {
   // It doesn't matter to which side of the plane the semi-axis leans.
   const double up = std::fmin(1.0, std::fabs(dot(c, n)) / (length(c) * length(n)));
   const double out = std::sqrt(1 - up * up);
-  const double reach = std::sqrt(major * out * major * out + across * up * across * up);
-  if (!(reach < r)) return problem("its ellipse reaches its axis");
+  // rt leaves out those that one of its ellipse's semi-axes makes overlap.
+  const double most = r * (1 + kEqualRatio);
+  if (length(c) * out > most || p.number(10) * up > most)
+    return problem("its ellipse overlaps itself");
   return built(node_of(EllipticTorusShape{p.raw(0), n, r, major * out, major * up, across}, p.map));
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube {
@@ -14,15 +14,20 @@ namespace graycube {
 inline constexpr double kBrlcadSkin = 0.0005;
 /// Coordinates further off than this, in mm, are meaningless; their products might overflow.
 inline constexpr double kMostBrlcadSize = 1e12;
-/// The corners of an arb may be so far off their face's plane: this part of the arb's size, or
-/// kBrlcadSkin.
+/// Corners of an arb that are farther off their face's plane than this part of the arb's size, and
+/// than kBrlcadSkin, are told of.
 inline constexpr double kBrlcadPlanar = 1e-3;
 
 struct BrlcadNode {
-  /// Absent when `problem` says why; rt leaves such solids out, unless `is_error`.
+  /// Absent when `problem` says why. The solid alone is left out, as by rt; or, where it
+  /// `is_unsupported` here but not by rt, the whole region.
   std::optional<CsgNode> node;
   std::string problem;
-  bool is_error = false;
+  bool is_unsupported = false;
+  /// What is drawn otherwise than it is written; empty if nothing is.
+  std::string change;
+  /// More about `problem`, which holds for this solid only.
+  std::string detail;
 };
 
 /// The solid in world coordinates under `to_world`, every face moved outwards by `grow` mm.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {
@@ -54,7 +54,7 @@ class ViewReader {
  public:
   explicit ViewReader(BrlcadReport& report) : report_(report) {}
 
-  std::optional<Camera> read(std::string_view script) {
+  std::optional<BrlcadView> read(std::string_view script) {
     for (const auto& words : commands_of(script)) {
       if (words.front() == "end") break;
       if (!command(words)) return std::nullopt;
@@ -73,7 +73,7 @@ class ViewReader {
       camera.inside = InsideView::kExit;
       camera.fov_degrees = perspective_;
     }
-    return camera;
+    return BrlcadView{camera, *view_size_};
   }
 
  private:
@@ -159,18 +159,21 @@ class ViewReader {
 
 }  // namespace
 
-std::optional<Camera> read_brlcad_view(std::string_view script, BrlcadReport& report) {
+std::optional<BrlcadView> read_brlcad_view(std::string_view script, BrlcadReport& report) {
   return ViewReader(report).read(script);
 }
 
-Camera brlcad_camera(double azimuth_degrees, double elevation_degrees, const Aabb& bounds) {
+BrlcadView brlcad_view(double azimuth_degrees, double elevation_degrees, const Aabb& bounds) {
   const double sa = sin_degrees(azimuth_degrees), ca = cos_degrees(azimuth_degrees);
   const double se = sin_degrees(elevation_degrees), ce = cos_degrees(elevation_degrees);
   const Vec3 backward{ca * ce, sa * ce, se};
   const Vec3 up{-ca * se, -sa * se, ce};
-  double size = length(bounds.hi - bounds.lo);
+  const Vec3 lo{std::floor(bounds.lo.x), std::floor(bounds.lo.y), std::floor(bounds.lo.z)};
+  const Vec3 hi{std::ceil(bounds.hi.x), std::ceil(bounds.hi.y), std::ceil(bounds.hi.z)};
+  double size = length(hi - lo);
   if (!(size > kLeastViewSize)) size = 1;
-  return looking(bounds.center() + 0.5 * size * kEyeBackoff * backward, up, backward, size);
+  const Vec3 eye = 0.5 * (lo + hi) + 0.5 * size * kEyeBackoff * backward;
+  return {looking(eye, up, backward, size), size};
 }
 
 BrlcadAxes brlcad_axes(const Camera& camera) {

@@ -6,19 +6,26 @@
 #include <string>
 #include <string_view>
 
-#include "formats/brlcad/report.hpp"
+#include "formats/brlcad/database/report.hpp"
 #include "geometry/aabb.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
 
+struct BrlcadView {
+  Camera camera;
+  /// The width of the view in mm; of a perspective one, at its eye's distance.
+  double size = 1;
+};
+
 /// The first view of a script: viewsize, eye_pt, viewrot or orientation or lookat_pt, perspective.
 /// A command that is missing is an error.
-std::optional<Camera> read_brlcad_view(std::string_view script, BrlcadReport& report);
+std::optional<BrlcadView> read_brlcad_view(std::string_view script, BrlcadReport& report);
 
-/// The camera of rt -a AZIMUTH -e ELEVATION for a model with these (finite) bounds: parallel rays,
-/// the box's diagonal as wide as the picture.
-Camera brlcad_camera(double azimuth_degrees, double elevation_degrees, const Aabb& bounds);
+/// The view of rt -a AZIMUTH -e ELEVATION of a model with these (finite) bounds: parallel rays, and
+/// the box's diagonal as wide as the picture, once the box is rounded outwards to whole
+/// millimetres.
+BrlcadView brlcad_view(double azimuth_degrees, double elevation_degrees, const Aabb& bounds);
 
 /// The axes of the picture: right, up, and towards the eye.
 struct BrlcadAxes {

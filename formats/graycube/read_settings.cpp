@@ -37,10 +37,19 @@ void read_pixel_offset(JsonAccess& json, JsonIndex at, std::array<double, 2>& ou
   json.read(json.tree.next(x), out[1], kFraction);
 }
 
+void read_yes_or_no(JsonAccess& json, JsonIndex at, bool& out) {
+  const JsonKind kind = json.tree.kind(at);
+  if (kind != JsonKind::kTrue && kind != JsonKind::kFalse) {
+    json.wrong(at, "true or false");
+    return;
+  }
+  out = kind == JsonKind::kTrue;
+}
+
 void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
-  enum : std::size_t { kType, kPosition, kColor, kFalloff, kKeys };
+  enum : std::size_t { kType, kPosition, kColor, kFalloff, kShadows, kKeys };
   constexpr std::array<KeyRule, kKeys> kRules{
-      {{"type", true}, {"position", true}, {"color"}, {"falloff"}}};
+      {{"type", true}, {"position", true}, {"color"}, {"falloff"}, {"shadows"}}};
   constexpr std::array<Word<int>, 1> kTypes{{{"point", 0}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a light", kRules, member);
@@ -49,6 +58,7 @@ void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
   json.read_optional(member[kPosition], out.position);
   json.read_optional(member[kColor], out.color);
   json.read_word(member[kFalloff], out.falloff, kFalloffWords);
+  if (member[kShadows] != 0) read_yes_or_no(json, member[kShadows], out.shadows);
 }
 
 }  // namespace

@@ -10,10 +10,12 @@
 
 namespace graycube {
 
-inline constexpr std::array<Word<ShadingModel>, 3> kShadingModelWords{
+inline constexpr std::array<Word<ShadingModel>, 5> kShadingModelWords{
     {{"phong", ShadingModel::kPhong},
      {"torrance_sparrow", ShadingModel::kTorranceSparrow},
-     {"hall_greenberg", ShadingModel::kHallGreenberg}}};
+     {"hall_greenberg", ShadingModel::kHallGreenberg},
+     {"rt", ShadingModel::kRt},
+     {"rt_lamp", ShadingModel::kRtLamp}}};
 inline constexpr std::array<Word<Projection>, 2> kProjectionWords{
     {{"perspective", Projection::kPerspective}, {"orthographic", Projection::kOrthographic}}};
 inline constexpr std::array<Word<Handedness>, 2> kHandednessWords{

@@ -164,6 +164,10 @@ class SceneWriter {
     member("position", l.position);
     member("color", l.color);
     member("falloff", word_of(kFalloffWords, l.falloff));
+    if (!l.shadows) {
+      next_key("shadows");
+      text_ += "false";
+    }
     text_ += '}';
   }
 

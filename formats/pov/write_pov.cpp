@@ -134,6 +134,7 @@ class PovWriter {
     text_ += ", rgb ";
     color(gain * light.color);
     if (fades) item(" fade_power 2 fade_distance ", kFadeDistance);
+    if (!light.shadows) text_ += " shadowless";
     text_ += " }\n";
   }
 
@@ -143,9 +144,11 @@ class PovWriter {
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
                           std::string(word_of(kShadingModelWords, m.model)) +
                           " model; written as phong");
+    // The transmit of rt's lamps only says that they don't stand in their own light.
+    const double transmit = m.model == ShadingModel::kRtLamp ? 0 : m.transmit;
     const std::string number_text = std::to_string(index);
     text_ += "#declare M" + number_text + " = texture { pigment { rgbt ";
-    numbers({m.color.r, m.color.g, m.color.b, m.transmit});
+    numbers({m.color.r, m.color.g, m.color.b, transmit});
     item(" } finish { ambient ", m.ambient);
     item(" diffuse ", m.diffuse);
     item(" phong ", m.specular);
@@ -155,7 +158,7 @@ class PovWriter {
       text_ += " }";
     }
     text_ += " } }  // " + one_line(name) + "\n";
-    if (m.transmit > 0) {
+    if (transmit > 0) {
       item("#declare I" + number_text + " = interior { ior ", m.ior);
       text_ += " }\n";
     }

@@ -231,7 +231,8 @@ TEST_CASE("what is not built is refused at a pointer that any material's name ca
   scene.materials[1].name = "glass/~old";
   scene.materials[1].material.model = ShadingModel::kHallGreenberg;
   CHECK(refusal([&] { check_is_built("a.json", scene); }) ==
-        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; only \"phong\" is");
+        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; \"phong\" and "
+        "\"rt\" are");
 }
 
 TEST_CASE("solids that can't be computed are told by pointers in scenes, by names in models") {

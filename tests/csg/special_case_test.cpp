@@ -217,3 +217,20 @@ TEST_CASE("normals of caps and faces are exact") {
   CHECK(box.normal({{0, 5, 0}, {0, -1, 0}}, 3) == Vec3{0, 1, 0});
   CHECK(box.normal({{0, 5, 0}, {0, -1, 0}}, 7) == Vec3{0, -1, 0});
 }
+
+TEST_CASE(
+    "a torus whose tube is thicker than its ring is solid throughout, with a dent at each end") {
+  // An elliptic torus that is round; through the axis its surface goes at heights ±4.
+  const OnePrimitive one(node_of(EllipticTorusShape{{0, 0, 0}, {0, 0, 1}, 3, 5, 0, 5}));
+  check_part(one, {{0, 0, -10}, {0, 0, 1}}, {{6, 14}}, 1e-6);
+  check_part(one, {{-10, 0, 0}, {1, 0, 0}}, {{2, 18}});
+  // Over the middle the line is in the rim, then in the dent, then in the rim again.
+  const double rim = std::sqrt(25 - 4.5 * 4.5);
+  check_part(one, {{-10, 0, 4.5}, {1, 0, 0}}, {{7 - rim, 7 + rim}, {13 - rim, 13 + rim}}, 1e-9);
+  CHECK(one.holds({0, 0, 0}));
+  CHECK(one.holds({0, 0, 3.9}));
+  CHECK_FALSE(one.holds({0, 0, 4.1}));
+  const Vec3 n = one.normal({{0.5, 0, 10}, {0, 0, -1}}, 10 - std::sqrt(25 - 2.5 * 2.5));
+  CHECK(n.z > 0);
+  CHECK(n.x < 0);
+}

@@ -99,7 +99,7 @@ TEST_CASE("what a farm does not take is refused where it stands, whoever asked b
   const PreparationResult unbuilt = cut(Bytes(bytes.begin(), bytes.end()), {});
   REQUIRE(unbuilt.errors.size() == 1);
   CHECK(unbuilt.errors[0] ==
-        control::ErrorItem{"/materials/a~1b/model", "not built yet; only \"phong\" is"});
+        control::ErrorItem{"/materials/a~1b/model", "not built yet; \"phong\" and \"rt\" are"});
 }
 
 TEST_CASE(

@@ -23,12 +23,14 @@ using namespace graycube;
 
 constexpr const char* kUsage =
     "usage: compare_pictures A B [--tolerance UNITS] [--most-percent P] [--difference OUT.png]\n"
+    "                        [--covered]\n"
     "  A, B             .exr or .png; an EXR is turned to 16-bit linear samples, as in a "
     ".linear.png;\n"
     "                   an 8-bit PNG's samples are stretched to 16 bits, whatever they mean\n"
     "  --tolerance      a pixel is off when a channel differs by more, in 1/65535 (default 4)\n"
     "  --most-percent   so many percent of the pixels may be off (default 0)\n"
     "  --difference     writes |A - B|, the largest difference white\n"
+    "  --covered        pixels that are black in both pictures don't count\n"
     "status: 0 within limits, 1 beyond them, 2 bad usage or unreadable files\n";
 
 struct UsageError : std::runtime_error {
@@ -40,6 +42,7 @@ struct Options {
   double tolerance = 4;
   double most_percent = 0;
   std::optional<std::filesystem::path> difference;
+  bool covered_only = false;
 };
 
 struct Samples {
@@ -51,7 +54,7 @@ struct Comparison {
   std::uint64_t pixels = 0, pixels_off = 0;
   int largest = 0;
   double percent() const {
-    return 100 * static_cast<double>(pixels_off) / static_cast<double>(pixels);
+    return pixels == 0 ? 0 : 100 * static_cast<double>(pixels_off) / static_cast<double>(pixels);
   }
 };
 
@@ -79,6 +82,8 @@ Options parse(std::span<char*> arguments) {
       options.most_percent = parse_limit(argument, value(), 100);
     } else if (argument == "--difference") {
       options.difference = value();
+    } else if (argument == "--covered") {
+      options.covered_only = true;
     } else if (argument.starts_with("--")) {
       throw UsageError("unknown option: " + std::string(argument));
     } else {
@@ -112,12 +117,21 @@ int difference_at(const Samples& a, const Samples& b, std::size_t i) {
   return std::abs(int{a.rgb[i]} - int{b.rgb[i]});
 }
 
-Comparison compare(const Samples& a, const Samples& b, double tolerance) {
-  Comparison result{std::uint64_t{a.width} * a.height, 0, 0};
-  for (std::size_t pixel = 0; pixel < result.pixels; ++pixel) {
+/// Black to within a step of 8 bits: rt keeps the blackest black for what nothing is hit in.
+bool is_black(const Samples& s, std::size_t pixel) {
+  constexpr std::uint16_t kBlack = 257;
+  return std::all_of(&s.rgb[3 * pixel], &s.rgb[3 * pixel] + 3,
+                     [](std::uint16_t v) { return v <= kBlack; });
+}
+
+Comparison compare(const Samples& a, const Samples& b, const Options& options) {
+  Comparison result;
+  for (std::size_t pixel = 0; pixel < std::size_t{a.width} * a.height; ++pixel) {
+    if (options.covered_only && is_black(a, pixel) && is_black(b, pixel)) continue;
+    ++result.pixels;
     int worst = 0;
     for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, difference_at(a, b, 3 * pixel + c));
-    result.pixels_off += worst > tolerance ? 1 : 0;
+    result.pixels_off += worst > options.tolerance ? 1 : 0;
     result.largest = std::max(result.largest, worst);
   }
   return result;
@@ -139,7 +153,7 @@ int run(const Options& options) {
     std::printf("sizes differ: %u x %u and %u x %u\n", a.width, a.height, b.width, b.height);
     return 1;
   }
-  const Comparison result = compare(a, b, options.tolerance);
+  const Comparison result = compare(a, b, options);
   std::printf("%llu of %llu pixels off (%.4f %%), largest difference %d of 65535\n",
               static_cast<unsigned long long>(result.pixels_off),
               static_cast<unsigned long long>(result.pixels), result.percent(), result.largest);

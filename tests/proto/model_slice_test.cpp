@@ -90,11 +90,16 @@ RenderSettings some_settings(Random& random) {
   s.max_depth = static_cast<std::uint32_t>(random.below(kMaxDepth + 1));
   s.min_weight = random.not_negative();
   for (std::uint64_t n = random.below(4); n > 0; --n) {
-    s.lights.push_back(
-        {random.vec(), random.rgb(), random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare});
+    s.lights.push_back({random.vec(), random.rgb(),
+                        random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare,
+                        random.chance(2)});
   }
   return s;
 }
+
+constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranceSparrow,
+                                    ShadingModel::kHallGreenberg, ShadingModel::kRt,
+                                    ShadingModel::kRtLamp};
 
 Model some_model(std::uint64_t seed) {
   Random random(seed);
@@ -105,7 +110,7 @@ Model some_model(std::uint64_t seed) {
     model.materials.push_back({random.rgb(), random.not_negative(), random.not_negative(),
                                random.not_negative(), random.not_negative(), random.not_negative(),
                                random.uniform(0, 1), random.uniform(0.1, 3),
-                               static_cast<ShadingModel>(random.below(3))});
+                               kModels[random.below(5)]});
   }
   for (std::uint64_t n = random.below(5); n > 0; --n)
     model.planes.push_back({random.vec(), random.any_finite()});

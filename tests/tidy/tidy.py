@@ -43,7 +43,7 @@ VENDORS = {
     "png.h": ("common/film/png_file.cpp",),
     "polyclipping/": ("common/flat/polygon.cpp",),
     "simdjson": ("formats/json/fast_parser.cpp",),
-    "zlib.h": ("formats/brlcad/binary.cpp",),
+    "zlib.h": ("formats/brlcad/database/binary.cpp",),
     "zmq": ("common/transport/zmq_sockets.cpp",),
 }
 

@@ -79,14 +79,16 @@ class RandomScene {
     s.min_weight = fraction();
     const auto lights = below(4);
     for (std::size_t i = 0; i < lights; ++i)
-      s.lights.push_back(
-          {vector(), color(), below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare});
+      s.lights.push_back({vector(), color(),
+                          below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare, below(2) == 0});
   }
 
   Material material() {
-    return {color(),    positive(), positive(),
-            positive(), positive(), positive(),
-            fraction(), positive(), static_cast<ShadingModel>(below(3))};
+    constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranceSparrow,
+                                        ShadingModel::kHallGreenberg, ShadingModel::kRt,
+                                        ShadingModel::kRtLamp};
+    return {color(),    positive(), positive(), positive(),       positive(),
+            positive(), fraction(), positive(), kModels[below(5)]};
   }
 
   /// A map that scales, mirrors and shears, always well away from singular.

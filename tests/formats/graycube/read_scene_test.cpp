@@ -93,12 +93,14 @@ TEST_CASE("every setting is read") {
           .with(
               "lights",
               R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
-                              {"type": "point", "position": [0,0,9]}])")
+                              {"type": "point", "position": [0,0,9], "shadows": false},
+                              {"type": "point", "position": [0,0,9], "shadows": true}])")
           .with(
               "materials",
               R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
                                  "reflect": 8, "transmit": 0.5, "ior": 1.5, "model": "torrance_sparrow"},
-                                 "hall": {"model": "hall_greenberg"}})"));
+                                 "hall": {"model": "hall_greenberg"},
+                                 "rt": {"model": "rt"}, "lamp": {"model": "rt_lamp"}})"));
   const RenderSettings& s = scene.settings;
   CHECK(s.image == ImageSize{300, 200, 3});
   CHECK(
@@ -110,13 +112,16 @@ TEST_CASE("every setting is read") {
   CHECK(s.max_depth == 12);
   CHECK(s.min_weight == 0.125);
   CHECK(scene.digits == 6);
-  REQUIRE(s.lights.size() == 2);
+  REQUIRE(s.lights.size() == 3);
   CHECK(s.lights[0] == PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::kInverseSquare});
-  CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone});
-  REQUIRE(scene.materials.size() == 2);
+  CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, false});
+  CHECK(s.lights[2] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, true});
+  REQUIRE(scene.materials.size() == 4);
   CHECK(scene.materials[0].material ==
         Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});
   CHECK(scene.materials[1].material.model == ShadingModel::kHallGreenberg);
+  CHECK(scene.materials[2].material.model == ShadingModel::kRt);
+  CHECK(scene.materials[3].material.model == ShadingModel::kRtLamp);
 }
 
 TEST_CASE("every kind of leaf is read") {

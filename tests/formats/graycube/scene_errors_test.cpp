@@ -162,6 +162,8 @@ TEST_CASE("a bad light is refused") {
        {R"([{"position": [0,0,0]}])", "/lights/0", "needs the key \"type\""},
        {R"([{"type": "point", "position": [0,0,0], "color": [1,1,-1]}])", "/lights/0/color/2",
         ">= 0"},
+       {R"([{"type": "point", "position": [0,0,0], "shadows": 0}])", "/lights/0/shadows",
+        "true or false"},
        {R"([{"type": "point", "position": [0,0,0], "falloff": "linear"}])", "/lights/0/falloff",
         "unknown word \"linear\""}});
 }

@@ -1,9 +1,9 @@
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/database.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 
@@ -35,16 +35,22 @@ std::size_t brlcad_value_count(BrlcadKind kind) {
   }
 }
 
-std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m) {
+BrlcadPlace brlcad_place(const std::array<double, 16>& m) {
+  const BrlcadPlace broken{std::nullopt, true};
   Affine map;
-  if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] == 0) return std::nullopt;
+  const double most = kBrlcadMatrixTail * std::fabs(m[15]);
+  for (const std::size_t i : {12u, 13u, 14u}) {
+    if (!(std::fabs(m[i]) <= most)) return broken;
+  }
+  if (m[15] == 0) return broken;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       map.m[row][column] = m[4 * row + column] / m[15];
     }
   }
-  if (!map.is_finite() || !map.inverse()) return std::nullopt;
-  return map;
+  if (!map.is_finite() || !map.inverse()) return broken;
+  if (map == Affine{}) return {};
+  return {map, false};
 }
 
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
@@ -132,9 +138,10 @@ BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report
   if (bytes.size() > 1 && bytes[0] == 'v' && (bytes[1] & 3) == kHeaderObject) {
     return read_brlcad_binary(bytes, report);
   }
-  if (bytes.starts_with("I") && bytes.size() > 1 && bytes[1] == '\0') {
-    report.error("", "a binary database of version 4; convert it: dbupgrade OLD.g NEW.g");
-    return {};
+  // The second byte of version 4's first record is a unit of length, 0 to 9; text has a blank.
+  constexpr char kMostUnits = 9;
+  if (bytes.size() > 1 && bytes[0] == 'I' && bytes[1] >= 0 && bytes[1] <= kMostUnits) {
+    return read_brlcad_v4_binary(bytes, report);
   }
   std::string_view text = bytes;
   while (!text.empty()) {
@@ -148,9 +155,10 @@ BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report
     if (text.starts_with(word)) return read_brlcad_v5_text(bytes, report);
   }
   if (text.starts_with("I ")) return read_brlcad_v4_text(bytes, report);
-  report.error("",
-               "this is no BRL-CAD database: expected version 5 binary (.g), or text (.asc) that "
-               "begins with 'title', 'put' or an 'I' record");
+  report.error(
+      "",
+      "this is no BRL-CAD database: expected a binary of version 4 or 5 (.g), or text (.asc) that "
+      "begins with 'title', 'put' or an 'I' record");
   return {};
 }
 

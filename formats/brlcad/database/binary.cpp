@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/brlcad/byte_reader.hpp"
-#include "formats/brlcad/database.hpp"
-#include "formats/brlcad/tree_binary.hpp"
+#include "formats/brlcad/database/byte_reader.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/tree_binary.hpp"
 
 namespace graycube {
 namespace {

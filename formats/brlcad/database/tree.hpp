@@ -23,7 +23,16 @@ struct BrlcadTree {
   Op op = Op::kLeaf;
   std::string name;
   std::optional<Affine> matrix;
+  /// A leaf whose matrix is no invertible affine map: nobody knows where it is.
+  bool has_broken_matrix = false;
   std::vector<BrlcadTree> children;
+};
+
+/// Where a member of a combination is: a 4 × 4 matrix as the file has it, read.
+struct BrlcadPlace {
+  /// Nothing where the member stays where it is.
+  std::optional<Affine> matrix;
+  bool is_broken = false;
 };
 
 /// Builds a tree from its operations in postfix order. Chains of unions, of intersections and of
@@ -31,7 +40,7 @@ struct BrlcadTree {
 /// logarithmic number of times at most, and once if it leans to one side.
 class BrlcadTreeBuilder {
  public:
-  void leaf(std::string name, std::optional<Affine> matrix);
+  void leaf(std::string name, const BrlcadPlace& place);
   /// Joins the last two operands, or inverts the last. False if too few, or the tree gets too deep.
   [[nodiscard]] bool operation(BrlcadTree::Op op);
   /// The tree, when exactly one operand is left.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "formats/brlcad/byte_reader.hpp"
-#include "formats/brlcad/database.hpp"
+#include "formats/brlcad/database/byte_reader.hpp"
+#include "formats/brlcad/database/database.hpp"
 
 namespace graycube {
 

@@ -1,4 +1,4 @@
-#include "formats/brlcad/tree.hpp"
+#include "formats/brlcad/database/tree.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -7,10 +7,11 @@ namespace graycube {
 
 using Op = BrlcadTree::Op;
 
-void BrlcadTreeBuilder::leaf(std::string name, std::optional<Affine> matrix) {
+void BrlcadTreeBuilder::leaf(std::string name, const BrlcadPlace& place) {
   Operand& o = stack_.emplace_back();
   o.tree.name = std::move(name);
-  o.tree.matrix = matrix;
+  o.tree.matrix = place.matrix;
+  o.tree.has_broken_matrix = place.is_broken;
   ++leaves_;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "formats/brlcad/database.hpp"
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 namespace {
@@ -76,19 +76,15 @@ class TreeTextReader {
   bool leaf() {
     std::string name, matrix;
     if (!words_.next(name)) return wrong_tree();
-    std::optional<Affine> map;
+    BrlcadPlace place;
     if (words_.next(matrix)) {
       std::vector<double> numbers;
       std::array<double, 16> m{};
       if (append_brlcad_numbers(matrix, 16, numbers))
         std::copy(numbers.begin(), numbers.end(), m.begin());
-      map = brlcad_matrix(m);
-      if (!map) {
-        problem_ = "the matrix of its member " + name + " is no invertible affine map";
-        return false;
-      }
+      place = brlcad_place(m);
     }
-    builder_.leaf(std::move(name), map);
+    builder_.leaf(std::move(name), place);
     return builder_.leaves() <= kMaxBrlcadMembers || too_many();
   }
 

@@ -1,4 +1,4 @@
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "formats/brlcad/database.hpp"
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 namespace {

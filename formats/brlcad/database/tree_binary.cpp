@@ -1,4 +1,4 @@
-#include "formats/brlcad/tree_binary.hpp"
+#include "formats/brlcad/database/tree_binary.hpp"
 
 #include <array>
 #include <utility>
@@ -12,7 +12,7 @@ constexpr std::size_t kMatrixBytes = 128;
 /// A member of the combination: its name, and the map that places it.
 struct Leaf {
   std::string_view name;
-  std::optional<Affine> matrix;
+  BrlcadPlace place;
 };
 
 /// The numbers of all parts of the tree, and the bytes that its numbers take.
@@ -39,23 +39,22 @@ std::optional<Layout> read_layout(BrlcadByteReader& r) {
 }
 
 /// Reads matrices, then leaves, each a name and the number of its matrix, if it has one. Nothing
-/// when a leaf's matrix isn't there or is no map.
+/// when a leaf's matrix isn't there.
 std::optional<std::vector<Leaf>> read_leaves(BrlcadByteReader& r, const Layout& layout) {
-  std::vector<std::optional<Affine>> maps;
+  std::vector<BrlcadPlace> places;
   for (std::uint64_t i = 0; i < layout.matrices; ++i) {
     std::array<double, 16> m;
     for (double& v : m) v = r.number();
-    maps.push_back(brlcad_matrix(m));
+    places.push_back(brlcad_place(m));
   }
   std::vector<Leaf> leaves;
   for (std::uint64_t i = 0; i < layout.leaves; ++i) {
-    Leaf leaf{r.text(), std::nullopt};
+    Leaf leaf{r.text(), {}};
     const std::uint64_t index = r.integer(layout.width);
     const bool has_matrix = (index >> (8 * layout.width - 1) & 1) == 0;
     if (has_matrix) {
-      if (!r.ok() || index >= maps.size() || !maps[static_cast<std::size_t>(index)])
-        return std::nullopt;
-      leaf.matrix = maps[static_cast<std::size_t>(index)];
+      if (!r.ok() || index >= places.size()) return std::nullopt;
+      leaf.place = places[static_cast<std::size_t>(index)];
     }
     leaves.push_back(leaf);
   }
@@ -72,7 +71,7 @@ class Members {
   bool push() {
     if (used_ >= leaves_.size()) return false;
     const Leaf& leaf = leaves_[used_++];
-    builder_.leaf(std::string(leaf.name), leaf.matrix);
+    builder_.leaf(std::string(leaf.name), leaf.place);
     return true;
   }
 
@@ -116,7 +115,7 @@ std::optional<std::string> read_binary_tree(BrlcadByteReader& r, BrlcadComb& com
   const auto layout = read_layout(r);
   if (!layout) return "a combination with more matrices or members than it has room for";
   const auto leaves = read_leaves(r, *layout);
-  if (!leaves) return "a member's matrix isn't there, or is no invertible affine map";
+  if (!leaves) return "a member's matrix isn't there";
   const std::string_view postfix = r.take(layout->operations);
   if (!r.ok()) return "a combination that is shorter than it says";
   if (postfix.empty() && leaves->empty()) return std::nullopt;

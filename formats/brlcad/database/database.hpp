@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "formats/brlcad/report.hpp"
-#include "formats/brlcad/tree.hpp"
+#include "formats/brlcad/database/report.hpp"
+#include "formats/brlcad/database/tree.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 
@@ -104,15 +104,20 @@ struct BrlcadDatabase {
 /// The count of numbers in a solid's record; 0 for kinds of which it varies.
 std::size_t brlcad_value_count(BrlcadKind kind);
 
-/// A 4 × 4 matrix by rows, its last element dividing; nothing when it is no invertible affine map.
-std::optional<Affine> brlcad_matrix(const std::array<double, 16>& m);
+/// The first three numbers of a matrix's last row are 0 in an affine map. In real files they are
+/// off by some 1e-9; up to this part of the last number they count as 0. Their effect is less than
+/// a thousandth of a model's coordinates up to 10 m from the origin.
+inline constexpr double kBrlcadMatrixTail = 1e-7;
+/// Reads a 4 × 4 matrix by rows, its last element dividing. Broken when it is no invertible affine
+/// map.
+BrlcadPlace brlcad_place(const std::array<double, 16>& m);
 
 /// The points of an ars: `curves` polylines of `points` points each, the first and the last of them
 /// collapsed to a point, as a mesh.
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
                            std::size_t per_curve);
 
-/// Reads any of the formats: .asc of version 4 or 5, .g of version 5. Errors and warnings go to the
+/// Reads any of the formats: .asc or .g, of version 4 or 5. Errors and warnings go to the
 /// report.
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report);
 
@@ -120,6 +125,7 @@ BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report
 BrlcadDatabase read_brlcad_v4_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_v5_text(std::string_view text, BrlcadReport& report);
 BrlcadDatabase read_brlcad_binary(std::string_view bytes, BrlcadReport& report);
+BrlcadDatabase read_brlcad_v4_binary(std::string_view bytes, BrlcadReport& report);
 
 /// Sets an attribute as version 5 names it (`rgb`, `oshader`, `region`, …); unknown ones are
 /// ignored.

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/brlcad/database.hpp"
-#include "formats/brlcad/words.hpp"
+#include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
 namespace {
@@ -129,7 +129,7 @@ class V4TextReader {
         out.kind = BrlcadKind::kTor;
         const double tube = length_at(v, 3), ring = length_at(v, 6);
         v[6] = ring;
-        v[7] = std::fmin(tube, ring);
+        v[7] = tube;
         make_unit(v, 3);
         break;
       }
@@ -203,16 +203,10 @@ class V4TextReader {
         if (!numbers(words, 3, 16, v)) return false;
         std::copy(v.begin(), v.end(), m.begin());
       }
-      const auto matrix = brlcad_matrix(m);
-      if (!matrix) {
-        fail("the matrix of " + std::string(words[2]) + " in " + name +
-             " is no invertible affine map");
-        return false;
-      }
       const char relation = products == 0 ? 'u' : words[1].front();
       if (relation == 'u' && products > 1 && !builder.operation(Op::kUnion)) return too_deep(name);
       if (relation == 'u') ++products;
-      builder.leaf(std::string(words[2]), *matrix == Affine{} ? std::nullopt : matrix);
+      builder.leaf(std::string(words[2]), brlcad_place(m));
       if (relation != 'u' &&
           !builder.operation(relation == '+' ? Op::kIntersection : Op::kDifference)) {
         return too_deep(name);

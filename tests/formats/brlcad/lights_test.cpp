@@ -1,0 +1,111 @@
+// Lights, lamps and shaders as rt takes them.
+#include <cmath>
+#include <string>
+
+#include "formats/brlcad/shader.hpp"
+#include "formats/brlcad/view.hpp"
+#include "reading.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+const std::string kBall =
+    "title t\nput s ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n"
+    "put s.r comb region yes tree {l s}\n";
+
+/// A region that is a lamp of radius 1 at x.
+std::string lamp(const std::string& name, double x, const std::string& parameters) {
+  return "put " + name + ".s ell V {" + std::to_string(x) +
+         " 0 30} A {1 0 0} B {0 1 0} C {0 0 1}\nput " + name + " comb region yes tree {l " + name +
+         ".s}\nattr set " + name + " rgb 255/255/0 oshader {light {" + parameters + "}}\n";
+}
+BrlcadSurface surface(const std::string& shader) {
+  BrlcadReport report;
+  return brlcad_surface(shader, {255, 0, 0}, "r", report);
+}
+
+}  // namespace
+
+TEST_CASE("without lamps a white light without shadows stands to the left of the eye") {
+  BrlcadOptions options;
+  options.view = "viewsize 10; eye_pt 100 0 0; viewrot 0 1 0 0 0 0 1 0 1 0 0 0 0 0 0 1;";
+  const BrlcadResult result = read_brlcad(kBall, options);
+  REQUIRE(result.scene);
+  const auto& lights = result.scene->settings.lights;
+  REQUIRE(lights.size() == 1);
+  // Right is y, up is z, towards the eye is x; a unit is half of the view.
+  CHECK(length(lights[0].position - Vec3{105, -5, 0}) < 1e-9);
+  CHECK_FALSE(lights[0].shadows);
+  CHECK(lights[0].color.r == Approx(1 / 1.2));
+  CHECK(lights[0].color == Rgb{lights[0].color.r, lights[0].color.r, lights[0].color.r});
+}
+
+TEST_CASE("lamps count relative to the brightest, unless they say their part of full light") {
+  const Scene scene = scene_of(kBall + lamp("a", -20, "b 1000") + lamp("b", 20, "bright 100") +
+                               lamp("c", 40, "f 0.25"));
+  const auto& lights = scene.settings.lights;
+  REQUIRE(lights.size() == 3);
+  CHECK(lights[0].color.r == Approx(1 / 1.2));
+  CHECK(lights[1].color.r == Approx(0.1 / 1.2));
+  CHECK(lights[2].color.r == Approx(0.25));
+  CHECK(lights[0].color.b == 0);
+  CHECK(length(lights[1].position - Vec3{20, 0, 30}) < 1e-12);
+  CHECK(lights[0].shadows);
+  // The lamps are seen, each as bright as it shines.
+  REQUIRE(scene.objects.size() == 4);
+  CHECK(scene.materials[scene.objects[2].material].material.ambient == Approx(0.1 / 1.2));
+  CHECK(scene.materials[scene.objects[2].material].material.model == ShadingModel::kRtLamp);
+}
+
+TEST_CASE("invisible lamps shine but aren't drawn, shadowless and infinite ones are so") {
+  const Scene scene = scene_of(kBall + lamp("a", 0, "invisible 1") + lamp("b", 20, "v 0") +
+                               lamp("c", 40, "s 0") + lamp("d", 30, "i 1"));
+  CHECK(scene.objects.size() == 3);
+  const auto& lights = scene.settings.lights;
+  REQUIRE(lights.size() == 4);
+  CHECK(length(lights[0].position - Vec3{0, 0, 30}) < 1e-12);
+  CHECK(lights[1].shadows);
+  CHECK_FALSE(lights[2].shadows);
+  // From where it is seen from the origin, and so far off that its rays are parallel.
+  const Vec3 direction = normalized(lights[3].position - Vec3{20, 0, 15});
+  CHECK(length(direction - normalized(Vec3{30, 0, 30})) < 1e-3);
+  CHECK(length(lights[3].position) > 1e5);
+}
+
+TEST_CASE("a lamp that shines in a beam is told of") {
+  const BrlcadResult result = read_brlcad(kBall + lamp("a", 0, "a 30 t {0 0 0}"));
+  REQUIRE(result.scene);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].text == "1 lamp: they shine in all directions, not in a beam: a");
+}
+
+TEST_CASE("a stack is its last member that is known") {
+  CHECK(surface("stack {plastic {di 0.5}} {bump {file x}}").material.diffuse == 0.5);
+  CHECK(surface("stack {{plastic {di 0.5}} {mirror {re 0.25}}}").material.reflect == 0.25);
+  CHECK(surface("stack fbm s=1;plastic di=0.5 sp=0").material.diffuse == 0.5);
+  CHECK(surface("stack {light {b 2}}").is_light);
+  BrlcadReport report;
+  brlcad_surface("stack {wood} {bump}", {1, 2, 3}, "r", report);
+  REQUIRE(report.take_warnings().size() == 1);
+}
+
+TEST_CASE("a checker of one colour has that colour in any light") {
+  const Material m = surface("checker a=0/0/150 b=0/0/150").material;
+  CHECK(m.model == ShadingModel::kPhong);
+  CHECK(m.color == Rgb{0, 0, 150 / 255.0});
+  CHECK(m.ambient == 1);
+  CHECK(m.diffuse == 0);
+  CHECK(surface("checker a=0/0/150 b=0/9/150").material.model == ShadingModel::kRt);
+}
+
+TEST_CASE("surfaces are rt's: its shines are whole numbers and its ambient light is 0.4") {
+  const Material m = surface("plastic {sh 12.7 sp 0.9 di .1 re 0.02}").material;
+  CHECK(m.model == ShadingModel::kRt);
+  CHECK(m.shininess == 12);
+  CHECK(m.specular == 0.9);
+  CHECK(m.diffuse == 0.1);
+  CHECK(m.reflect == 0.02);
+  CHECK(m.ambient == 0.4);
+}

@@ -1,0 +1,75 @@
+// Solids at the edge of what rt draws: radii of 0, tubes thicker than their rings, tight bends.
+#include <cmath>
+#include <string>
+
+#include "formats/brlcad/view.hpp"
+#include "model.hpp"
+#include "reading.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+Scene alone(const std::string& solid) {
+  return scene_of("title t\nput " + solid + "\nput r comb region yes tree {l s}\n", {"r"});
+}
+
+}  // namespace
+
+TEST_CASE("a particle with a radius of 0 is a cone with one round end") {
+  const Scene scene = alone("s part V {0 0 0} H {0 0 30} r_v 10 r_h 0");
+  CHECK(holds(scene, 0, 0, -9.9));
+  CHECK(holds(scene, 0, 0, 29.9));
+  CHECK_FALSE(holds(scene, 0, 0, 30.1));
+  // The tangent cone from the apex: at height z its radius is (30 − z) tan(asin(10 / 30)).
+  const double slope = std::tan(std::asin(1.0 / 3));
+  CHECK(holds(scene, 10 * slope - 0.01, 0, 20));
+  CHECK_FALSE(holds(scene, 10 * slope + 0.01, 0, 20));
+  const Scene turned = alone("s part V {0 0 0} H {0 0 30} r_v 0 r_h 10");
+  CHECK(holds(turned, 0, 0, 39.9));
+  CHECK(holds(turned, 0, 0, 0.1));
+}
+
+TEST_CASE("a torus whose tube is thicker than its ring has dents, and no hole") {
+  const Scene scene = alone("s tor V {0 0 0} H {0 0 1} r_a 20 r_h 25");
+  CHECK(holds(scene, 0, 0, 0));
+  CHECK(holds(scene, 0, 0, 14.9));
+  CHECK_FALSE(holds(scene, 0, 0, 15.1));
+  CHECK(holds(scene, 20, 0, 24.9));
+  CHECK(holds(scene, 44.9, 0, 0));
+  CHECK(holds(scene, 1, 1, 2));
+}
+
+TEST_CASE("an elliptic torus that reaches its axis is drawn until a semi-axis passes it") {
+  const auto eto = [](const std::string& c, const std::string& r_d) {
+    return "s eto V {0 0 0} N {0 0 1} C " + c + " r 20 r_d " + r_d;
+  };
+  const Scene scene = alone(eto("{20 0 20}", "10"));
+  CHECK(holds(scene, 20, 0, 0));
+  CHECK(holds(scene, 39, 0, 19));
+  CHECK_FALSE(holds(scene, 40, 0, -19));
+  CHECK(error_of("title t\nput " + eto("{21 0 20}", "10") + "\n")
+            .find("its ellipse overlaps itself") != std::string::npos);
+}
+
+TEST_CASE("a pipe may bend more tightly than it is thick") {
+  const auto pipe = [](const std::string& bend) {
+    return alone("s pipe V0 {0 0 0} O0 10 I0 0 R0 " + bend + " V1 {50 0 0} O1 10 I1 0 R1 " + bend +
+                 " V2 {50 50 0} O2 10 I2 0 R2 " + bend);
+  };
+  const Scene scene = pipe("3");
+  CHECK(holds(scene, 20, 4.9, 0));
+  CHECK(holds(scene, 45.1, 30, 0));
+  // The middle of the bend is at (47, 3); its outside is 3 + 5 away.
+  CHECK(holds(scene, 47 + 7.9 * std::sqrt(0.5), 3 - 7.9 * std::sqrt(0.5), 0));
+  CHECK_FALSE(holds(scene, 47 + 8.1 * std::sqrt(0.5), 3 - 8.1 * std::sqrt(0.5), 0));
+  CHECK(holds(pipe("0"), 49.9, 4, 0));
+}
+
+TEST_CASE("a view is framed by bounds that are rounded outwards to whole millimetres") {
+  const BrlcadView view = brlcad_view(35, 25, {{-0.05, -0.15, -4.25}, {0.65, 8.55, 0.45}});
+  CHECK(view.size == Approx(std::sqrt(4.0 + 100 + 36)).epsilon(1e-15));
+  const BrlcadView exact = brlcad_view(35, 25, {{-1, -1, -5}, {1, 9, 1}});
+  CHECK(view.camera == exact.camera);
+}
