@@ -6,7 +6,9 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "formats/mesh/assimp/read_assimp.hpp"
 #include "formats/mesh/part_stream.hpp"
@@ -14,11 +16,20 @@
 namespace graycube {
 namespace {
 
-/// What the library may take of the machine: bytes of address space, and seconds of CPU time.
-constexpr rlim_t kMaxMemory = rlim_t{4} << 30, kMaxSeconds = 300;
+/// What the library may take of the machine: bytes of address space, and seconds of CPU time, the
+/// latter also for each MiB of the file. Some broken files of a few hundred bytes keep it busy for
+/// ever.
+constexpr rlim_t kMaxMemory = rlim_t{4} << 30, kMaxSeconds = 20, kMaxSecondsPerMib = 1;
+
+rlim_t most_seconds(const char* path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return error ? kMaxSeconds : kMaxSeconds + kMaxSecondsPerMib * (size >> 20);
+}
 
 void limit(int resource, rlim_t most) {
-  const rlimit both{most, most};
+  // The hard limit is later: it kills without saying why.
+  const rlimit both{most, most + 1};
   ::setrlimit(resource, &both);
 }
 
@@ -39,7 +50,7 @@ int run(int argc, char** argv) {
   }
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, kMaxMemory);
-  limit(RLIMIT_CPU, kMaxSeconds);
+  limit(RLIMIT_CPU, most_seconds(argv[1]));
   const std::string bytes = meshes_as_bytes(argv[1]);
   const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
   return std::fflush(stdout) == 0 && is_written ? 0 : 1;
