@@ -5,11 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "mesh/cut_face.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/join_points.hpp"
 
 namespace graycube {
 namespace {
@@ -134,11 +136,13 @@ MeshFault open_fault(const TriangleMesh& mesh, const MeshEdges& edges, const Mes
   const std::string many =
       counted(edges.unbalanced_count(), "edge", "edges") + " of " + std::to_string(edges.count());
   if (uses.forward + uses.backward == 1) {
-    return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)"};
+    return {"not closed: " + where + " belongs to one face only (as " + many + " do in some way)",
+            true};
   }
   return {"not a closed surface: " + where + " is used by " + std::to_string(uses.forward) +
-          " of its faces one way and by " + std::to_string(uses.backward) + " the other (" + many +
-          " are wrong)"};
+              " of its faces one way and by " + std::to_string(uses.backward) + " the other (" +
+              many + " are wrong)",
+          true};
 }
 
 /// Drops the points that no triangle uses, and numbers the others in the order of their first use.
@@ -157,31 +161,32 @@ void renumber(TriangleMesh& mesh) {
   mesh.points = std::move(points);
 }
 
-/// Makes the orientation consistent and outward, or says why that can't be done.
-std::variant<TriangleMesh, MeshFault> oriented(TriangleMesh mesh) {
-  std::erase_if(mesh.triangles, has_equal_corners);
-  if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
-  MeshEdges edges(mesh.triangles);
-  if (edges.unbalanced_count() > 0) {
-    const auto contradiction = agree_on_orientation(mesh.triangles);
-    if (contradiction) {
-      return MeshFault{"the surface has no inside: its faces can't be turned to agree at " +
-                       text_of_edge(mesh, *contradiction)};
-    }
-    edges = MeshEdges(mesh.triangles);
-    if (edges.unbalanced_count() > 0)
-      return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
+/// Turns faces until every edge is used as often one way as the other, or says why that can't be
+/// done.
+std::optional<MeshFault> fault_of_edges(TriangleMesh& mesh) {
+  if (MeshEdges(mesh.triangles).unbalanced_count() == 0) return std::nullopt;
+  const auto contradiction = agree_on_orientation(mesh.triangles);
+  if (contradiction) {
+    return MeshFault{"the surface has no inside: its faces can't be turned to agree at " +
+                     text_of_edge(mesh, *contradiction)};
   }
-  if (volume(mesh) < 0) turn_inside_out(mesh);
-  renumber(mesh);
-  return mesh;
+  const MeshEdges edges(mesh.triangles);
+  if (edges.unbalanced_count() == 0) return std::nullopt;
+  return open_fault(mesh, edges, *edges.first_unbalanced(mesh.triangles));
 }
 
-}  // namespace
+/// Makes the orientation consistent and outward, or says why that can't be done.
+std::optional<MeshFault> orient(TriangleMesh& mesh) {
+  std::erase_if(mesh.triangles, has_equal_corners);
+  if (mesh.triangles.empty()) return MeshFault{"no face encloses anything"};
+  if (auto fault = fault_of_edges(mesh)) return fault;
+  if (volume(mesh) < 0) turn_inside_out(mesh);
+  renumber(mesh);
+  return std::nullopt;
+}
 
-std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
-  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
-  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+/// The mesh of faces and points that are in order.
+std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygons) {
   Welder weld(polygons.points);
   std::vector<std::uint32_t> corners = polygons.corners;
   for (std::uint32_t& c : corners) c = weld[c];
@@ -197,7 +202,42 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons) {
     if (face.size() >= 3) cut_face(mesh.points, face, mesh.triangles);
     begin = end;
   }
-  return oriented(std::move(mesh));
+  if (auto fault = orient(mesh)) return *std::move(fault);
+  return mesh;
+}
+
+/// Moves corners to the points that they become when points within a distance are joined.
+void join(std::span<const Vec3> points, double distance, std::span<std::uint32_t> corners) {
+  std::vector<std::uint32_t> used(corners.begin(), corners.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const auto number = joined_points(points, used, distance);
+  for (std::uint32_t& c : corners) c = number[c];
+}
+
+/// The distance within which corners differ by rounding.
+double rounding_of(std::span<const Vec3> points, std::span<const std::uint32_t> corners) {
+  double largest = 0;
+  for (const std::uint32_t i : corners) largest = std::max(largest, max_abs(points[i]));
+  return kRoundingShare * largest;
+}
+
+}  // namespace
+
+std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons, double join_within) {
+  if (auto fault = fault_of_points(polygons.points)) return *std::move(fault);
+  if (auto fault = fault_of_faces(polygons)) return *std::move(fault);
+  // A mesh that is closed as written keeps all of its points, however close they are.
+  auto as_written = cut_and_oriented(polygons);
+  if (std::holds_alternative<TriangleMesh>(as_written)) return as_written;
+  for (const double distance : {rounding_of(polygons.points, polygons.corners), join_within}) {
+    if (!(distance > 0)) continue;
+    PolygonMesh joined = polygons;
+    join(joined.points, distance, joined.corners);
+    auto closed = cut_and_oriented(joined);
+    if (std::holds_alternative<TriangleMesh>(closed)) return closed;
+  }
+  return as_written;
 }
 
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
@@ -216,7 +256,14 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
     }
   }
   triangles.points = weld.take();
-  return oriented(std::move(triangles));
+  auto fault = orient(triangles);
+  if (!fault) return triangles;
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : triangles.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  join(triangles.points, rounding_of(triangles.points, corners), corners);
+  for (std::size_t i = 0; i < corners.size(); ++i) triangles.triangles[i / 3][i % 3] = corners[i];
+  if (orient(triangles)) return *std::move(fault);
+  return triangles;
 }
 
 void turn_inside_out(TriangleMesh& mesh) {

@@ -30,6 +30,8 @@ struct PolygonMesh {
 /// Why polygons don't enclose a solid; begins in lower case, for "mesh: …".
 struct MeshFault {
   std::string why;
+  /// Edges are open, which mesh/repair_mesh.hpp may mend.
+  bool is_open = false;
 };
 
 /// The closed mesh: points with bitwise equal coordinates become one (−0 is 0), points that no face
@@ -38,10 +40,15 @@ struct MeshFault {
 /// their neighbours. A mesh whose volume is negative is turned inside out as a whole. A result
 /// given to this function again comes back unchanged.
 ///
+/// A mesh that has no inside as it is written is tried again with points joined that are within
+/// kRoundingShare (mesh/join_points.hpp) of the largest coordinate, and then within `join_within`:
+/// programs compute a corner in two ways. The fault is that of the mesh as written.
+///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
 /// contradicting edges.
-std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons);
+std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons,
+                                                  double join_within = 0);
 /// Like closed_mesh() above, for triangles.
 std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles);
 

@@ -1,28 +1,39 @@
 #include "mesh/cut_face.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "mesh/delaunay_flips.hpp"
 
 namespace graycube {
 namespace {
 
-struct Flat {
-  double x, y;
-};
+using Flat = FacePoint;
+
+/// A face counts as flat if no corner is further from its plane than this part of its extent:
+/// corners of flat faces are off by that much once they are written with six digits.
+constexpr double kFlatWithin = 4e-6;
 
 /// Twice the signed area of a triangle in the plane.
 double turn(const Flat& a, const Flat& b, const Flat& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The face's corners, seen along an axis from the side from which it turns counterclockwise.
-std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
-  Vec3 normal;  // Newell's
+Vec3 newell_normal(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
+  Vec3 normal;
   const Vec3 middle = points[face.front()];
   for (std::size_t i = 0; i < face.size(); ++i) {
     const Vec3 a = points[face[i]] - middle;
     const Vec3 b = points[face[(i + 1) % face.size()]] - middle;
     normal = normal + cross(a, b);
   }
+  return normal;
+}
+
+/// The face's corners, seen along an axis from the side from which it turns counterclockwise.
+std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face,
+                            const Vec3& normal) {
   int axis = 0;
   for (int a = 1; a < 3; ++a) {
     if (std::fabs(normal[a]) > std::fabs(normal[axis])) axis = a;
@@ -32,6 +43,65 @@ std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::u
   std::vector<Flat> flat;
   flat.reserve(face.size());
   for (const std::uint32_t i : face) flat.push_back({points[i][u], points[i][v]});
+  return flat;
+}
+
+/// Whether the face is bent by more than rounding. One without an area is not.
+bool is_bent(std::span<const Vec3> points, std::span<const std::uint32_t> face,
+             const Vec3& normal) {
+  const double area = length(normal);
+  if (!(area > 0) || !std::isfinite(area)) return false;
+  const Vec3 first = points[face.front()];
+  double extent = 0, lowest = 0, highest = 0;
+  for (const std::uint32_t i : face) {
+    const Vec3 d = points[i] - first;
+    const double height = dot(d, normal) / area;
+    extent = std::max(extent, max_abs(d));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  return highest - lowest > kFlatWithin * extent;
+}
+
+/// The direction along which OpenSCAD looks at a bent face to cut it: across the longest of the
+/// face's three extents and the corner that is furthest from it.
+Vec3 widest_normal(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
+  std::array<Vec3, 3> low, high;
+  low.fill(points[face.front()]);
+  high = low;
+  for (const std::uint32_t i : face) {
+    for (int a = 0; a < 3; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (points[i][a] < low[k][a]) low[k] = points[i];
+      if (points[i][a] > high[k][a]) high[k] = points[i];
+    }
+  }
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    const auto extent = [&](std::size_t i) {
+      const int a = static_cast<int>(i);
+      return high[i][a] - low[i][a];
+    };
+    if (extent(k) > extent(longest)) longest = k;
+  }
+  Vec3 widest;
+  const Vec3 line = low[longest] - high[longest];
+  for (const std::uint32_t i : face) {
+    const Vec3 normal = cross(line, points[i] - high[longest]);
+    if (dot(normal, normal) > dot(widest, widest)) widest = normal;
+  }
+  return widest;
+}
+
+/// The same as flattened(), for a bent face.
+std::vector<Flat> flattened_bent(std::span<const Vec3> points,
+                                 std::span<const std::uint32_t> face) {
+  std::vector<Flat> flat = flattened(points, face, widest_normal(points, face));
+  double area = 0;
+  for (std::size_t i = 2; i < flat.size(); ++i) area += turn(flat[0], flat[i - 1], flat[i]);
+  if (area < 0) {
+    for (Flat& p : flat) p.x = -p.x;
+  }
   return flat;
 }
 
@@ -99,6 +169,20 @@ class EarCutter {
   std::vector<std::uint32_t> ring_;
 };
 
+/// What the surface is depends on where a bent face is cut.
+void cut_bent(std::span<const std::uint32_t> face, const std::vector<Flat>& flat,
+              std::vector<Triangle>& triangles) {
+  const std::size_t first = triangles.size();
+  EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    triangles.push_back({a, b, c});
+  });
+  const std::span<Triangle> own = std::span(triangles).subspan(first);
+  flip_to_delaunay(flat, own);
+  for (Triangle& t : own) {
+    for (std::uint32_t& corner : t) corner = face[corner];
+  }
+}
+
 }  // namespace
 
 void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
@@ -107,7 +191,9 @@ void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
     triangles.push_back({face[0], face[1], face[2]});
     return;
   }
-  const std::vector<Flat> flat = flattened(points, face);
+  const Vec3 normal = newell_normal(points, face);
+  if (is_bent(points, face, normal)) return cut_bent(face, flattened_bent(points, face), triangles);
+  const std::vector<Flat> flat = flattened(points, face, normal);
   if (is_convex(flat)) {
     for (std::size_t i = 2; i < face.size(); ++i)
       triangles.push_back({face[0], face[i - 1], face[i]});

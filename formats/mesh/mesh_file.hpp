@@ -26,13 +26,4 @@ bool is_mesh_file(const std::filesystem::path& path);
 /// Reads the file, by its name's ending.
 std::variant<MeshShape, MeshFault> read_mesh_file(const std::filesystem::path& path);
 
-/// Both say how many digits their numbers have: as the longest is written, seven in binary files.
-///
-/// STL: facets' normals are ignored, the order of their corners counts. Faults of ASCII files begin
-/// with "line N: ".
-std::variant<PolygonMesh, MeshFault> read_stl(std::string_view bytes);
-/// OFF with `OFF` at its start; comments and colours of faces are skipped. Faults begin with "line
-/// N: ".
-std::variant<PolygonMesh, MeshFault> read_off(std::string_view text);
-
 }  // namespace graycube

@@ -8,6 +8,7 @@
 #include "formats/openscad/flat/similarity.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
 #include "formats/openscad/language/arguments.hpp"
+#include "formats/openscad/sweep_arguments.hpp"
 #include "formats/openscad/sweep_mesh.hpp"
 #include "geometry/portable_math.hpp"
 #include "scene/flat_solids.hpp"
@@ -65,7 +66,24 @@ CsgNode extruded_disk(const FlatMap& map, double low, double high) {
   return node;
 }
 
-/// One prism for each connected part, so that none has more corners than a scene file allows.
+/// The prism of a figure that has too many corners for one of a scene file.
+std::optional<CsgNode> extruded_mesh(const FlatLoops& part, double low, double high,
+                                     ScadImport& import, int line) {
+  LinearSweep sweep;
+  sweep.low = low;
+  sweep.high = high;
+  const auto meshes = swept(part, sweep);
+  if (!meshes || meshes->size() != 1) {
+    import.report.warning(line, "a figure is left out: its outlines cross");
+    return std::nullopt;
+  }
+  ScadModule extrusion;
+  extrusion.name = "linear_extrude";
+  extrusion.line = line;
+  return mesh_leaf(meshes->front(), extrusion, import.report);
+}
+
+/// One prism for each connected part, so that few have more corners than a scene file allows.
 std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, double high,
                                         ScadImport& import, int line) {
   std::vector<CsgNode> prisms;
@@ -79,9 +97,9 @@ std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, doub
       return std::nullopt;
     }
     if (corners > kMaxPrismPoints) {
-      import.report.error(line,
-                          "a figure of more than " + std::to_string(kMaxPrismPoints) + " corners");
-      return std::nullopt;
+      auto mesh = extruded_mesh(part, low, high, import, line);
+      if (mesh) prisms.push_back(std::move(*mesh));
+      continue;
     }
     // Slivers left by rounding may be lost.
     if (prism_of(part, low, high)) prisms.push_back(leaf(prism_shape(part, low, high)));
@@ -157,35 +175,6 @@ std::optional<FlatShape> figure_of(const ScadModule& module, ScadImport& import)
   return flat_union(module.children, {}, import, module.line);
 }
 
-std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& import) {
-  ScadArguments arguments(module, import.report);
-  LinearSweep sweep;
-  const double height = arguments.number("height", 0, 100);
-  const bool center = arguments.boolean("center", -1);
-  sweep.twist = arguments.number("twist", -1, 0);
-  if (arguments.has("slices")) {
-    sweep.slices = static_cast<int>(
-        std::clamp(arguments.number("slices", -1, 1), 1.0, double{kMaxOpenscadSides}));
-  }
-  sweep.fineness = fineness_of(arguments);
-  if (const ScadValue* value = module.argument("scale")) {
-    const double* both = value->number();
-    const auto pair = ScadArguments::pair(*value);
-    if (both != nullptr) sweep.scale = {*both, *both};
-    if (pair) sweep.scale = *pair;
-    if (both == nullptr && !pair) arguments.fail("scale must be a number or two numbers");
-  }
-  sweep.scale = {std::max(sweep.scale.x, 0.0), std::max(sweep.scale.y, 0.0)};
-  const double biggest = std::max({std::fabs(sweep.twist), sweep.scale.x, sweep.scale.y});
-  if (arguments.ok() && !(biggest <= kMaxOpenscadCoordinate))
-    arguments.fail("twist and scale must be finite");
-  if (arguments.empty_unless(std::isfinite(height) && height > 0, "its height is not positive"))
-    return std::nullopt;
-  sweep.low = center ? -0.5 * height : 0;
-  sweep.high = center ? 0.5 * height : height;
-  return sweep;
-}
-
 /// A convex figure that shrinks evenly sweeps the hull of its two ends: a cone for a circle.
 std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep) {
   if (sweep.scale.x != sweep.scale.y) return std::nullopt;
@@ -202,19 +191,17 @@ std::optional<CsgNode> tapered(const FlatShape& shape, const LinearSweep& sweep)
   return std::move(solid->node);
 }
 
-std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions,
-                                       const ScadModule& module, ScadImport& import) {
+/// The meshes as a union; nothing, with a warning, where the outlines cross one another.
+std::optional<CsgNode> united(const std::optional<std::vector<PolygonMesh>>& meshes,
+                              const ScadModule& module, ScadImport& import) {
+  if (!meshes) {
+    import.report.warning(module.line,
+                          module.name + "() is left out: outlines of its figure cross");
+    return std::nullopt;
+  }
   std::vector<CsgNode> parts;
-  for (const SweptRegion& region : regions) {
-    auto whole = mesh_leaf(region.whole, module, import.report);
-    if (!whole) continue;
-    std::vector<CsgNode> children;
-    children.push_back(std::move(*whole));
-    for (const PolygonMesh& hole : region.holes) {
-      if (auto inner = mesh_leaf(hole, module, import.report))
-        children.push_back(std::move(*inner));
-    }
-    parts.push_back(operation(Operation::kDifference, std::move(children)));
+  for (const PolygonMesh& mesh : *meshes) {
+    if (auto part = mesh_leaf(mesh, module, import.report)) parts.push_back(std::move(*part));
   }
   if (parts.empty()) return std::nullopt;
   return operation(Operation::kUnion, std::move(parts));
@@ -223,53 +210,38 @@ std::optional<CsgNode> mesh_of_regions(const std::vector<SweptRegion>& regions,
 /// False, after reporting, for a mesh of too many facets.
 bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
                    ScadImport& import) {
-  std::size_t corners = 0, most = 0;
-  for (const FlatLoop& loop : loops) {
-    corners += loop.size();
-    most = std::max(most, loop.size());
-  }
-  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets &&
-      most <= kMaxFaceCorners)
-    return true;
-  import.report.error(module.line, module.name + "(): more than " +
-                                       std::to_string(kMaxOpenscadFacets) +
-                                       " facets, or an outline of more than " +
-                                       std::to_string(kMaxFaceCorners) + " corners");
+  std::size_t corners = 0;
+  for (const FlatLoop& loop : loops) corners += loop.size();
+  if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets) return true;
+  import.report.error(
+      module.line, module.name + "(): more than " + std::to_string(kMaxOpenscadFacets) + " facets");
   return false;
 }
 
-std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
-  const auto sweep = linear_sweep(module, import);
-  const auto shape = sweep ? figure_of(module, import) : std::nullopt;
+std::optional<CsgNode> upright(const LinearSweep& sweep, const ScadModule& module,
+                               ScadImport& import) {
+  const auto shape = figure_of(module, import);
   if (!shape) return std::nullopt;
-  if (sweep->is_straight()) return extruded(*shape, sweep->low, sweep->high, import, module.line);
-  if (sweep->twist == 0 && shape->has_curves()) {
-    if (auto cone = tapered(*shape, *sweep)) return cone;
+  if (sweep.is_straight()) return extruded(*shape, sweep.low, sweep.high, import, module.line);
+  if (sweep.twist == 0 && shape->has_curves()) {
+    if (auto cone = tapered(*shape, sweep)) return cone;
   }
   if (shape->has_curves())
     import.warn_once(module.line,
                      "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);
-  if (!loops || !is_mesh_small(*loops, slices_of(*loops, *sweep), module, import))
+  if (!loops || !is_mesh_small(*loops, slices_of(*loops, sweep), module, import))
     return std::nullopt;
-  return mesh_of_regions(swept(*loops, *sweep), module, import);
+  return united(swept(*loops, sweep), module, import);
 }
 
-std::optional<TurnSweep> turn_sweep(const ScadModule& module, ScadImport& import,
-                                    const FlatLoops& loops) {
-  ScadArguments arguments(module, import.report);
-  TurnSweep sweep;
-  sweep.angle = arguments.number("angle", -1, 360);
-  sweep.fineness = fineness_of(arguments);
-  if (!(sweep.angle > -360 && sweep.angle <= 360)) sweep.angle = 360;
-  const auto [lo, hi] = flat_bounds(loops);
-  const bool one_side =
-      !(hi.x > 0 && lo.x < 0) || std::min(hi.x, -lo.x) <= 1e-9 * std::max(hi.x, -lo.x);
-  if (arguments.empty_unless(one_side, "its figure lies on both sides of the axis"))
-    return std::nullopt;
-  if (arguments.empty_unless(sweep.angle != 0, "its angle is 0")) return std::nullopt;
-  sweep.mirrored = hi.x < -lo.x;
-  return sweep;
+std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
+  const auto sweep = linear_sweep(module, import);
+  auto solid = sweep ? upright(*sweep, module, import) : std::nullopt;
+  if (!solid || sweep->lean == FlatPoint{}) return solid;
+  solid->transform =
+      solid->transform ? compose(leaning(*sweep), *solid->transform) : leaning(*sweep);
+  return solid;
 }
 
 std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
@@ -280,7 +252,7 @@ std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
   // If few sides were asked for, they are intended.
   if (import.options.facets || asked_sides(sweep->fineness) > 0) {
     if (!is_mesh_small(*loops, steps_of(*loops, *sweep), module, import)) return std::nullopt;
-    return mesh_of_regions(turned_mesh(*loops, *sweep), module, import);
+    return united(turned_mesh(*loops, *sweep), module, import);
   }
   if (sweep->mirrored) {
     const FlatMap mirror{{{{-1, 0, 0}, {0, 1, 0}}}};
@@ -289,7 +261,7 @@ std::optional<CsgNode> rotated(const ScadModule& module, ScadImport& import) {
   }
   auto solid = turned_shape(*shape, import, module.line);
   if (!solid || sweep->angle == 360) return solid;
-  const double start = sweep->mirrored ? 180 : 0;
+  const double start = sweep->start + (sweep->mirrored ? 180 : 0);
   std::vector<CsgNode> both;
   both.push_back(std::move(*solid));
   both.push_back(wedge(start + std::min(sweep->angle, 0.0), start + std::max(sweep->angle, 0.0)));
@@ -326,7 +298,7 @@ std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& impo
 
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep) {
   const auto along = linear_sweep(module, import);
-  if (along && along->twist != 0) return false;
+  if (along && (along->twist != 0 || !(along->lean == FlatPoint{}))) return false;
   auto shape = along ? figure_of(module, import) : std::nullopt;
   if (shape) sweep = PlainSweep{*std::move(shape), along->low, along->high, along->scale};
   return true;
@@ -361,16 +333,18 @@ bool sweep_corners(const ScadModule& module, ScadImport& import, std::vector<Vec
   const auto shape = figure_of(module, import);
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   if (!loops) return false;
-  std::vector<SweptRegion> regions;
+  std::optional<std::vector<PolygonMesh>> meshes;
   if (along) {
     if (!is_mesh_small(*loops, slices_of(*loops, *along), module, import)) return false;
-    regions = swept(*loops, *along);
+    meshes = swept(*loops, *along);
   } else if (const auto around = turn_sweep(module, import, *loops)) {
     if (!is_mesh_small(*loops, steps_of(*loops, *around), module, import)) return false;
-    regions = turned_mesh(*loops, *around);
+    meshes = turned_mesh(*loops, *around);
   }
-  for (const SweptRegion& region : regions) {
-    corners.insert(corners.end(), region.whole.points.begin(), region.whole.points.end());
+  if (!meshes) return false;
+  const Affine lean = along ? leaning(*along) : Affine{};
+  for (const PolygonMesh& mesh : *meshes) {
+    for (const Vec3& p : mesh.points) corners.push_back(lean.point(p));
   }
   return true;
 }

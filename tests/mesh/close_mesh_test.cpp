@@ -1,6 +1,7 @@
 // Turns polygons into closed meshes.
 #include "mesh/close_mesh.hpp"
 
+#include <cmath>
 #include <set>
 
 #include "catch.hpp"
@@ -174,4 +175,52 @@ TEST_CASE("a face that crosses itself or is bent leaves the mesh closed") {
   bow.add_face(face);
   bow.add_face(back);
   CHECK(fault_of(bow).empty());
+}
+
+TEST_CASE("bent faces are cut along the Delaunay diagonal of the face as seen along an axis") {
+  // A kite whose ends are raised: only the short diagonal is Delaunay, whichever corner is first.
+  const std::vector<Vec3> kite{{-3, 0, 0.5}, {0, -1, 0}, {3, 0, 0.5}, {0, 1, 0}};
+  for (std::uint32_t turn = 0; turn < 4; ++turn) {
+    std::vector<std::uint32_t> face;
+    for (std::uint32_t i = 0; i < 4; ++i) face.push_back((turn + i) % 4);
+    std::vector<Triangle> triangles;
+    cut_face(kite, face, triangles);
+    REQUIRE(triangles.size() == 2);
+    for (const Triangle& t : triangles) {
+      const std::set<std::uint32_t> corners(t.begin(), t.end());
+      CHECK(corners.count(1) + corners.count(3) == 2);
+    }
+  }
+}
+
+TEST_CASE("a bent fan of many corners has no corner within the circle of a triangle") {
+  std::vector<Vec3> rim;
+  std::vector<std::uint32_t> face;
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    // On an ellipse, so that few diagonals are Delaunay.
+    const double angle = 2 * 3.141592653589793 * i / 16;
+    rim.push_back({4 * std::cos(angle), std::sin(angle), i % 2 == 0 ? 0.3 : 0});
+    face.push_back(i);
+  }
+  std::vector<Triangle> triangles;
+  cut_face(rim, face, triangles);
+  REQUIRE(triangles.size() == 14);
+  for (const auto& [a, b, c] : triangles) {
+    for (std::uint32_t d = 0; d < 16; ++d) {
+      const auto row = [&](std::uint32_t i) {
+        const double x = rim[i].x - rim[d].x, y = rim[i].y - rim[d].y;
+        return Vec3{x, y, x * x + y * y};
+      };
+      CHECK(dot(row(a), cross(row(b), row(c))) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("corners further apart are joined only within a distance that is asked for") {
+  PolygonMesh gap = box_polygons({0, 0, 0}, {1, 1, 1});
+  gap.points.push_back({1e-7, 0, 0});
+  gap.corners[0] = 8;
+  CHECK(contains_text(fault_of(gap), "not closed"));
+  CHECK(std::holds_alternative<TriangleMesh>(closed_mesh(gap, 1e-6)));
+  CHECK(std::holds_alternative<MeshFault>(closed_mesh(gap, 1e-8)));
 }

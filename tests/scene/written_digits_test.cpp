@@ -6,7 +6,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "formats/mesh/mesh_file.hpp"
+#include "formats/mesh/off.hpp"
 #include "formats/openscad/reading.hpp"
 #include "mesh/samples.hpp"
 

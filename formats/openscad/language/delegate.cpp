@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "formats/mesh/mesh_file.hpp"
+#include "formats/mesh/off.hpp"
 #include "formats/openscad/language/program.hpp"
 #include "geometry/aabb.hpp"
 

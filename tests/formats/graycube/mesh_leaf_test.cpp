@@ -9,7 +9,8 @@
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/scene_text.hpp"
 #include "formats/graycube/write_scene.hpp"
-#include "formats/mesh/mesh_file.hpp"
+#include "formats/mesh/off.hpp"
+#include "formats/mesh/stl.hpp"
 #include "formats/pov/write_pov.hpp"
 #include "mesh/samples.hpp"
 

@@ -1,0 +1,93 @@
+#include "mesh/delaunay_flips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+/// The part of its terms' sum below which a determinant may be rounding.
+constexpr double kRounding = 1e-12;
+
+double turn(const FacePoint& a, const FacePoint& b, const FacePoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Whether d lies within the circle through a, b, c, by more than rounding.
+bool is_in_circle(const FacePoint& a, const FacePoint& b, const FacePoint& c, const FacePoint& d) {
+  const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y;
+  const double cx = c.x - d.x, cy = c.y - d.y;
+  const double terms[3] = {(ax * ax + ay * ay) * (bx * cy - by * cx),
+                           (bx * bx + by * by) * (cx * ay - cy * ax),
+                           (cx * cx + cy * cy) * (ax * by - ay * bx)};
+  const double size = std::fabs(terms[0]) + std::fabs(terms[1]) + std::fabs(terms[2]);
+  return terms[0] + terms[1] + terms[2] > kRounding * size;
+}
+
+class Flips {
+ public:
+  Flips(std::span<const FacePoint> corners, std::span<Triangle> triangles)
+      : corners_(corners), triangles_(triangles) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) note_sides(t);
+  }
+
+  void run() {
+    std::vector<Side> open;
+    for (const auto& [side, t] : triangle_at_) {
+      if (side.first < side.second) open.push_back(side);
+    }
+    // Each flip lowers the triangulation; the limit is for rounding that would go in circles.
+    std::size_t left = triangles_.size() * triangles_.size() + triangles_.size();
+    while (!open.empty() && left-- > 0) {
+      const Side side = open.back();
+      open.pop_back();
+      flip(side, open);
+    }
+  }
+
+ private:
+  using Side = std::pair<std::uint32_t, std::uint32_t>;
+
+  void note_sides(std::uint32_t t) {
+    const Triangle& c = triangles_[t];
+    for (std::size_t i = 0; i < 3; ++i) triangle_at_[{c[i], c[(i + 1) % 3]}] = t;
+  }
+  static std::uint32_t opposite(const Triangle& t, const Side& side) {
+    return t[0] != side.first && t[0] != side.second   ? t[0]
+           : t[1] != side.first && t[1] != side.second ? t[1]
+                                                       : t[2];
+  }
+
+  void flip(const Side& side, std::vector<Side>& open) {
+    const auto [a, b] = side;
+    const auto left = triangle_at_.find(side), right = triangle_at_.find({b, a});
+    if (left == triangle_at_.end() || right == triangle_at_.end()) return;
+    const std::uint32_t t = left->second, u = right->second;
+    const std::uint32_t c = opposite(triangles_[t], side), d = opposite(triangles_[u], side);
+    const FacePoint &pa = corners_[a], &pb = corners_[b], &pc = corners_[c], &pd = corners_[d];
+    if (!(turn(pc, pa, pd) > 0) || !(turn(pd, pb, pc) > 0)) return;
+    if (!is_in_circle(pa, pb, pc, pd)) return;
+    triangle_at_.erase(left);
+    triangle_at_.erase(right);
+    triangles_[t] = {c, a, d};
+    triangles_[u] = {d, b, c};
+    note_sides(t);
+    note_sides(u);
+    for (const Side& outer : {Side{c, a}, Side{a, d}, Side{d, b}, Side{b, c}})
+      open.push_back(outer);
+  }
+
+  std::span<const FacePoint> corners_;
+  std::span<Triangle> triangles_;
+  std::map<Side, std::uint32_t> triangle_at_;
+};
+
+}  // namespace
+
+void flip_to_delaunay(std::span<const FacePoint> corners, std::span<Triangle> triangles) {
+  Flips(corners, triangles).run();
+}
+
+}  // namespace graycube
