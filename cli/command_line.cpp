@@ -12,7 +12,7 @@
 #include "cli/options/completion.hpp"
 #include "cli/options/man_page.hpp"
 #include "cli/options/shared_options.hpp"
-#include "spelling.hpp"
+#include "cli/options/usage.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
@@ -22,12 +22,13 @@ namespace {
 constexpr std::uint32_t kMaxCores = 1u << 16;
 /// Rays that take about 100 GB of memory.
 constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
+constexpr std::uint32_t kMaxJobsShown = 1'000'000;
 
 /// All commands; after parsing, the chosen command's values are in its declaration.
 class Parser {
  public:
   Parser() {
-    app_.set_version_flag("--version", std::string("graycube ") + kVersion, "Print the version");
+    app_.set_version_flag("-v,--version", std::string("graycube ") + kVersion, "Print the version");
     app_.set_help_flag("-h,--help", "Print this help");
     app_.require_subcommand(1);
     declare_rendering();
@@ -51,17 +52,16 @@ class Parser {
     return names;
   }
 
-  Command parse(int argc, const char* const* argv) {
+  Command parse(std::vector<std::string> words) {
     try {
-      app_.parse(argc, argv);
+      std::reverse(words.begin(), words.end());  // as CLI11 takes them
+      app_.parse(std::move(words));
     } catch (const CLI::CallForVersion& e) {
       return PrintCommand{std::string(e.what()) + "\n"};
     } catch (const CLI::Success&) {
       return PrintCommand{app_.help()};
-    } catch (const CLI::ExtrasError& e) {
-      throw unexpected(e);
     } catch (const CLI::ParseError& e) {
-      throw usage_failure("", e.what());
+      throw usage_failure_of(app_, e);
     }
     return chosen_();
   }
@@ -135,6 +135,7 @@ class Parser {
                 "Evaluator threads per node (default: the farm's)");
     add_job_options(options, submit.options);
     options.flag("--quiet,-q", submit.is_quiet, "With --wait: no progress");
+    options.flag("--json", submit.as_json, "The id, and with --wait progress, as lines of JSON");
     options.flag("--wait", submit.waits, "Wait for the end, with progress");
     add_connect(options, submit.connect);
   }
@@ -154,18 +155,38 @@ class Parser {
   }
 
   void declare_clients() {
-    declare_client<JobsCommand>("jobs", "List a farm's jobs");
+    declare_client<JobsCommand>(
+        "jobs", "List a farm's jobs", [](Declaring& options, JobsCommand& jobs) {
+          options.flag("--json", jobs.as_json, "As one line of JSON");
+          options.option({.names = "--limit",
+                          .value = "N",
+                          .help = "At most so many (default " + std::to_string(jobs.limit) + ")"},
+                         [&jobs](const std::string& text) {
+                           jobs.limit = parse_count("--limit", text, 1, kMaxJobsShown);
+                         });
+          options.option(
+              {.names = "--skip", .value = "N", .help = "Without the first so many (default 0)"},
+              [&jobs](const std::string& text) {
+                jobs.skip = parse_count("--skip", text, 0, kMaxJobsShown);
+              });
+        });
     declare_client<StatusCommand>("status", "How a job is getting on",
                                   [](Declaring& options, StatusCommand& status) {
                                     options.flag("--json", status.as_json, "As one line of JSON");
                                   });
-    declare_client<WatchCommand>("watch", "Follow a job to its end");
+    declare_client<WatchCommand>(
+        "watch", "Follow a job to its end", [](Declaring& options, WatchCommand& watch) {
+          options.flag("--json", watch.as_json, "Progress, and the job's end, as lines of JSON");
+        });
     declare_client<CancelCommand>("cancel", "Stop a job");
     declare_client<FetchCommand>("fetch", "Get a job's picture",
                                  [](Declaring& options, FetchCommand& fetch) {
                                    add_outputs(options, fetch.outputs, "The picture", true);
                                  });
-    declare_client<NodesCommand>("nodes", "List a farm's nodes");
+    declare_client<NodesCommand>("nodes", "List a farm's nodes",
+                                 [](Declaring& options, NodesCommand& nodes) {
+                                   options.flag("--json", nodes.as_json, "As one line of JSON");
+                                 });
     declare_client<DownCommand>("down", "Stop a farm");
   }
 
@@ -175,6 +196,7 @@ class Parser {
     Declaring& options = declared.options;
     add_scene(options, check.scene);
     add_model_choice(options, check.choice);
+    options.flag("--json", check.as_json, "What is found as one line of JSON");
   }
 
   void declare_compare() {
@@ -183,7 +205,7 @@ class Parser {
     Declaring& options = declared.options;
     compare.nodes = default_nodes();
     add_scene(options, compare.scene);
-    add_import_options(options, compare.choice);
+    add_model_choice(options, compare.choice);
     add_nodes(options, compare.nodes);
     add_common_options(options, compare.options);
     add_table_options(options, compare.as_json, compare.is_quiet, compare.plot);
@@ -268,42 +290,11 @@ class Parser {
     page->callback([this] { chosen_ = [this] { return PrintCommand{man_page(described_)}; }; });
   }
 
-  /// The failure for an argument that no option of the command takes.
-  Failure unexpected(const CLI::ExtrasError& e) {
-    const auto chosen = app_.get_subcommands();
-    const CLI::App* sub = chosen.empty() ? &app_ : chosen.back();
-    const auto extras = sub->remaining();
-    if (extras.empty()) return usage_failure("", e.what());
-    const std::string written = extras.front().substr(0, extras.front().find('='));
-    if (!written.starts_with("-")) {
-      return usage_failure(sub->get_name(), "unexpected argument " + graycube::quoted(written));
-    }
-    std::vector<std::string> names;
-    for (const CLI::Option* o : sub->get_options()) {
-      for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
-    }
-    const std::vector<std::string_view> candidates(names.begin(), names.end());
-    return usage_failure(sub->get_name(), "unknown option " + graycube::quoted(written) +
-                                              did_you_mean(written, candidates));
-  }
-
   CLI::App app_{"Graycube renders solid models by ray tracing, on a hypercube of processes.",
                 "graycube"};
   CommandLineDescription described_;
   std::function<Command()> chosen_;
 };
-
-/// Gives a clearer message than CLI11 for an unexpected argument or a missing command.
-void check_command_name(int argc, const char* const* argv, Parser& parser) {
-  if (argc < 2) throw usage_failure("", "expected a command; see 'graycube --help'");
-  const std::string_view written = argv[1];
-  if (written.starts_with("-")) return;
-  const auto names = parser.command_names();
-  if (std::find(names.begin(), names.end(), written) != names.end()) return;
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  throw usage_failure(
-      "", "unknown command " + graycube::quoted(written) + did_you_mean(written, candidates));
-}
 
 /// Finds out the endpoint at which client commands look for the farm.
 void resolve_endpoint(std::string& endpoint) {
@@ -337,15 +328,23 @@ concept IsQuietImport = requires(C command) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   Parser parser;
-  check_command_name(argc, argv, parser);
-  Command command = parser.parse(argc, argv);
-  std::visit(
-      [](auto& c) {
-        if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect);
-        if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
-      },
-      command);
-  return command;
+  const std::vector<std::string> words = words_of(argc, argv);
+  const auto names = parser.command_names();
+  const bool is_known =
+      !words.empty() && std::find(names.begin(), names.end(), words.front()) != names.end();
+  try {
+    check_command_name(words, names);
+    Command command = parser.parse(words);
+    std::visit(
+        [](auto& c) {
+          if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect);
+          if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
+        },
+        command);
+    return command;
+  } catch (const Failure& failure) {
+    throw with_help(failure, is_known ? words.front() : "");
+  }
 }
 
 }  // namespace graycube

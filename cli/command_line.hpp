@@ -1,4 +1,5 @@
-// The values of the command line. Only command_line.cpp and options/declaring.cpp know CLI11.
+// The values of the command line. Only command_line.cpp, options/declaring.cpp and
+// options/usage.cpp know CLI11.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +30,7 @@ struct SubmitCommand {
   control::JobOptions options;
   /// 0 for whatever number the farm has.
   std::uint32_t nodes = 0;
-  bool is_quiet = false, waits = false;
+  bool is_quiet = false, waits = false, as_json = false;
 };
 
 struct UpCommand {
@@ -41,6 +42,8 @@ struct UpCommand {
 
 struct JobsCommand {
   std::string connect;
+  bool as_json = false;
+  std::uint32_t limit = 50, skip = 0;
 };
 struct StatusCommand {
   std::string connect;
@@ -50,6 +53,7 @@ struct StatusCommand {
 struct WatchCommand {
   std::string connect;
   std::uint32_t job = 0;
+  bool as_json = false;
 };
 struct CancelCommand {
   std::string connect;
@@ -62,6 +66,7 @@ struct FetchCommand {
 };
 struct NodesCommand {
   std::string connect;
+  bool as_json = false;
 };
 struct DownCommand {
   std::string connect;
@@ -69,6 +74,7 @@ struct DownCommand {
 struct CheckCommand {
   std::string scene;
   ModelChoice choice;
+  bool as_json = false;
 };
 struct CompareCommand {
   std::string scene;

@@ -20,6 +20,7 @@ namespace {
 
 std::atomic<int> noted{0};
 std::atomic<int> holders{0};
+std::atomic<int> companions{0};
 std::atomic<bool> has_terminal_line{false};
 std::array<int, 2> wakeup{-1, -1};
 const char* command = "";
@@ -39,6 +40,30 @@ void write_text(const char* text) {
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
+/// Ends the process by the signal's default action; that of the time limit's doesn't suit.
+void die_of(int signal) {
+  if (signal == SIGALRM) return;
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(signal, &action, nullptr);
+  sigset_t only;
+  ::sigemptyset(&only);
+  ::sigaddset(&only, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
+  ::raise(signal);
+}
+
+/// Stops this process and its companions; goes on when it is continued.
+void on_stop(int) {
+  const int saved_errno = errno;
+  const int group = companions.load();
+  if (group > 0) ::kill(-group, SIGSTOP);
+  ::raise(SIGSTOP);
+  if (group > 0) ::kill(-group, SIGCONT);
+  errno = saved_errno;
+}
+
 /// Calls only functions that a signal handler may call.
 void on_signal(int signal) {
   const int saved_errno = errno;
@@ -50,6 +75,7 @@ void on_signal(int signal) {
       write_text(": ");
       write_text(reason(signal));
       write_text("\n");
+      die_of(signal);
       ::_exit(static_cast<int>(ExitStatus::kFailed));
     }
     int none = 0;
@@ -99,6 +125,29 @@ void throw_if_interrupted() {
   if (const int signal = noted.load(); signal != 0) {
     throw Failure(ExitStatus::kFailed, Problem{command, "", reason(signal)});
   }
+}
+
+int noted_interrupt() { return noted.load(); }
+void forget_interrupt() { noted.store(0); }
+void note_interrupt(int signal) { noted.store(signal); }
+
+void die_of_interrupt() {
+  const int signal = noted.load();
+  if (signal != 0) die_of(signal);
+}
+
+void stop_together_with(int process_group) {
+  companions.store(process_group);
+  if (process_group == 0) return;
+  struct sigaction before {};
+  ::sigaction(SIGTSTP, nullptr, &before);
+  // A shell without job control wants it to be ignored.
+  if (before.sa_handler == SIG_IGN) return;
+  struct sigaction action {};
+  action.sa_handler = on_stop;
+  action.sa_flags = SA_RESTART;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGTSTP, &action, nullptr);
 }
 
 void note_terminal_line(bool is_open) { has_terminal_line.store(is_open); }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "cli/commands/commands.hpp"
+#include "cli/interrupts.hpp"
 #include "geometry/simd.hpp"
 #include "scene/scene_fault.hpp"
 
@@ -47,6 +48,10 @@ int guarded_main(int argc, char** argv) {
     print({"memory", "this process", "there is not enough"});
   } catch (const std::exception& e) {
     print({"internal error", "this process", e.what()});
+  }
+  if (status == ExitStatus::kFailed && noted_interrupt() != 0) {
+    std::fflush(stdout);
+    die_of_interrupt();
   }
   return static_cast<int>(status);
 }

@@ -16,6 +16,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/openscad/model_view.hpp"
 #include "cli/openscad/run.hpp"
+#include "cli/temporary_place.hpp"
 #include "process/temporary_folder.hpp"
 
 namespace graycube {
@@ -25,9 +26,18 @@ namespace fs = std::filesystem;
 
 /// The folder must be removed on an interrupt, too, so interrupts are held while there is one.
 /// Afterwards an importer that is busy with the results may be interrupted at any time.
-struct Workplace {
-  InterruptsHeld held;
-  TemporaryFolder folder;
+class Workplace {
+ public:
+  Workplace() : folder_(checked("graycube-")) {}
+  const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  static const char* checked(const char* prefix) {
+    check_temporary_place();
+    return prefix;
+  }
+  InterruptsHeld held_;
+  TemporaryFolder folder_;
 };
 
 /// The bytes of a file, at most `most`; nothing when there is no such file.
@@ -178,7 +188,7 @@ OpenscadProgram::Result OpenscadProcess::evaluate(const std::string& csg, Format
 std::vector<OpenscadProgram::Result> OpenscadProcess::evaluate_first(std::span<const Part> parts,
                                                                      Format format) {
   const Workplace place;
-  const fs::path& folder = place.folder.path();
+  const fs::path& folder = place.path();
   const fs::path input = folder / "part.csg";
   const fs::path output = folder / (std::string("part") + format_ending(format));
   const bool is_alone = parts.size() == 1;
@@ -218,7 +228,7 @@ std::vector<OpenscadProgram::Result> OpenscadProcess::evaluate_all(std::span<con
 
 OpenscadProgram::Result OpenscadProcess::evaluate_file(const fs::path& scad) {
   const Workplace place;
-  const fs::path& folder = place.folder.path();
+  const fs::path& folder = place.path();
   const fs::path written = folder / "model.csg";
   const std::optional<int> status =
       run(folder, {"-o", written.string(), fs::absolute(scad).string(), "--render", "-D",
@@ -232,7 +242,7 @@ OpenscadProgram::Result OpenscadProcess::evaluate_file(const fs::path& scad) {
 
 std::string OpenscadProcess::evaluate_with(const fs::path& scad, std::string_view definitions) {
   const Workplace place;
-  const fs::path& folder = place.folder.path();
+  const fs::path& folder = place.path();
   const fs::path written = folder / "model.csg";
   const std::optional<int> status =
       run(folder, {"-o", written.string(), fs::absolute(scad).string(), "--render", "-D",

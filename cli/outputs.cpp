@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/failure.hpp"
+#include "cli/file_ending.hpp"
 #include "cli/interrupts.hpp"
 #include "film/picture_files.hpp"
 #include "film/whole_file.hpp"
@@ -62,6 +63,13 @@ void check_output(const std::string& option, const fs::path& file, const fs::pat
   throw_if_interrupted();
 }
 
+void check_ending(const std::string& option, const fs::path& file, const std::string& ending,
+                  const std::string& format) {
+  if (file.empty() || has_ending(file, ending)) return;
+  throw usage_failure(option + " " + file.string(),
+                      "writes " + format + ": expected a name ending in " + ending);
+}
+
 void check_outputs(const Outputs& outputs, const fs::path& scene) {
   const auto files = named(outputs);
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -74,9 +82,11 @@ void check_outputs(const Outputs& outputs, const fs::path& scene) {
       }
     }
   }
-  if (outputs.exr.extension() == ".png") {
+  if (has_ending(outputs.exr, ".png")) {
     throw usage_failure("-o " + outputs.exr.string(), "writes OpenEXR; for PNG use --png");
   }
+  check_ending("-o", outputs.exr, ".exr", "OpenEXR");
+  check_ending("--png", outputs.png, ".png", "PNG");
 }
 
 fs::path default_exr(const fs::path& scene) { return scene.stem().string() + ".exr"; }

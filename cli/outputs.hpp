@@ -19,7 +19,12 @@ struct Outputs {
 void check_output(const std::string& option, const std::filesystem::path& file,
                   const std::filesystem::path& input);
 
-/// The same for all files of a render, before it starts; also that no two are the same.
+/// Throws a usage failure when a file is named and its name doesn't end so, in whatever case.
+void check_ending(const std::string& option, const std::filesystem::path& file,
+                  const std::string& ending, const std::string& format);
+
+/// As check_output() and check_ending() for all files of a render, before it starts; also that no
+/// two are the same.
 void check_outputs(const Outputs& outputs, const std::filesystem::path& scene);
 
 /// SCENE's name without its ending, with ".exr", in the current folder.

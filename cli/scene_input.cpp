@@ -95,8 +95,13 @@ void note(std::vector<ImportWarning> warnings, const fs::path& path, const Model
 std::vector<Problem> problems_of(const fs::path& path, const std::vector<SceneError>& errors) {
   std::vector<Problem> problems;
   for (const SceneError& e : errors) {
+    std::string why = e.message;
+    // A pointer says what it is; an editor goes by lines.
+    if (e.line > 0 && !e.pointer.empty()) {
+      why += " (line " + std::to_string(e.line) + ", column " + std::to_string(e.column) + ")";
+    }
     problems.push_back(
-        {"scene", path.string() + (e.pointer.empty() ? "" : ":" + e.pointer), e.message});
+        {"scene", path.string() + (e.pointer.empty() ? "" : ":" + e.pointer), std::move(why)});
   }
   return problems;
 }
@@ -120,6 +125,10 @@ void read_json(const fs::path& path, const ModelChoice& choice, SceneInput& inpu
   }
   note(std::move(warnings), path, choice, input);
   input.scene = std::move(*read.scene);
+  if (input.scene.settings.lights.empty()) {
+    input.warnings.push_back({"warning", path.string() + ":/lights",
+                              "there are no lights: surfaces show their ambient light only"});
+  }
   // A farm opens no files: then the meshes are sent in a text made for it.
   if (!read.used_files) input.text = std::move(text).take();
 }

@@ -1,5 +1,6 @@
 #include "frontal/jobs.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "frontal/parts/picture_answers.hpp"
@@ -75,13 +76,14 @@ Answer Jobs::status(std::uint32_t job) const {
 
 Answer Jobs::list() const {
   control::Jobs list;
-  for (const EndedJob& job : ended_.all()) list.jobs.push_back(job.info);
+  const auto has_room = [&] { return list.jobs.size() < kMaxJobsListed; };
   if (running_) list.jobs.push_back(running_->info_at(now_.now_s));
-  for (const QueuedJob& job : queue_.all()) list.jobs.push_back(job.info);
-  if (list.jobs.size() > kMaxJobsListed) {
-    list.jobs.erase(list.jobs.begin(),
-                    list.jobs.end() - static_cast<std::ptrdiff_t>(kMaxJobsListed));
+  for (const QueuedJob& job : queue_.all()) {
+    if (has_room()) list.jobs.push_back(job.info);
   }
+  for (auto job = ended_.all().rbegin(); job != ended_.all().rend() && has_room(); ++job)
+    list.jobs.push_back(job->info);
+  std::ranges::sort(list.jobs, {}, &control::JobInfo::job);
   return Reply{std::move(list)};
 }
 
@@ -255,7 +257,9 @@ void Jobs::complete() {
 /// it waits for reports.
 void Jobs::fail(JobFailure failure) {
   if (running_->is_loaded()) post_.to_nodes(control::Finish{running_->id()});
-  EndedJob job{running_->info(), "{}", false};
+  // How far it came is told of it, but not how long the rest would have taken.
+  EndedJob job{running_->info_at(now_.now_s), "{}", false};
+  job.info.eta_s.reset();
   if (running_->deadlock()) {
     failure = *running_->deadlock();
     job.stats_json = running_->statistics(now_.now_s, cpu_, failure.errors.front().why);

@@ -163,6 +163,7 @@ std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneI
 ExitStatus run(const CompareCommand& command) {
   catch_interrupts("compare", 0);
   if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
+  check_ending("--plot", command.plot, ".svg", "SVG");
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);

@@ -22,7 +22,11 @@ void convert_picture(const fs::path& in, const fs::path& out) {
   try {
     picture = read_exr(in);
   } catch (const PictureError& e) {
-    throw Failure(ExitStatus::kBadInput, Problem{"picture", in.string(), e.what()});
+    // The file stands in front of the reason already.
+    const std::string prefix = "cannot read picture: " + in.string() + ": ", why = e.what();
+    throw Failure(
+        ExitStatus::kBadInput,
+        Problem{"picture", in.string(), why.substr(why.starts_with(prefix) ? prefix.size() : 0)});
   }
   const InterruptsHeld held;
   write_pictures({{}, out, {}}, picture, "");

@@ -3,14 +3,17 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/display/job_text.hpp"
+#include "cli/display/json_list.hpp"
 #include "cli/farm/client.hpp"
+#include "proto/control.hpp"
 
 namespace graycube {
 
 ExitStatus run(const NodesCommand& command) {
   FarmClient farm(command.connect);
   const auto [list, payload] = farm.ask<control::NodeList>(control::Nodes{}, "nodes");
-  std::fputs(nodes_text(list.nodes).c_str(), stdout);
+  const std::string text = command.as_json ? list_in(encode(list)) + "\n" : nodes_text(list.nodes);
+  std::fputs(text.c_str(), stdout);
   return ExitStatus::kDone;
 }
 

@@ -8,6 +8,7 @@
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/option_sense.hpp"
 #include "cli/render_here.hpp"
 #include "process/clocks.hpp"
 #include "proto/model_slice.hpp"
@@ -104,6 +105,7 @@ void write_outputs(const RenderCommand& command, const Outputs& outputs, const s
 ExitStatus run(const RenderCommand& command) {
   const auto started = Clock::now();
   catch_interrupts("render", command.options.timeout_s);
+  check_sense(command.options);
   Outputs outputs = command.outputs;
   if (outputs.exr.empty()) outputs.exr = default_exr(command.scene);
   check_outputs(outputs, command.scene);

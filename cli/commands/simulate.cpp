@@ -6,6 +6,7 @@
 #include "cli/display/bars_svg.hpp"
 #include "cli/display/table.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/option_sense.hpp"
 #include "cli/render_here.hpp"
 #include "proto/comparison.hpp"
 #include "proto/job_settings.hpp"
@@ -230,7 +231,9 @@ ExitStatus run(const SimulateCommand& command) {
   if (command.options.algorithm == Algorithm::kSerial) {
     throw usage_failure("--algorithm", "serial runs on no farm; expected auto, roth or macro");
   }
+  check_sense(command.options);
   if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
+  check_ending("--plot", command.plot, ".svg", "SVG");
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   check_is_built(command.scene, scene.scene);
   if (!command.is_quiet) {

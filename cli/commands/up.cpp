@@ -64,7 +64,12 @@ class EndpointCleanup {
   bool is_default_;
 };
 
-void refuse_second_farm(const std::string& endpoint) {
+/// What tells other commands where the farm is, if they don't know.
+std::string connect_option(const std::string& endpoint, bool is_default) {
+  return is_default ? "" : " --connect " + endpoint;
+}
+
+void refuse_second_farm(const std::string& endpoint, bool is_default) {
   remove_stale_socket(endpoint);
   if (!find_listener(endpoint).is_there) return;
   FarmClient farm(endpoint);
@@ -72,7 +77,8 @@ void refuse_second_farm(const std::string& endpoint) {
   const auto answer = farm.receive(kFirstAnswer);
   throw Failure(ExitStatus::kFailed,
                 Problem{"farm", endpoint,
-                        answer ? "a farm is running there already; stop it with 'graycube down'"
+                        answer ? "a farm is running there already; stop it with 'graycube down" +
+                                     connect_option(endpoint, is_default) + "'"
                                : "something listens there already, and it is no farm"});
 }
 
@@ -91,13 +97,30 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const std::
 }
 
 void print_usage_hint(const UpCommand& command, const std::string& endpoint, bool is_default) {
-  const std::string option = is_default ? "" : " --connect " + endpoint;
+  const std::string option = connect_option(endpoint, is_default);
   std::printf(
       "farm of %u %s at %s; elsewhere: graycube submit SCENE%s; Ctrl-C or 'graycube down%s' "
       "stops it\n",
       command.nodes, command.nodes == 1 ? "node" : "nodes", endpoint.c_str(), option.c_str(),
       option.c_str());
   std::fflush(stdout);
+}
+
+/// Refuses folders that the frontal couldn't use, before it is started.
+void check_folders(const UpCommand& command, const std::string& endpoint, bool is_default) {
+  std::error_code error;
+  if (!is_default && endpoint.starts_with("ipc://")) {
+    const fs::path folder = folder_of(endpoint);
+    if (!fs::is_directory(folder, error))
+      throw usage_failure("--listen " + endpoint, folder.string() + " is no folder");
+    if (::access(folder.c_str(), W_OK) != 0)
+      throw usage_failure("--listen " + endpoint, folder.string() + ": " + std::strerror(errno));
+  }
+  if (command.state.empty()) return;
+  fs::create_directories(command.state, error);
+  if (!error && ::access(command.state.c_str(), W_OK) != 0)
+    error = std::error_code(errno, std::generic_category());
+  if (error) throw usage_failure("--state " + command.state, error.message());
 }
 
 }  // namespace
@@ -113,9 +136,10 @@ ExitStatus run(const UpCommand& command) {
       throw usage_failure("--http " + command.http, *problem);
     }
   }
+  check_folders(command, endpoint, is_default);
   catch_interrupts("up", 0);
   if (is_default) make_private_folder(endpoint);
-  refuse_second_farm(endpoint);
+  refuse_second_farm(endpoint, is_default);
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
   FrontalProcess frontal(frontal_arguments(command, endpoint));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/interrupts.hpp"
+#include "proto/control.hpp"
 
 namespace graycube {
 namespace {
@@ -101,8 +102,11 @@ std::string progress_bar(const control::Progress& p, std::size_t columns) {
   return line;
 }
 
-ProgressDisplay::ProgressDisplay(std::FILE* stream, bool is_quiet)
-    : stream_(stream), is_quiet_(is_quiet), is_terminal_(::isatty(::fileno(stream)) == 1) {}
+ProgressDisplay::ProgressDisplay(std::FILE* stream, bool is_quiet, bool as_json)
+    : stream_(stream),
+      is_quiet_(is_quiet),
+      as_json_(as_json),
+      is_terminal_(!as_json && ::isatty(::fileno(stream)) == 1) {}
 
 ProgressDisplay::~ProgressDisplay() { clear(); }
 
@@ -118,7 +122,8 @@ void ProgressDisplay::show(const control::Progress& p) {
   // ESC [ K erases the rest of the line.
   const std::string text = is_terminal_
                                ? "\r" + progress_bar(p, terminal_columns(stream_)) + "\x1b[K"
-                               : progress_text(p) + "\n";
+                           : as_json_ ? encode(p) + "\n"
+                                      : progress_text(p) + "\n";
   std::fwrite(text.data(), 1, text.size(), stream_);
   std::fflush(stream_);
   is_line_open_ = is_terminal_;

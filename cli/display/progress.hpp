@@ -28,8 +28,9 @@ std::string duration_text(double seconds);
 
 class ProgressDisplay {
  public:
-  /// Shows nothing when `is_quiet`.
-  ProgressDisplay(std::FILE* stream, bool is_quiet);
+  /// Shows nothing when `is_quiet`; `as_json`: each progress is a line of JSON, a `progress`
+  /// message.
+  ProgressDisplay(std::FILE* stream, bool is_quiet, bool as_json = false);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -42,7 +43,7 @@ class ProgressDisplay {
  private:
   using Clock = std::chrono::steady_clock;
   std::FILE* stream_;
-  bool is_quiet_, is_terminal_;
+  bool is_quiet_, as_json_, is_terminal_;
   bool is_line_open_ = false;
   std::optional<control::Progress> shown_;
   Clock::time_point shown_at_{};

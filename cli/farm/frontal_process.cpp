@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cli/interrupts.hpp"
+#include "cli/temporary_place.hpp"
 #include "process/spawn_plan.hpp"
 
 namespace graycube {
@@ -56,6 +57,7 @@ void remove_socket_folder(const std::string& endpoint) {
 
 FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments)
     : is_private_(std::find(arguments.begin(), arguments.end(), "--private") != arguments.end()) {
+  if (is_private_) check_temporary_place();
   const std::string program = frontal_program().string();
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw cannot_start(std::strerror(errno));
@@ -74,6 +76,7 @@ FrontalProcess::FrontalProcess(const std::vector<std::string>& arguments)
     ::close(output_);
     throw cannot_start(std::strerror(error));
   }
+  if (is_private_) stop_together_with(pid_);
 }
 
 FrontalProcess::~FrontalProcess() {
@@ -143,6 +146,7 @@ void FrontalProcess::request_stop() noexcept {
 
 void FrontalProcess::stop() noexcept {
   request_stop();
+  if (is_private_) stop_together_with(0);
   const auto until = std::chrono::steady_clock::now() + kStopGrace;
   while (!has_ended() && std::chrono::steady_clock::now() < until) {
     std::this_thread::sleep_for(kPollInterval);

@@ -3,9 +3,26 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "cli/failure.hpp"
+
 namespace graycube {
 
+namespace {
+
+/// Refuses an empty name: it would stand for the option not being given.
+std::function<void(const std::string&)> with_name(const std::string& option,
+                                                  std::function<void(const std::string&)> take) {
+  return [option, take = std::move(take)](const std::string& text) {
+    if (text.empty()) throw usage_failure(option, "expected the name of a file, found nothing");
+    take(text);
+  };
+}
+
+}  // namespace
+
 void Declaring::option(OptionDescription option, std::function<void(const std::string&)> take) {
+  if (option.kind == ValueKind::kFile || option.kind == ValueKind::kFolder)
+    take = with_name(names_of(option).front(), std::move(take));
   app_.add_option_function<std::string>(option.names, std::move(take), option.help)
       ->type_name(option.value)
       ->required(option.is_required)
@@ -24,7 +41,7 @@ void Declaring::repeatable(OptionDescription option,
 }
 
 void Declaring::flag(const std::string& names, bool& is_given, const std::string& help) {
-  app_.add_flag(names, is_given, help);
+  app_.add_flag(names, is_given, help)->disable_flag_override();
   described_.options.push_back({.names = names, .help = help});
 }
 

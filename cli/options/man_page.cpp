@@ -84,10 +84,10 @@ nobody needs to call these two, which lie in the same folder.
 std::string tail() {
   std::string text = ".SH EXIT STATUS\n";
   text += entry(bold("0"), "Done.");
-  text +=
-      entry(bold("1"),
-            "It failed: the render, its time limit, an interrupt, a node that died, a farm that "
-            "doesn't answer, a file that could not be written.");
+  text += entry(
+      bold("1"),
+      "It failed: the render, its time limit, a node that died, a farm that doesn't answer, a "
+      "file that could not be written. An interrupt ends the command by its signal.");
   text += entry(bold("2"),
                 "Bad usage or bad input: the command line, the scene, a job that doesn't exist.");
   text +=

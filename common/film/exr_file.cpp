@@ -85,7 +85,10 @@ std::vector<std::uint32_t> blank_plane(std::size_t plane, std::uint64_t pixels) 
   return blank;
 }
 
-[[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& why) {
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, std::string why) {
+  // OpenEXR names the file itself.
+  const std::string named = "Cannot read image file \"" + path.string() + "\". ";
+  if (why.starts_with(named)) why.erase(0, named.size());
   throw PictureError("cannot read picture: " + path.string() + ": " + why);
 }
 

@@ -133,7 +133,9 @@ bool JsonAccess::read_direction(JsonIndex at, Vec3& out) {
 
 bool JsonAccess::read(JsonIndex at, std::uint32_t& out, std::uint32_t min, std::uint32_t max) {
   const auto refuse = [&] {
-    return wrong(at, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+    return wrong(at, min == max ? std::to_string(min)
+                                : "a whole number from " + std::to_string(min) + " to " +
+                                      std::to_string(max));
   };
   if (tree.kind(at) != JsonKind::kNumber) return refuse();
   const double v = tree.number(at);

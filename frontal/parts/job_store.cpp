@@ -101,7 +101,9 @@ class FolderStore : public JobStore {
     const auto* job = std::get_if<control::JobInfo>(a);
     const auto* stats = std::get_if<control::Done>(b);
     if (job == nullptr || stats == nullptr) return std::nullopt;
-    return EndedJob{*job, stats->stats.text, false};
+    const bool is_deadlocked =
+        job->state == JobState::kFailed && job->message.find(": deadlock: ") != std::string::npos;
+    return EndedJob{*job, stats->stats.text, is_deadlocked};
   }
 
   fs::path folder_;

@@ -20,7 +20,7 @@ struct EndedJob {
   /// The statistics file; "{}" when nothing is known.
   std::string stats_json = "{}";
   bool has_stats() const { return stats_json != "{}"; }
-  /// Not known, and false, for jobs that an earlier frontal left.
+  /// Of jobs that an earlier frontal left it is known by their messages.
   bool is_deadlocked = false;
 };
 

@@ -138,6 +138,46 @@ TEST_CASE("a command line that means nothing is refused in one line") {
   }
 }
 
+TEST_CASE("what a command line lacks is told with where to read on") {
+  for (const auto& [arguments, line] :
+       std::vector<std::pair<std::vector<const char*>, std::string>>{
+           {{"--bogus"}, "command line: unknown option \"--bogus\"; see 'graycube --help'"},
+           {{"render"}, "render: SCENE is required; see 'graycube render --help'"},
+           {{"render", "a.json", "-n"},
+            "render: --nodes needs a value; see 'graycube render --help'"},
+           {{"render", "a.json", "--size", "1x1", "--size", "2x2"},
+            "render: --size is given twice; see 'graycube render --help'"},
+           {{"render", "a.json", "--quiet=3"},
+            "render: --quiet takes no value; see 'graycube render --help'"},
+           {{"up", "--wait"},
+            "up: unknown option \"--wait\"; submit has it; see 'graycube up --help'"},
+           {{"render", "a.json", "-o", ""},
+            "-o: expected the name of a file, found nothing; see 'graycube render --help'"}}) {
+    CHECK(refused(arguments) == "graycube: usage: " + line);
+  }
+  CHECK(refused({"render", "--connect", "x", "a.json"}).find("did you mean") == std::string::npos);
+}
+
+TEST_CASE("help is a command, too, and -v tells the version") {
+  const auto text = [](const std::vector<const char*>& words) {
+    return std::get<PrintCommand>(parsed(words)).text;
+  };
+  CHECK(text({"help"}) == text({"--help"}));
+  CHECK(text({"help", "render"}) == text({"render", "--help"}));
+  CHECK(text({"-v"}) == text({"--version"}));
+}
+
+TEST_CASE("lists of jobs and nodes are asked for as JSON, and page by page") {
+  const auto jobs =
+      std::get<JobsCommand>(parsed({"jobs", "--json", "--limit", "3", "--skip", "6"}));
+  CHECK(jobs.as_json);
+  CHECK(jobs.limit == 3);
+  CHECK(jobs.skip == 6);
+  CHECK(std::get<NodesCommand>(parsed({"nodes", "--json"})).as_json);
+  CHECK(std::get<WatchCommand>(parsed({"watch", "1", "--json"})).as_json);
+  CHECK(std::get<SubmitCommand>(parsed({"submit", "a.json", "--json"})).as_json);
+}
+
 TEST_CASE("help names every ending of a scene's name") {
   for (const char* command : {"render", "submit", "check", "compare", "simulate", "convert"}) {
     const auto help = std::get<PrintCommand>(parsed({command, "--help"})).text;

@@ -37,6 +37,19 @@ TEST_CASE("outputs that could not be written after a long render are refused bef
   CHECK(says(line({folder / "a.png", {}, {}}), "for PNG use --png"));
 }
 
+TEST_CASE("a picture's name must end as the file that is written is called, in whatever case") {
+  const TemporaryFolder folder;
+  const auto line = [&](const Outputs& outputs) {
+    return refusal([&] { check_outputs(outputs, folder / "scene.json"); });
+  };
+  for (const char* name : {"a.jpg", "a.json", "a", "-", "a.exr.bak"}) {
+    INFO(name);
+    CHECK(says(line({folder / name, {}, {}}), "expected a name ending in .exr"));
+    CHECK(says(line({{}, folder / name, {}}), "expected a name ending in .png"));
+  }
+  CHECK_NOTHROW(check_outputs({folder / "A.EXR", folder / "a.linear.PNG", {}}, "scene.json"));
+}
+
 TEST_CASE("a text file appears whole under its name, and nothing beside it") {
   const TemporaryFolder folder;
   write_text_file(folder / "a.json", "{}\n");

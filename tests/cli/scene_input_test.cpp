@@ -29,6 +29,17 @@ TEST_CASE("a scene file goes to the farm byte for byte") {
   CHECK(input.scene.objects.size() == 1);
 }
 
+TEST_CASE("a scene without lights is read with a warning") {
+  const TemporaryFolder folder;
+  const SceneInput dark = read_scene_input(write_file(folder / "ball.json", kBall));
+  REQUIRE(dark.warnings.size() == 1);
+  CHECK(line_of(dark.warnings.front()).find("ball.json:/lights: there are no lights") !=
+        std::string::npos);
+  std::string lit = kBall;
+  lit.replace(lit.find("[],"), 3, R"([{"type": "point", "position": [0,9,0]}],)");
+  CHECK(read_scene_input(write_file(folder / "lit.json", lit)).warnings.empty());
+}
+
 TEST_CASE("an OpenSCAD tree becomes a scene of the size asked for, as text only for a farm") {
   const TemporaryFolder folder;
   const auto path = write_file(folder / "ball.csg", "sphere($fn = 0, $fa = 12, $fs = 2, r = 3);\n");

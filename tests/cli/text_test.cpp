@@ -1,11 +1,25 @@
 #include "catch.hpp"
 #include "cli/display/job_text.hpp"
+#include "cli/display/json_text.hpp"
 #include "cli/display/table.hpp"
 #include "cli/failure.hpp"
 #include "cli/farm/client.hpp"
 
 namespace graycube {
 namespace {
+
+TEST_CASE("any text is a JSON string, as it is if it is UTF-8") {
+  CHECK(json_string("a b") == "\"a b\"");
+  CHECK(json_string("\"\\\n") == "\"\\\"\\\\\\u000a\"");
+  CHECK(json_string("\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80") ==
+        "\"\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80\"");
+  // Alone, too long, a surrogate, beyond the last: each byte is replaced.
+  for (const std::string_view bad : {"\xC3", "\x80", "\xC0\xAF", "\xED\xA0\x80", "\xF5\x80"}) {
+    std::string replaced = "\"";
+    for (std::size_t i = 0; i < bad.size(); ++i) replaced += "\xEF\xBF\xBD";
+    CHECK(json_string(bad) == replaced + "\"");
+  }
+}
 
 TEST_CASE("columns line up under their headers, whatever the alphabet") {
   CHECK(table_text({{"A", "NAME", "B"}, {"1", "é", "x"}, {"22", "plate", ""}}) ==

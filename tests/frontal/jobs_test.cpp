@@ -50,6 +50,16 @@ TEST_CASE("one job is on at a time, the others wait in order, and all are listed
   CHECK(listed[0].state == JobState::kCancelled);
 }
 
+TEST_CASE("what is on is listed however many jobs wait behind it") {
+  Farm farm;
+  for (std::size_t i = 0; i < kMaxJobsListed + 9; ++i) farm.submit();
+  CHECK(farm.jobs.take_work()->job == 1);
+  const auto listed = granted<control::Jobs>(farm.jobs.list()).jobs;
+  REQUIRE(listed.size() == kMaxJobsListed);
+  CHECK(listed.front().job == 1);
+  CHECK(listed.back().job == kMaxJobsListed);
+}
+
 TEST_CASE(
     "a scene that can't be read ends its job as bad input, and watchers "
     "are told") {

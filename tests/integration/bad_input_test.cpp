@@ -213,6 +213,22 @@ TEST_CASE("bad usage is refused in one line") {
   }
 }
 
+TEST_CASE("what check finds comes as JSON, too, whether it is fine or not") {
+  Sandbox sandbox;
+  sandbox.write("s.json", kGood);
+  const auto fine = nlohmann::json::parse(sandbox.run({"check", "s.json", "--json"}).out);
+  CHECK(fine.at("fine") == true);
+  CHECK(fine.at("objects") == 2);
+  CHECK(fine.at("width") == 32);
+  sandbox.write("b.json", "{\n  \"graycube\": 2}");
+  const Outcome bad = sandbox.run({"check", "b.json", "--json"});
+  CHECK(bad.status == 2);
+  const auto errors = nlohmann::json::parse(bad.out).at("errors");
+  REQUIRE_FALSE(errors.empty());
+  CHECK(errors[0].at("where").get<std::string>().starts_with("b.json"));
+  CHECK(has(bad.err, "/graycube: expected 1, found 2 (line 2, column 15)"));
+}
+
 TEST_CASE("a folder that can't be written to is noticed before the render") {
   Sandbox sandbox;
   sandbox.write("s.json", kGood);

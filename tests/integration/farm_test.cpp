@@ -121,6 +121,79 @@ TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, dow
   CHECK(sandbox.run({"jobs"}).status == 1);
 }
 
+TEST_CASE("jobs and nodes are lists of JSON; what runs comes first, then what waits") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  const std::string done = submit(sandbox, {first(), "--size", "16x16"});
+  wait_for_state(sandbox, done, "done");
+  const std::string running = submit(sandbox, {first(), "--size", kLongSize});
+  const std::string waiting = submit(sandbox, {first(), "--size", kLongSize});
+  const std::string last = submit(sandbox, {first(), "--size", kLongSize});
+  wait_for_state(sandbox, running, "rendering");
+  const auto jobs = nlohmann::json::parse(ok(sandbox, {"jobs", "--json"}));
+  REQUIRE(jobs.size() == 4);
+  std::vector<std::string> order;
+  for (const auto& job : jobs) order.push_back(std::to_string(job.at("job").get<int>()));
+  CHECK(order == std::vector<std::string>{running, waiting, last, done});
+  CHECK(jobs[0].at("state") == "rendering");
+  CHECK(jobs[1].at("state") == "queued");
+  CHECK(jobs[3].at("fraction") == 1);
+  const std::string page = ok(sandbox, {"jobs", "--skip", "1", "--limit", "2"});
+  REQUIRE(lines_of(page).size() == 4);
+  CHECK(lines_of(page)[1].starts_with(waiting));
+  CHECK(lines_of(page)[3] == "jobs 2 to 3 of 4; --skip 3 shows more");
+  const auto nodes = nlohmann::json::parse(ok(sandbox, {"nodes", "--json"}));
+  REQUIRE(nodes.size() == 4);
+  CHECK(nodes[3].at("rank") == 3);
+  CHECK(nodes[3].at("pid").get<int>() > 0);
+  CHECK(nodes[3].at("state").is_string());
+  ok(sandbox, {"down"});
+}
+
+TEST_CASE("Ctrl-C while a job is waited for says that it goes on; a second one cancels it") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  for (const bool is_twice : {false, true}) {
+    Running waiting =
+        sandbox.start({"submit", first(), "--size", kLongSize, "--samples", "4", "--wait"});
+    waiting.wait_for("\n");
+    const std::string job = lines_of(waiting.out()).at(0);
+    wait_for_state(sandbox, job, "rendering");
+    waiting.signal(SIGINT);
+    const auto until = std::chrono::steady_clock::now() + 10s;
+    while (waiting.err().find("stops it") == std::string::npos &&
+           std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(5ms);
+    CHECK(waiting.err().find("job " + job + " goes on; 'graycube cancel " + job + "' stops it") !=
+          std::string::npos);
+    if (is_twice) waiting.signal(SIGINT);
+    const Outcome o = waiting.wait(20s);
+    CHECK(o.status == 128 + SIGINT);
+    CHECK((o.err.find("job " + job + " is cancelled") != std::string::npos) == is_twice);
+    const auto info = nlohmann::json::parse(ok(sandbox, {"status", job, "--json"}));
+    CHECK(info.at("state") == (is_twice ? "cancelled" : "rendering"));
+    if (!is_twice) ok(sandbox, {"cancel", job});
+  }
+  ok(sandbox, {"down"});
+}
+
+TEST_CASE("what is waited for tells which file was written; progress comes as JSON, too") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  const Outcome o = sandbox.run({"submit", first(), "--size", "16x12", "--wait", "-o", "a.exr"});
+  CHECK(o.status == 0);
+  CHECK(o.err.find("a.exr: 16 x 12, ") != std::string::npos);
+  const Outcome json = sandbox.run({"submit", first(), "--size", "16x12", "--wait", "--json"});
+  const auto lines = lines_of(json.out);
+  REQUIRE(lines.size() >= 2);
+  CHECK(nlohmann::json::parse(lines.front()).contains("job"));
+  for (const std::string& line : lines) CHECK(nlohmann::json::accept(line));
+  const Outcome watched = sandbox.run({"watch", "1", "--json"});
+  REQUIRE_FALSE(lines_of(watched.out).empty());
+  CHECK(nlohmann::json::parse(lines_of(watched.out).back()).at("state") == "done");
+  ok(sandbox, {"down"});
+}
+
 TEST_CASE("nodes that may hold few rays render the same picture") {
   Sandbox sandbox;
   Farm farm(sandbox, {"--outbox-rays", "40", "--threads", "2"});

@@ -29,7 +29,7 @@ GENERATED = {"version.hpp"}
 
 # Where a vendor's header, by its beginning, may be included. Tests may include all.
 VENDORS = {
-    "CLI/": ("cli/command_line.cpp", "cli/options/declaring.cpp", "frontal/main.cpp", "node/main.cpp"),
+    "CLI/": ("cli/command_line.cpp", "cli/options/declaring.cpp", "cli/options/usage.cpp", "frontal/main.cpp", "node/main.cpp"),
     "Imf": ("common/film/exr_file.cpp",),
     "OpenEXR/": ("common/film/exr_file.cpp",),
     "assimp/": ("formats/mesh/assimp/",),

@@ -81,7 +81,7 @@ TEST_CASE("top-level values of the wrong kind are refused") {
   check_errors("[]", {{"", "expected an object, found an empty array"}});
   check_errors("3", {{"", "expected an object, found 3"}});
   check_key("graycube",
-            {{"2", "/graycube", "from 1 to 1, found 2"}, {"\"1\"", "/graycube", "found \"1\""}});
+            {{"2", "/graycube", "expected 1, found 2"}, {"\"1\"", "/graycube", "found \"1\""}});
   check_key("background",
             {{"[0,-1,0]", "/background/1", "expected a finite number >= 0, found -1"},
              {"[0,0]", "/background", "expected a colour [red, green, blue], found [0,0]"},

@@ -1,0 +1,41 @@
+#include "cli/option_sense.hpp"
+
+#include "cli/expect_failure.hpp"
+
+namespace graycube {
+namespace {
+
+TEST_CASE("an option that the algorithm has no use for is refused, and no other") {
+  control::JobOptions o;
+  o.grain = Grain::kPixel;
+  CHECK_NOTHROW(check_sense(o));  // auto may be roth
+  o.algorithm = Algorithm::kRoth;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kMacro;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --grain: is for --algorithm roth, not for macro");
+  o = {};
+  o.shadows = ShadowMode::kLocal;
+  o.algorithm = Algorithm::kMacro;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kRoth;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --shadows: is for --algorithm macro, not for roth");
+  o = {};
+  o.sums = SumsMode::kTree;
+  o.algorithm = Algorithm::kSerial;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --sums: is for --algorithm roth and macro, not for serial");
+}
+
+TEST_CASE("a queue's length is for blocking flow only") {
+  control::JobOptions o;
+  o.queue = 3;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --queue: is for --flow blocking, which is not asked for");
+  o.flow = FlowMode::kBlocking;
+  CHECK_NOTHROW(check_sense(o));
+}
+
+}  // namespace
+}  // namespace graycube
