@@ -26,7 +26,7 @@ bool SceneBuilder::enter(const std::string& name, const BrlcadObject*& object) {
   if (report_.has_errors()) return false;
   object = database_.find(name);
   if (object == nullptr) {
-    report_.left_out("members", "the database doesn't hold them", name);
+    report_.missing(name);
     return false;
   }
   if (++visits_ > kMaxVisits) {

@@ -66,7 +66,11 @@ class BrlcadReport {
                 const std::string& detail = {}) {
     left_out_.add(things, why, name, detail);
   }
-  /// The same for air regions, which rt leaves out, too: nothing is missing.
+  /// Tells of a name that the database doesn't hold; others are counted.
+  void missing(const std::string& name) {
+    warnings_.leave_out("missing", name, "is not in the database, and left out");
+  }
+  /// The same as left_out() for air regions, which rt leaves out, too: nothing is missing.
   void air(const std::string& name) { air_.add("air regions", {}, name, {}); }
   /// The same for things that are drawn, but not quite as they are written: "2 solids: WHY: a, b".
   void changed(const std::string& things, const std::string& why, const std::string& name) {

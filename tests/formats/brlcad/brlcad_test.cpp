@@ -351,7 +351,9 @@ TEST_CASE("a missing member is left out, with a warning") {
                                           v4_member('u', "s") + v4_member('-', "gone"));
   REQUIRE(result.scene);
   REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].text == "1 member is left out (the database doesn't hold them): gone");
+  CHECK(result.warnings[0].where == "gone");
+  CHECK(result.warnings[0].text == "is not in the database, and left out");
+  CHECK(result.warnings[0].leaves_out);
 }
 
 TEST_CASE("a view script and a quaternion give the axes of rt") {
