@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/interrupts.hpp"
 #include "proto/control.hpp"
 
 namespace graycube {
@@ -106,9 +105,8 @@ ProgressDisplay::ProgressDisplay(std::FILE* stream, bool is_quiet, bool as_json)
     : stream_(stream),
       is_quiet_(is_quiet),
       as_json_(as_json),
-      is_terminal_(!as_json && ::isatty(::fileno(stream)) == 1) {}
-
-ProgressDisplay::~ProgressDisplay() { clear(); }
+      is_terminal_(!as_json && ::isatty(::fileno(stream)) == 1),
+      line_(stream) {}
 
 void ProgressDisplay::show(const control::Progress& p) {
   if (is_quiet_) return;
@@ -119,23 +117,9 @@ void ProgressDisplay::show(const control::Progress& p) {
   if (!is_terminal_ && shown_ && *shown_ == p) return;
   shown_ = p;
   shown_at_ = now;
-  // ESC [ K erases the rest of the line.
-  const std::string text = is_terminal_
-                               ? "\r" + progress_bar(p, terminal_columns(stream_)) + "\x1b[K"
-                           : as_json_ ? encode(p) + "\n"
-                                      : progress_text(p) + "\n";
-  std::fwrite(text.data(), 1, text.size(), stream_);
+  if (is_terminal_) return line_.draw(progress_bar(p, terminal_columns(stream_)));
+  std::fputs(((as_json_ ? encode(p) : progress_text(p)) + "\n").c_str(), stream_);
   std::fflush(stream_);
-  is_line_open_ = is_terminal_;
-  note_terminal_line(is_line_open_);
-}
-
-void ProgressDisplay::clear() {
-  if (!is_line_open_) return;
-  std::fputs("\r\x1b[K", stream_);
-  std::fflush(stream_);
-  is_line_open_ = false;
-  note_terminal_line(false);
 }
 
 }  // namespace graycube

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/display/terminal_line.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
@@ -31,20 +32,16 @@ class ProgressDisplay {
   /// Shows nothing when `is_quiet`; `as_json`: each progress is a line of JSON, a `progress`
   /// message.
   ProgressDisplay(std::FILE* stream, bool is_quiet, bool as_json = false);
-  ~ProgressDisplay();
-  ProgressDisplay(const ProgressDisplay&) = delete;
-  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
-
   /// Shows progress if it is time to, or if the state or the number of token rounds has changed.
   void show(const control::Progress& progress);
   /// Removes the terminal's line, so that something else may be printed.
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
   using Clock = std::chrono::steady_clock;
   std::FILE* stream_;
   bool is_quiet_, as_json_, is_terminal_;
-  bool is_line_open_ = false;
+  TerminalLine line_;
   std::optional<control::Progress> shown_;
   Clock::time_point shown_at_{};
 };
