@@ -197,9 +197,7 @@ class Importer {
 
   void add_intersection(const ScadModule& module, const Surroundings& around,
                         std::vector<Part>& parts) {
-    const auto takes_part = [](const ScadModule& child) {
-      return !child.left_out && child.dimension != 2;
-    };
+    const auto takes_part = [](const ScadModule& child) { return !child.left_out; };
     const auto count = std::count_if(module.children.begin(), module.children.end(), takes_part);
     if (count == 1) {
       add_all(module.children, around, parts);
@@ -208,9 +206,10 @@ class Importer {
     std::vector<Part> used;
     bool has_empty = count == 0;
     for (const ScadModule& child : module.children) {
-      if (child.left_out || !fits(child, 3)) continue;
+      if (child.left_out) continue;
       const std::size_t first = parts.size();
-      add(child, around, parts);
+      // What doesn't fit is nothing, and so is what it is intersected with.
+      if (fits(child, 3)) add(child, around, parts);
       if (parts.size() == first) {
         has_empty = true;
       } else {

@@ -53,10 +53,11 @@ class ScadArguments {
     }
     return v;
   }
+  /// Null, and the part is left out, if the value is no list.
   const ScadList* list(const char* name, int position) {
     const ScadValue* value = module_.argument(name, position);
     if (value != nullptr && value->list() != nullptr) return value->list();
-    fail(std::string(name) + " must be a list");
+    leave_out(name, std::string(name) + " must be a list");
     return nullptr;
   }
 

@@ -12,6 +12,15 @@ namespace {
 
 using namespace graycube::testing;
 
+TEST_CASE("what is intersected with a flat shape, or with nothing, is nothing") {
+  for (const char* other : {"circle(r = 2);", "square(size = [0, 0]);", "minkowski();", "render();",
+                            "linear_extrude(height = 1);", "cube(size = [0, 0, 0]);"}) {
+    INFO(other);
+    const std::string text = std::string("intersection() { cube(4); ") + other + " }";
+    CHECK(scene_of("cube(1);\n" + text).objects.size() == 1);
+  }
+}
+
 TEST_CASE("parts outside of any operation are objects of their own") {
   const Scene scene = scene_of(
       "group() { cube(1); union() { sphere(1); render() difference() { cube(2); sphere(1); } } }\n"

@@ -86,6 +86,16 @@ TEST_CASE("a polyhedron that is open is left out alone, with the place where it 
                               Catch::EndsWith("(and 1 more like it)"));
 }
 
+TEST_CASE("a polyhedron without points or faces is left out alone") {
+  for (const char* arguments : {"", "points = undef, faces = [[0, 1, 2]]",
+                                "points = [[0, 0, 0], [1, 1, 1]], faces = undef"}) {
+    const std::string text = std::string("cube(1);\npolyhedron(") + arguments + ");";
+    INFO(text);
+    CHECK(scene_of(text).objects.size() == 1);
+    CHECK(is_left_out(text));
+  }
+}
+
 TEST_CASE("faces' corners that differ by rounding are one") {
   const auto box = meshes_of(scene_of(
       "polyhedron(points = [[0, 0, 0], [4, 0, 0], [4, 3, 0], [1, 1, 0], [0, 0, 2], [4, 0, 2], "
