@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds every OpenSCAD model below some folders to OpenSCAD itself: bench/against_openscad.py DIR...
+"""Holds every OpenSCAD model below some folders to OpenSCAD itself: bench/openscad/against_openscad.py DIR...
 
 A line a model: what became of it, the ratio of its volume with --facets to that of the STL file that
 OpenSCAD exports, and which part of the rays that meet either meets one of them alone (the silhouettes'
