@@ -56,7 +56,7 @@ class Reader {
     ::close(output_);
     if (pid_ <= 0 || has_ended_) return;
     ::kill(pid_, SIGKILL);
-    wait();
+    wait_for_end(pid_);
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -80,13 +80,10 @@ class Reader {
     return bytes;
   }
 
-  /// How it ended, as of waitpid.
+  /// How it ended: a wait status.
   int wait() {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
     has_ended_ = true;
-    return status;
+    return wait_for_end(pid_);
   }
 
  private:

@@ -154,8 +154,7 @@ void FrontalProcess::stop() noexcept {
   if (has_ended_ && !WIFSIGNALED(wait_status_)) return;
   // Its nodes are in its process group; what it could not remove itself is removed here.
   ::kill(-pid_, SIGKILL);
-  while (!has_ended_ && ::waitpid(pid_, &wait_status_, 0) == -1 && errno == EINTR) {
-  }
+  if (!has_ended_) wait_status_ = wait_for_end(pid_);
   has_ended_ = true;
   if (is_private_) remove_socket_folder(endpoint_);
 }

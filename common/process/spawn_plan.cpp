@@ -2,7 +2,10 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <cerrno>
 
 namespace graycube {
 namespace {
@@ -74,6 +77,13 @@ int SpawnPlan::spawn(pid_t& pid, std::vector<std::string> command,
   environment.push_back(nullptr);
   return ::posix_spawn(&pid, arguments.front(), &actions_, &attributes_, arguments.data(),
                        environment.data());
+}
+
+int wait_for_end(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) == -1 && errno == EINTR) {
+  }
+  return status;
 }
 
 }  // namespace graycube

@@ -1,4 +1,4 @@
-// Starts a program as a child of this process.
+// Starts a program as a child of this process, and waits for its end.
 #pragma once
 
 #include <spawn.h>
@@ -41,5 +41,9 @@ class SpawnPlan {
   posix_spawnattr_t attributes_;
   short flags_ = 0;
 };
+
+/// Waits until the child has ended, whatever signals arrive meanwhile, and returns its wait status
+/// (waitpid(2)); 0 if there is no such child.
+int wait_for_end(pid_t pid);
 
 }  // namespace graycube
