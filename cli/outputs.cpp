@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "cli/failure.hpp"
-#include "cli/file_ending.hpp"
 #include "cli/interrupts.hpp"
+#include "file_ending.hpp"
 #include "film/picture_files.hpp"
 #include "film/whole_file.hpp"
 #include "version.hpp"

@@ -10,10 +10,10 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
-#include "cli/file_ending.hpp"
 #include "cli/foreign_meshes.hpp"
 #include "cli/openscad/model_view.hpp"
 #include "cli/openscad_process.hpp"
+#include "file_ending.hpp"
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/brlcad/database/database.hpp"
 #include "formats/graycube/read_scene.hpp"

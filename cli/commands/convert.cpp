@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include "cli/commands/commands.hpp"
-#include "cli/file_ending.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/scene_input.hpp"
+#include "file_ending.hpp"
 #include "film/picture_files.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/json/cbor_writer.hpp"

@@ -7,9 +7,9 @@
 #include <system_error>
 #include <utility>
 
+#include "file_ending.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/stl.hpp"
-#include "formats/mesh/words.hpp"
 
 namespace graycube {
 namespace {
@@ -21,9 +21,6 @@ constexpr std::array<std::string_view, 2> kOwnEndings{".stl", ".off"};
 constexpr std::array<std::string_view, 9> kForeignEndings{".obj", ".ply", ".3mf", ".gltf", ".glb",
                                                           ".dae", ".3ds", ".amf", ".x3d"};
 
-bool has_ending(const fs::path& path, std::string_view ending) {
-  return equal_words(path.extension().string(), ending);
-}
 bool has_ending_of(const fs::path& path, std::span<const std::string_view> endings) {
   return std::ranges::any_of(endings, [&](auto ending) { return has_ending(path, ending); });
 }

@@ -1,8 +1,8 @@
 #include "cli/openscad/messages.hpp"
 
 #include "catch.hpp"
-#include "cli/file_ending.hpp"
 #include "cli/openscad/model_view.hpp"
+#include "file_ending.hpp"
 
 namespace graycube {
 namespace {
