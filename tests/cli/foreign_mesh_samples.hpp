@@ -191,9 +191,18 @@ type="model" name="a part"><mesh><vertices>)" +
 transform="1 0 0 0 1 0 0 0 -1 10 0 0"/></build></model>)";
   return zip_bytes(
       {{"[Content_Types].xml",
-        R"(<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>)"},
+        R"(<?xml version="1.0"?>)"
+        R"(<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">)"
+        R"(<Default Extension="rels" )"
+        R"(ContentType="application/vnd.openxmlformats-package.relationships+xml"/>)"
+        R"(<Default Extension="model" )"
+        R"(ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>)"},
        {"_rels/.rels",
-        R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)"},
+        R"(<?xml version="1.0"?>)"
+        R"(<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"
+        R"(<Relationship Target="/3D/3dmodel.model" Id="rel0" )"
+        R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>)"
+        R"(</Relationships>)"},
        {"3D/3dmodel.model", model}});
 }
 

@@ -56,10 +56,11 @@ const std::vector<std::pair<std::string, std::string>> kSolids{
     {"torus", R"({"type": "torus", "center": [0,0,0], "axis": [0,0,1], "major": 1, "minor": 0.2})"},
     {"half_space", R"({"type": "half_space", "normal": [1,1,0], "offset": 1})"},
     {"polyhedron", R"({"type": "polyhedron", "planes": [[1,0,0,1],[0,1,0,1],[-1,-1,1,1]]})"},
-    {"elliptic_cone",
-     R"({"type": "elliptic_cone", "base": [0,0,0], "top": [0,0,1], "a": [1,0,0], "b": [0,1,0], "top_a": 0.5, "top_b": 0.2})"},
+    {"elliptic_cone", R"({"type": "elliptic_cone", "base": [0,0,0], "top": [0,0,1], "a": [1,0,0], )"
+                      R"("b": [0,1,0], "top_a": 0.5, "top_b": 0.2})"},
     {"elliptic_torus",
-     R"({"type": "elliptic_torus", "center": [0,0,0], "axis": [0,0,1], "radius": 1, "outward": 0.2, "upward": 0.1, "across": 0.3})"},
+     R"({"type": "elliptic_torus", "center": [0,0,0], "axis": [0,0,1], "radius": 1, )"
+     R"("outward": 0.2, "upward": 0.1, "across": 0.3})"},
     {"quadric",
      R"({"type": "quadric", "coefficients": [1,0,1,-1], "min": [-1,-1,0], "max": [1,1,1]})"},
 };
@@ -87,8 +88,9 @@ TEST_CASE("a solid beyond the range of coordinates, or too small, is an error") 
       CHECK((faults.size() == 1 || (factor[2] == '-' && !has_size)));
     }
   }
-  const auto far = faults_of(scene_of(object(
-      R"({"type": "complement", "child": {"type": "sphere", "center": [0,2e18,0], "radius": 1}})")));
+  const auto far = faults_of(
+      scene_of(object(R"({"type": "complement", "child": {"type": "sphere", "center": [0,2e18,0], )"
+                      R"("radius": 1}})")));
   REQUIRE(far.size() == 1);
   CHECK(far.front().pointer == "/objects/0/csg/child");
   CHECK(far.front().message == "the sphere of \"o\" reaches beyond 1e18");
@@ -100,7 +102,8 @@ TEST_CASE("a solid in a shape is told with the place of the shape and that of it
                    object(R"({"type": "ref", "shape": "a/b", "transform": [{"scale": 1e21}]})"),
                R"("a/b": {"type": "union", "children": [
                     {"type": "sphere", "center": [0,0,0], "radius": 1},
-                    {"type": "box", "min": [0,0,0], "max": [1,1,1], "transform": [{"scale": 0.01}]}]})"));
+                    {"type": "box", "min": [0,0,0], "max": [1,1,1],
+                     "transform": [{"scale": 0.01}]}]})"));
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].pointer == "/shapes/a~1b/children/0");
   CHECK(faults[1].pointer == "/shapes/a~1b/children/1");
@@ -121,13 +124,16 @@ TEST_CASE("an eye or a light beyond the range is an error") {
 }
 
 TEST_CASE("thin and wide solids that are turned are solids, as every axis of theirs is sound") {
-  for (
-      const char* solid :
-      {R"({"type": "cylinder", "base": [1,1,1], "top": [4,5,7], "radius": 1e-10})",
-       R"({"type": "cylinder", "base": [-1,0,0], "top": [1,0,0], "radius": 1e16, "transform": [{"rotate": {"axis": [0,1,0], "angle": 20}}]})",
-       R"({"type": "cone", "base": [-1,0,0], "base_radius": 1e15, "top": [1,0,0], "top_radius": 1, "transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})",
-       R"({"type": "box", "min": [0,0,0], "max": [1e15,1,1], "transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})",
-       R"({"type": "ellipsoid", "center": [0,0,0], "axes": [[1e15,0,0],[0,1,0],[0,0,1]], "transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})"}) {
+  for (const char* solid :
+       {R"({"type": "cylinder", "base": [1,1,1], "top": [4,5,7], "radius": 1e-10})",
+        R"({"type": "cylinder", "base": [-1,0,0], "top": [1,0,0], "radius": 1e16, )"
+        R"("transform": [{"rotate": {"axis": [0,1,0], "angle": 20}}]})",
+        R"({"type": "cone", "base": [-1,0,0], "base_radius": 1e15, "top": [1,0,0], )"
+        R"("top_radius": 1, "transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})",
+        R"({"type": "box", "min": [0,0,0], "max": [1e15,1,1], )"
+        R"("transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})",
+        R"({"type": "ellipsoid", "center": [0,0,0], "axes": [[1e15,0,0],[0,1,0],[0,0,1]], )"
+        R"("transform": [{"rotate": {"axis": [0,1,1], "angle": 20}}]})"}) {
     INFO(solid);
     CHECK(faults_of(scene_of(object(solid))).empty());
   }

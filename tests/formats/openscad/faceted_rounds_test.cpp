@@ -1,12 +1,10 @@
 // Round solids take the facets of the hull with which they are flush.
-#include <limits>
-#include <random>
+#include <algorithm>
 #include <string>
 
 #include "catch.hpp"
-#include "crossings/surface_tree.hpp"
+#include "formats/openscad/random_rays.hpp"
 #include "formats/openscad/reading.hpp"
-#include "scene/compile_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -25,24 +23,9 @@ const std::string kTurned =
     "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
 const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
 
-/// The number of rays at random through the origin's neighbourhood that meet anything.
-int rays_that_hit(const std::string& text) {
-  INFO(text);
-  const Model model = compile_scene(scene_of(text));
-  const SurfaceTree tree = SurfaceTree::build(model);
-  TreeScratch scratch;
-  constexpr std::uint64_t kSeed = 5;
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> place(-16, 16);
-  const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
-  int hits = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Vec3 at = point(), from = at + 10.0 * point();
-    const Ray ray{from, normalized(at - from)};
-    hits += tree.first_crossing(ray, 0, std::numeric_limits<double>::infinity(), scratch) ? 1 : 0;
-  }
-  return hits;
-}
+constexpr std::uint64_t kSeed = 5;
+
+int rays_that_hit(const std::string& text) { return testing::rays_that_hit(text, kSeed); }
 
 bool has_round(const CsgNode& node) {
   if (const auto* inner = std::get_if<OperationNode>(&node.value))

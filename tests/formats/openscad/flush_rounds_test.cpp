@@ -2,15 +2,12 @@
 // are flush.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 #include <sstream>
 #include <string>
 
 #include "catch.hpp"
-#include "crossings/surface_tree.hpp"
+#include "formats/openscad/random_rays.hpp"
 #include "formats/openscad/reading.hpp"
-#include "scene/compile_scene.hpp"
 
 namespace graycube {
 namespace {
@@ -36,25 +33,12 @@ constexpr double kPi = 3.14159265358979323846;
 
 std::string hull_of(const std::string& part) { return "hull() { " + part + kAcross + "} "; }
 
-/// The number of rays at random through the origin's neighbourhood that meet anything.
+constexpr std::uint64_t kSeed = 11;
+
 int rays_that_hit(const std::string& text, OpenscadProgram* program = nullptr) {
-  INFO(text);
   OpenscadOptions options;
   options.program = program;
-  const Model model = compile_scene(scene_of(text, options));
-  const SurfaceTree tree = SurfaceTree::build(model);
-  TreeScratch scratch;
-  constexpr std::uint64_t kSeed = 11;
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> place(-16, 16);
-  const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
-  int hits = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Vec3 at = point(), from = at + 10.0 * point();
-    const Ray ray{from, normalized(at - from)};
-    hits += tree.first_crossing(ray, 0, std::numeric_limits<double>::infinity(), scratch) ? 1 : 0;
-  }
-  return hits;
+  return testing::rays_that_hit(text, kSeed, options);
 }
 
 bool has_round(const CsgNode& node) {

@@ -1,0 +1,34 @@
+// How much of a model is left, as rays at random tell.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "crossings/surface_tree.hpp"
+#include "formats/openscad/reading.hpp"
+#include "scene/compile_scene.hpp"
+
+namespace graycube::testing {
+
+/// The number of 3000 rays of a seed through the origin's neighbourhood that meet anything.
+inline int rays_that_hit(const std::string& text, std::uint64_t seed,
+                         const OpenscadOptions& options = {}) {
+  INFO(text);
+  const Model model = compile_scene(scene_of(text, options));
+  const SurfaceTree tree = SurfaceTree::build(model);
+  TreeScratch scratch;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(-16, 16);
+  const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
+  int hits = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 at = point(), from = at + 10.0 * point();
+    const Ray ray{from, normalized(at - from)};
+    hits += tree.first_crossing(ray, 0, std::numeric_limits<double>::infinity(), scratch) ? 1 : 0;
+  }
+  return hits;
+}
+
+}  // namespace graycube::testing
