@@ -17,3 +17,22 @@ export async function run(files, args, folder, result) {
   scad.callMain([...args]);  // it changes what it is given
   return exists(result) ? scad.FS.readFile(result, { encoding: 'utf8' }) : null;
 }
+
+const cornersOf = (stl) => [...stl.matchAll(/vertex (\S+) (\S+) (\S+)/g)].map((found) => found.slice(1).map(Number));
+
+// The least and the largest corner of the bounds of an STL text.
+export function boundsOf(stl) {
+  const corners = cornersOf(stl);
+  return [Math.min, Math.max].map((extreme) => [0, 1, 2].map((axis) => extreme(...corners.map((corner) => corner[axis]))));
+}
+
+// The volume that an STL text encloses.
+export function volumeOf(stl) {
+  const corners = cornersOf(stl);
+  let sum = 0;
+  for (let i = 0; i < corners.length; i += 3) {
+    const [a, b, c] = corners.slice(i, i + 3);
+    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return sum / 6;
+}
