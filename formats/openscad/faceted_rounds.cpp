@@ -20,13 +20,18 @@ constexpr std::size_t kMostCompared = std::size_t{1} << 28;
 /// Most corners of the rounds that get facets, and of those that could follow them.
 constexpr std::size_t kMostRingCorners = std::size_t{1} << 22;
 
+/// Whether an extrusion may grow or shrink.
+bool is_taper(const ScadModule& module) {
+  return module.name == "linear_extrude" && module.argument("scale") != nullptr;
+}
+
 /// Whether a module, if it has no exact form, is of facets; or one within is. Asked first, since
 /// matrices take long to read: their rotations are recovered.
 bool may_have_facets(const ScadModule& module) {
   // A shadow is seldom flush with what throws it.
   if (module.name == "projection") return false;
   return module.name == "hull" || module.name == "minkowski" || module.name == "offset" ||
-         is_for_program(module.name) ||
+         is_for_program(module.name) || is_taper(module) ||
          std::any_of(module.children.begin(), module.children.end(), may_have_facets);
 }
 
@@ -38,6 +43,13 @@ std::optional<FlatShape> upright_figure(const ScadModule& solid, ScadImport& imp
       !(sweep->scale == FlatPoint{1, 1}))
     return std::nullopt;
   return std::move(sweep->shape);
+}
+
+/// Whether an extrusion becomes a mesh because it grows or shrinks.
+bool is_faceted_taper(const ScadModule& solid, ScadImport& import) {
+  std::optional<PlainSweep> sweep;
+  return is_taper(solid) && plain_sweep(solid, import, sweep) && sweep &&
+         !(sweep->scale == FlatPoint{1, 1}) && !is_exact_taper(*sweep);
 }
 
 std::size_t corners_of(const RoundGroup& group) {
@@ -88,6 +100,9 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
     OpenscadReport unread;
     ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
     if (const auto figure = upright_figure(solid, import)) add_outlines(*figure, to_world);
+    if (is_faceted_taper(solid, import)) {
+      for (const RoundGroup& group : groups_of(solid, to_world)) add(group);
+    }
     solids.push_back({&solid, to_world});
   } else if (name == "rotate_extrude") {
     solids.push_back({&solid, to_world});
@@ -175,11 +190,11 @@ bool FacetedRounds::touch(const ScadModule& module, const Affine& to_world) cons
 }
 
 bool FacetedRounds::change_figure(const ScadModule& module, const Affine& to_world) const {
-  if (rings_.empty() || module.name != "linear_extrude") return false;
-  if (!may_have_facets(module)) return touch(module, to_world);
+  if (rings_.empty()) return false;
   OpenscadReport unread;
   ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
-  return upright_figure(module, import).has_value();
+  if (module.dimension != 3 || !upright_figure(module, import)) return false;
+  return may_have_facets(module) || touch(module, to_world);
 }
 
 void FacetedRounds::move_corners(std::vector<Vec3>& points, const Affine& to_world,

@@ -254,15 +254,15 @@ class Importer {
   void add_sweep(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     std::optional<CsgNode> solid;
     std::optional<PlainSweep> sweep;
-    if (module.name == "rotate_extrude" && faceted_.touch(module, around.to_world)) {
-      solid = faceted_turn(module, import_);
-    } else if (!faceted_.change_figure(module, around.to_world)) {
-      solid = openscad_sweep(module, import_);
-    } else if (plain_sweep(module, import_, sweep) && sweep) {
+    if (faceted_.change_figure(module, around.to_world)) {
+      if (!plain_sweep(module, import_, sweep) || !sweep) return;
       const FlatShape figure =
           faceted_.with_facets(std::move(sweep->shape), around.to_world, import_, module.line);
       solid = extruded(figure, sweep->low, sweep->high, import_, module.line);
       if (solid) faceted_.move_prisms(*solid, around.to_world);
+    } else {
+      solid = faceted_.touch(module, around.to_world) ? faceted_sweep(module, import_)
+                                                      : openscad_sweep(module, import_);
     }
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }

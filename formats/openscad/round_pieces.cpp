@@ -207,8 +207,8 @@ bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadI
     return !sweep || add_plain_sweep(*sweep, sweep->shape, map, use, pieces);
   }
   if (module.name == "rotate_extrude" && use == PieceUse::kHull) {
-    const auto turn = whole_turn(module, import);
-    return turn && add_turned(turn->shape, map, pieces);
+    const auto turn = round_turn(module, import);
+    return turn && turn->angle == 360 && add_turned(turn->shape, map, pieces);
   }
   return is_openscad_primitive(module) && add_primitive(module, map, use, import, pieces);
 }

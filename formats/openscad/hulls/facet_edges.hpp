@@ -24,9 +24,9 @@ class FacetEdges {
 
   /// Whether the round solid isn't too far away to have any in common.
   bool are_near(const RoundRing& ring) const;
-  /// Whether an edge is one between two of the round solid's facets, or for a cylinder looks like
-  /// one along its direction: then the solids share a facet's plane. `share`: how far coordinates
-  /// in the world may be off, relative to their size.
+  /// Whether an edge is one between two of the round solid's facets, or for a cylinder or a cone
+  /// goes from one line along it to the next: then the solids share a facet's plane. `share`: how
+  /// far coordinates in the world may be off, relative to their size.
   bool have_one_of(const RoundRing& ring, double share) const;
   std::size_t size() const { return points_.size() + edges_.size(); }
 
@@ -34,6 +34,8 @@ class FacetEdges {
   std::vector<Vec3> points_;
   /// Pairs of indices of points, either way round.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;
+  /// Whether the edges stand for the walls above them.
+  bool are_walls_ = false;
   /// How far the points may be off, their middle, and how far they reach from it.
   double off_ = 0;
   Vec3 middle_;
@@ -43,7 +45,7 @@ class FacetEdges {
 };
 
 /// Moves points in the world to the corners of the round solid's facets that are nearer than
-/// `off`; to a cylinder's across its direction only.
+/// `off`; to those of a cylinder or a cone on their level.
 void move_to_corners(const RoundRing& ring, double off, std::vector<Vec3>& points);
 
 }  // namespace graycube

@@ -27,18 +27,6 @@ constexpr std::uint64_t kSeed = 5;
 
 int rays_that_hit(const std::string& text) { return testing::rays_that_hit(text, kSeed); }
 
-bool has_round(const CsgNode& node) {
-  if (const auto* inner = std::get_if<OperationNode>(&node.value))
-    return std::any_of(inner->children.begin(), inner->children.end(), has_round);
-  return std::holds_alternative<SphereShape>(node.value) ||
-         std::holds_alternative<CylinderShape>(node.value);
-}
-bool has_round(const std::string& text) {
-  const Scene scene = scene_of(text);
-  return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const SceneObject& o) { return has_round(o.csg); });
-}
-
 TEST_CASE("nothing is left of a round part that a faceted hull of it is taken from") {
   for (const std::string& part : {kPost, kBall}) {
     const std::string hull = "hull() { " + part + kAcross + "} ";

@@ -41,21 +41,6 @@ int rays_that_hit(const std::string& text, OpenscadProgram* program = nullptr) {
   return testing::rays_that_hit(text, kSeed, options);
 }
 
-bool has_round(const CsgNode& node) {
-  if (const auto* inner = std::get_if<OperationNode>(&node.value))
-    return std::any_of(inner->children.begin(), inner->children.end(), has_round);
-  return std::holds_alternative<SphereShape>(node.value) ||
-         std::holds_alternative<CylinderShape>(node.value) ||
-         std::holds_alternative<TorusShape>(node.value);
-}
-bool has_round(const std::string& text, OpenscadProgram* program = nullptr) {
-  OpenscadOptions options;
-  options.program = program;
-  const Scene scene = scene_of(text, options);
-  return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const SceneObject& o) { return has_round(o.csg); });
-}
-
 /// Stands for OpenSCAD: whatever it is asked for is an upright prism of `sides` sides around a
 /// circle of radius 10, from z = −20 to 20, in six digits.
 struct PrismProgram : OpenscadProgram {

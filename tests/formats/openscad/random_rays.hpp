@@ -1,6 +1,7 @@
-// How much of a model is left, as rays at random tell.
+// How much of a model is left, as rays at random tell, and whether anything round is.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -29,6 +30,26 @@ inline int rays_that_hit(const std::string& text, std::uint64_t seed,
     hits += tree.first_crossing(ray, 0, std::numeric_limits<double>::infinity(), scratch) ? 1 : 0;
   }
   return hits;
+}
+
+inline bool has_round(const CsgNode& node) {
+  if (const auto* inner = std::get_if<OperationNode>(&node.value)) {
+    return std::any_of(inner->children.begin(), inner->children.end(),
+                       [](const CsgNode& child) { return has_round(child); });
+  }
+  return std::holds_alternative<SphereShape>(node.value) ||
+         std::holds_alternative<CylinderShape>(node.value) ||
+         std::holds_alternative<ConeShape>(node.value) ||
+         std::holds_alternative<TorusShape>(node.value) ||
+         std::holds_alternative<EllipticTorusShape>(node.value);
+}
+/// Whether any leaf of a model is round.
+inline bool has_round(const std::string& text, OpenscadProgram* program = nullptr) {
+  OpenscadOptions options;
+  options.program = program;
+  const Scene scene = scene_of(text, options);
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const SceneObject& o) { return has_round(o.csg); });
 }
 
 }  // namespace graycube::testing
