@@ -73,16 +73,16 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
       digits_(digits),
       delegate_(delegate),
       figures_(figures),
-      share_(digits == kOpenscadDigits ? 1e-5 : 1e-9),
+      forms_(forms),
+      share_(placing_share(digits)),
       compared_left_(kMostCompared) {
   if (options.facets || std::none_of(modules.begin(), modules.end(), may_have_facets)) return;
   const auto for_all = [&](const auto& visit) {
     for (const ScadModule& module : modules) for_each_solid(module, {}, digits, visit);
   };
   std::vector<Solid> solids;
-  for_all([&](const ScadModule& solid, const Affine& to_world) {
-    look_at(solid, to_world, forms, solids);
-  });
+  for_all(
+      [&](const ScadModule& solid, const Affine& to_world) { look_at(solid, to_world, solids); });
   if (!facets_.empty()) {
     for_all([&](const ScadModule& solid, const Affine& to_world) { add_flush(solid, to_world); });
     facets_.clear();
@@ -91,7 +91,7 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
 }
 
 /// Takes down a solid's facets, and a solid whose rounds get facets together.
-void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
+void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world,
                             std::vector<Solid>& solids) {
   const std::string& name = solid.name;
   if (solid.dimension == 0) return;  // nothing is in it
@@ -107,8 +107,8 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
   } else if (name == "rotate_extrude") {
     solids.push_back({&solid, to_world});
   } else if (name == "hull" || name == "minkowski") {
-    if (forms.has_form(solid)) {
-      if (name == "hull") solids.push_back({&solid, to_world});
+    if (forms_.has_form(solid)) {
+      solids.push_back({&solid, to_world});
     } else if (name == "minkowski") {
       add_mesh(solid, to_world);
     } else {
@@ -177,6 +177,8 @@ void FacetedRounds::spread(std::vector<Solid>& solids) {
 
 std::vector<RoundGroup> FacetedRounds::groups_of(const ScadModule& solid,
                                                  const Affine& to_world) const {
+  // OpenSCAD's own mesh has all facets already.
+  if (solid.name == "minkowski" && solid.dimension == 3 && !forms_.has_form(solid)) return {};
   OpenscadReport unread;
   ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
   return round_groups(solid, to_world, import);

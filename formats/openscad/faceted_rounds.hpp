@@ -43,8 +43,7 @@ class FacetedRounds {
  private:
   struct Solid;
 
-  void look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
-               std::vector<Solid>& solids);
+  void look_at(const ScadModule& solid, const Affine& to_world, std::vector<Solid>& solids);
   void add_mesh(const ScadModule& solid, const Affine& to_world);
   void add_outlines(const FlatShape& figure, const Affine& to_world);
   void add_flush(const ScadModule& solid, const Affine& to_world);
@@ -60,7 +59,8 @@ class FacetedRounds {
   std::uint32_t digits_;
   OpenscadDelegate& delegate_;
   KeptFigures& figures_;
-  /// The share of coordinates by which two matrices of so many digits may place points differently.
+  ExactForms& forms_;
+  /// How far coordinates may be off, relative to their size.
   double share_;
   /// The facets that stand there already, until all that is flush with them is found.
   std::vector<FacetEdges> facets_;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "formats/openscad/hulls/ring_sums.hpp"
+#include "formats/openscad/language/module_kinds.hpp"
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/sweep.hpp"
 #include "geometry/portable_math.hpp"
@@ -190,6 +192,88 @@ void add_operands(const ScadModule& hull, const Affine& to_world, ScadImport& im
   }
 }
 
+bool add_operand(const ScadModule& module, const Affine& to_world, ScadImport& import,
+                 SumOperand& operand);
+
+bool add_operands_of_all(const ScadModule& module, const Affine& to_world, ScadImport& import,
+                         SumOperand& operand) {
+  return std::all_of(module.children.begin(), module.children.end(), [&](const ScadModule& child) {
+    return add_operand(child, to_world, import, operand);
+  });
+}
+
+/// The sum of a minkowski()'s operands; nothing if one isn't known, or if it is too large.
+std::optional<SumOperand> operand_of_sum(const ScadModule& module, const Affine& to_world,
+                                         ScadImport& import) {
+  std::optional<SumOperand> sum;
+  for (const ScadModule& child : module.children) {
+    if (child.left_out || child.dimension == 2) continue;
+    SumOperand operand;
+    if (!add_operand(child, to_world, import, operand)) return std::nullopt;
+    if (!sum) {
+      sum = std::move(operand);
+    } else if (!add_to_sum(*sum, operand, to_world.point({}), placing_share(import.digits))) {
+      return std::nullopt;
+    }
+  }
+  return sum;
+}
+
+/// The corners of an extrusion's polygons.
+std::vector<Vec3> corners_of(const PlainSweep& sweep) {
+  std::vector<Vec3> corners;
+  for_each_polygon(sweep.shape, [&](const FlatLoops& outlines) {
+    for (const FlatLoop& loop : outlines) {
+      for (const FlatPoint& p : loop) {
+        corners.push_back({p.x, p.y, sweep.low});
+        corners.push_back({sweep.scale.x * p.x, sweep.scale.y * p.y, sweep.high});
+      }
+    }
+  });
+  return corners;
+}
+
+/// What is round, and the corners of what isn't, in a primitive or an extrusion.
+SumOperand operand_of(const ScadModule& module, const Affine& to_world, ScadImport& import) {
+  SumOperand operand;
+  for (RoundGroup& group : round_groups(module, to_world, import))
+    std::move(group.begin(), group.end(), std::back_inserter(operand.rings));
+  std::vector<Vec3> corners;
+  std::optional<PlainSweep> sweep;
+  if (module.name == "polyhedron") {
+    corners = polyhedron_corners(module, import.report);
+  } else if (is_openscad_primitive(module)) {
+    if (const auto solid = openscad_primitive(module, import.report)) corners = solid->corners;
+  } else if (module.name == "linear_extrude" && plain_sweep(module, import, sweep) && sweep) {
+    corners = corners_of(*sweep);
+  }
+  for (const Vec3& p : corners) operand.corners.push_back(to_world.point(p));
+  return operand;
+}
+
+/// Adds what is in a module; false if that isn't known.
+bool add_operand(const ScadModule& module, const Affine& to_world, ScadImport& import,
+                 SumOperand& operand) {
+  const std::string& name = module.name;
+  if (module.left_out || module.dimension == 2) return true;
+  if (name == "multmatrix") {
+    const auto own = openscad_matrix(module, import.digits, import.report);
+    return !own || add_operands_of_all(module, compose(to_world, *own), import, operand);
+  }
+  if (name == "group" || name == "union" || name == "color" || name == "render" || name == "hull")
+    return add_operands_of_all(module, to_world, import, operand);
+  std::optional<SumOperand> own;
+  if (name == "minkowski") {
+    own = operand_of_sum(module, to_world, import);
+  } else if (is_openscad_primitive(module) || is_extrusion(name)) {
+    own = operand_of(module, to_world, import);
+  }
+  if (!own || own->size() + operand.size() > kMostSumCorners) return false;
+  std::move(own->rings.begin(), own->rings.end(), std::back_inserter(operand.rings));
+  operand.corners.insert(operand.corners.end(), own->corners.begin(), own->corners.end());
+  return true;
+}
+
 }  // namespace
 
 bool is_around_solids(const std::string& name) {
@@ -223,6 +307,8 @@ std::vector<RoundGroup> round_groups(const ScadModule& module, const Affine& to_
       add_turned(turn->shape, turn_ring(turn->start, turn->angle, turn->steps), to_world, group);
   } else if (module.name == "hull") {
     add_operands(module, to_world, import, group);
+  } else if (module.name == "minkowski") {
+    if (auto sum = operand_of_sum(module, to_world, import)) group = std::move(sum->rings);
   }
   if (group.empty()) return {};
   return {std::move(group)};

@@ -10,15 +10,6 @@ namespace {
 
 using namespace graycube::testing;
 
-/// A cylinder that lies across: with something upright, there is no exact hull.
-const std::string kAcross =
-    "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
-    "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); ";
-/// rotate([20, 0, 30]) in six digits.
-const std::string kTurned =
-    "multmatrix([[0.866025, -0.469846, 0.17101, 0], [0.5, 0.813798, -0.296198, 0], "
-    "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
-const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
 const std::string kOval = "multmatrix([[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1.5, 0]]) ";
 const std::string kCone = "cylinder($fn = 40, h = 8, r1 = 10, r2 = 6); ";
 
@@ -26,7 +17,6 @@ constexpr std::uint64_t kSeed = 23;
 
 int rays_that_hit(const std::string& text) { return testing::rays_that_hit(text, kSeed); }
 
-std::string hull_of(const std::string& part) { return "hull() { " + part + kAcross + "} "; }
 std::string turned(const std::string& arguments, const std::string& figure) {
   return "rotate_extrude($fn = 36, " + arguments + ") " + figure;
 }
@@ -34,15 +24,8 @@ std::string raised(double z) {
   return "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, " + std::to_string(z) + "]]) ";
 }
 
-/// Nothing of the part is left once the other, of facets, is taken from it, nor is it round; with
-/// the other aside the part is there, and round.
 void check_flush(const std::string& part, const std::string& other) {
-  for (const std::string& turn : {std::string{}, kTurned}) {
-    CHECK(rays_that_hit(turn + "difference() { " + part + other + "}") == 0);
-    CHECK(rays_that_hit(turn + "difference() { " + part + kAside + other + "}") > 20);
-  }
-  CHECK_FALSE(has_round("union() { " + part + other + "}"));
-  CHECK(has_round("union() { " + part + kAside + other + "}"));
+  testing::check_flush(part, other, kSeed);
 }
 
 TEST_CASE("a cone is flush with the facets of a hull, however it is written") {

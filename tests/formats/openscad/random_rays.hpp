@@ -52,4 +52,29 @@ inline bool has_round(const std::string& text, OpenscadProgram* program = nullpt
                      [](const SceneObject& o) { return has_round(o.csg); });
 }
 
+inline const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
+/// rotate([20, 0, 30]) in six digits.
+inline const std::string kTurned =
+    "multmatrix([[0.866025, -0.469846, 0.17101, 0], [0.5, 0.813798, -0.296198, 0], "
+    "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
+
+/// The hull of a part and a cylinder that lies across: with something upright, there is no exact
+/// form.
+inline std::string hull_of(const std::string& part) {
+  return "hull() { " + part +
+         "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
+         "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); } ";
+}
+
+/// Nothing of the part is left once the other, of facets, is taken from it, nor is it round; with
+/// the other aside the part is there, and round.
+inline void check_flush(const std::string& part, const std::string& other, std::uint64_t seed) {
+  for (const std::string& turn : {std::string{}, kTurned}) {
+    CHECK(rays_that_hit(turn + "difference() { " + part + other + "}", seed) == 0);
+    CHECK(rays_that_hit(turn + "difference() { " + part + kAside + other + "}", seed) > 20);
+  }
+  CHECK_FALSE(has_round("union() { " + part + other + "}"));
+  CHECK(has_round("union() { " + part + kAside + other + "}"));
+}
+
 }  // namespace graycube::testing
