@@ -22,7 +22,7 @@ constexpr double kOnCircle = 1e-6;
 /// More than that of a triangle.
 constexpr double kLongestSide = 1.75;
 /// Turned outlines of more sides stand for curves, whose slanted sides are not looked at.
-constexpr std::size_t kMostTurnedSides = 256;
+constexpr std::size_t kMostTurnedSides = 512;
 constexpr double kPi = 3.14159265358979323846;
 
 FlatMap inverse_of(const FlatMap& map) {
@@ -148,7 +148,10 @@ void add_turned(const FlatShape& shape, const RingAngles& angles, const Affine& 
     const auto& m = disk.map.m;
     const FlatPoint reach{std::sqrt(m[0][0] * m[0][0] + m[0][1] * m[0][1]),
                           std::sqrt(m[1][0] * m[1][0] + m[1][1] * m[1][1])};
-    group.push_back(turned_ring(corners_of(disk), {m[0][2], m[1][2]}, reach, angles, to_world));
+    const FlatLoop corners = corners_of(disk);
+    group.push_back(turned_ring(corners, {m[0][2], m[1][2]}, reach, angles, to_world));
+    // An outline of facets that is turned shares cones with it.
+    add_sides({corners}, angles, to_world, group);
   });
   for_each_polygon(
       shape, [&](const FlatLoops& outlines) { add_sides(outlines, angles, to_world, group); });

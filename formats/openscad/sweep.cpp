@@ -226,10 +226,9 @@ std::optional<CsgNode> upright(const LinearSweep& sweep, const ScadModule& modul
   const auto shape = figure_of(module, import);
   if (!shape) return std::nullopt;
   if (sweep.is_straight()) return extruded(*shape, sweep.low, sweep.high, import, module.line);
-  if (!facets && sweep.twist == 0 && shape->has_curves()) {
-    if (auto cone = tapered(*shape, sweep)) return cone;
-  }
-  if (!facets && shape->has_curves())
+  auto cone = sweep.twist == 0 && shape->has_curves() ? tapered(*shape, sweep) : std::nullopt;
+  if (cone && !facets) return cone;
+  if (!cone && shape->has_curves())
     import.warn_once(module.line,
                      "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);

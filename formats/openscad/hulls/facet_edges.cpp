@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/aabb.hpp"
+#include "geometry/portable_math.hpp"
 
 namespace graycube {
 namespace {
@@ -115,13 +116,31 @@ FacetEdges::FacetEdges(const PolygonMesh& mesh, const Affine& to_world) {
   find_reach();
 }
 
-FacetEdges::FacetEdges(const FlatLoops& outlines, const Affine& to_world) : are_walls_(true) {
+FacetEdges::FacetEdges(const FlatLoops& outlines, const Affine& to_world)
+    : only_(RoundRing::Kind::kCylinder) {
   for (const FlatLoop& loop : outlines) {
     const auto first = static_cast<std::uint32_t>(points_.size());
     const auto count = static_cast<std::uint32_t>(loop.size());
     for (std::uint32_t i = 0; i < count; ++i) {
       points_.push_back(to_world.point({loop[i].x, loop[i].y, 0}));
       edges_.emplace_back(first + i, first + (i + 1) % count);
+    }
+  }
+  find_reach();
+  off_ = kHalfOfSixDigits * (max_abs(middle_) + reach_);
+}
+
+FacetEdges::FacetEdges(const FlatLoops& outlines, const RingAngles& angles, const Affine& to_world)
+    : only_(RoundRing::Kind::kTurned) {
+  const auto count = static_cast<std::uint32_t>(angles.degrees.size());
+  for (const FlatLoop& loop : outlines) {
+    for (const FlatPoint& p : loop) {
+      const auto first = static_cast<std::uint32_t>(points_.size());
+      for (const double angle : angles.degrees)
+        points_.push_back(
+            to_world.point({p.x * cos_degrees(angle), p.x * sin_degrees(angle), p.y}));
+      for (std::uint32_t i = angles.is_open ? 1 : 0; i < count; ++i)
+        edges_.emplace_back(first + (i + count - 1) % count, first + i);
     }
   }
   find_reach();
@@ -137,7 +156,7 @@ void FacetEdges::find_reach() {
 }
 
 bool FacetEdges::are_near(const RoundRing& ring) const {
-  if (are_walls_ && ring.kind != RoundRing::Kind::kCylinder) return false;
+  if (only_ && ring.kind != *only_) return false;
   const auto [distance, reach] = distance_and_reach(ring, middle_, reach_);
   return distance <= kNear * (reach + reach_);
 }

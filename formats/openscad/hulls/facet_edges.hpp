@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,9 @@ class FacetEdges {
   /// The walls of upright prisms, so that only cylinders are found; perhaps of six digits.
   FacetEdges(const FlatLoops& outlines, const Affine& to_world);
 
+  /// Outlines turned about z, by their edges around it, so that only what is turned is found.
+  FacetEdges(const FlatLoops& outlines, const RingAngles& angles, const Affine& to_world);
+
   /// Whether the round solid isn't too far away to have any in common.
   bool are_near(const RoundRing& ring) const;
   /// Whether an edge is one between two of the round solid's facets, or for a cylinder or a cone
@@ -34,8 +38,8 @@ class FacetEdges {
   std::vector<Vec3> points_;
   /// Pairs of indices of points, either way round.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;
-  /// Whether the edges stand for the walls above them.
-  bool are_walls_ = false;
+  /// The only kind of round solid that is looked for, if there is one.
+  std::optional<RoundRing::Kind> only_;
   /// How far the points may be off, their middle, and how far they reach from it.
   double off_ = 0;
   Vec3 middle_;

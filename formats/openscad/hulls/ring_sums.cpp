@@ -55,11 +55,20 @@ std::vector<Vec3> sum_of_spokes(std::vector<Vec3> a, std::vector<Vec3> b, const 
   return sum;
 }
 
-/// Corners around a solid where it is widest: OpenSCAD's balls have none on their equators.
+/// The polar angles of the rings of corners on OpenSCAD's balls, of which none is an equator.
+std::vector<double> polar_angles(const RoundRing& ball) {
+  const std::size_t rings = (ball.corners.size() + 1) / 2;
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < rings; ++i)
+    angles.push_back(180 * (static_cast<double>(i) + 0.5) / static_cast<double>(rings));
+  return angles;
+}
+
+/// Corners around a solid where it is widest.
 RoundRing waist_of(RoundRing ring) {
   if (ring.kind != Kind::kBall) return ring;
-  const double rings = std::floor(0.5 * (static_cast<double>(ring.corners.size()) + 1));
-  const double widest = sin_degrees(180 * (std::floor(0.5 * rings) + 0.5) / rings);
+  const std::vector<double> angles = polar_angles(ring);
+  const double widest = sin_degrees(angles[angles.size() / 2]);
   for (Vec3& corner : ring.corners) corner = ring.center + widest * (corner - ring.center);
   return ring;
 }
@@ -81,6 +90,21 @@ bool have_like_corners(const RoundRing& a, const RoundRing& b, double share) {
   });
 }
 
+/// The rim that a ball makes around the wide end of a cone, with the same corners; `by`: where the
+/// ball is.
+RoundRing rim_of(const RoundRing& cone, const RoundRing& ball, const Vec3& by) {
+  const double wide = radius_of(cone), more = radius_of(ball);
+  RoundRing rim;
+  rim.kind = Kind::kTurned;
+  rim.center = cone.center + by;
+  rim.along = ball.along;
+  for (const Vec3& corner : cone.corners)
+    rim.corners.push_back(rim.center + (1 + more / wide) * (corner - cone.center));
+  for (const double angle : polar_angles(ball))
+    rim.profile.push_back({(wide + more * sin_degrees(angle)) / (wide + more), cos_degrees(angle)});
+  return rim;
+}
+
 }  // namespace
 
 RoundRing moved(RoundRing ring, const Vec3& by) {
@@ -94,7 +118,13 @@ std::optional<RoundRing> sum_of(const RoundRing& a, const RoundRing& b, const Ve
                                 double share) {
   if (a.is_open || b.is_open || a.corners.size() < 3 || b.corners.size() < 3) return std::nullopt;
   if (a.kind != Kind::kCylinder && b.kind == Kind::kCylinder) return sum_of(b, a, origin, share);
+  if (a.kind == Kind::kBall && b.kind == Kind::kCone) return sum_of(b, a, origin, share);
   const Vec3 by = b.center - origin;
+  if (a.kind == Kind::kCone && b.kind == Kind::kBall) {
+    if (!are_parallel(a.along, b.along, share) || !have_like_corners(a, b, share))
+      return std::nullopt;
+    return rim_of(a, b, by);
+  }
   if (a.kind == Kind::kBall && b.kind == Kind::kBall) {
     const double more = radius_of(b) / radius_of(a), off = share * length(b.along);
     const bool is_alike =

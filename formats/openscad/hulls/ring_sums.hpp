@@ -13,9 +13,10 @@ RoundRing moved(RoundRing ring, const Vec3& by);
 
 /// The round surface of the sum of two convex solids where its facets are told by a ring. Of a
 /// cylinder and another round solid about the same direction that is a cylinder, around the corners
-/// of both; of two balls with corners in the same directions it is a ball. Nothing for all others.
-/// `origin`: where the sum's origin lies. `share`: how far coordinates may be off, relative to
-/// their size.
+/// of both; of a cone and a ball with the same corners about the same axis it is the rim around the
+/// cone's wide end, and of two balls with corners in the same directions a ball. Nothing for all
+/// others. `origin`: where the sum's origin lies. `share`: how far coordinates may be off, relative
+/// to their size.
 std::optional<RoundRing> sum_of(const RoundRing& a, const RoundRing& b, const Vec3& origin,
                                 double share);
 

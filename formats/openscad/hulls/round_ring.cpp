@@ -42,24 +42,28 @@ double off_of(const RoundRing& ring, double share) {
   return share * (max_abs(ring.center) + length(ring.corners[0] - ring.center));
 }
 
+/// A cone's corner on the way to the other end.
+Vec3 on_cone(const RoundRing& cone, const Vec3& corner, double height) {
+  return cone.center + height * cone.along + (1 - height * cone.narrowing) * (corner - cone.center);
+}
+
 /// Whether two cones have the same lines along their facets' edges, wherever they end.
 bool are_one_cone(const RoundRing& a, const RoundRing& b, double share) {
-  const double off = off_of(a, share), reach = length(a.along) + length(a.corners[0] - a.center);
+  const double reach = length(a.along) + length(a.corners[0] - a.center);
+  const double side = length(a.corners[1] - a.corners[0]);
   // A cone may end in its tip.
   for (const double height : {0.0, 0.5}) {
+    const SeenPoint first = seen_by(a, on_cone(b, b.corners[0], height));
+    const double off = (off_of(a, share) + share * std::fabs(first.height) * reach) / first.size;
+    const bool has_first = std::any_of(a.corners.begin(), a.corners.end(), [&](const Vec3& corner) {
+      return max_abs(corner - first.place) <= off;
+    });
+    if (!(first.size > 0 && off < side) || !has_first) return false;
     std::vector<Vec3> seen;
-    double most_off = 0;
-    for (const Vec3& corner : b.corners) {
-      const Vec3 p = b.center + height * b.along + (1 - height * b.narrowing) * (corner - b.center);
-      const SeenPoint at = seen_by(a, p);
-      if (!(at.size > 0)) return false;
-      most_off = std::max(most_off, (off + share * std::fabs(at.height) * reach) / at.size);
-      seen.push_back(at.place);
-    }
+    for (const Vec3& corner : b.corners)
+      seen.push_back(seen_by(a, on_cone(b, corner, height)).place);
     std::size_t begin = 0;
-    if (!(most_off < length(a.corners[1] - a.corners[0])) ||
-        !do_corners_agree(a.corners, seen, most_off, begin))
-      return false;
+    if (!do_corners_agree(a.corners, seen, off, begin)) return false;
   }
   return true;
 }

@@ -102,5 +102,27 @@ TEST_CASE("a part of a turn stays round beside one that starts elsewhere or has 
   CHECK_FALSE(has_round("union() { " + part + hull_of(part) + "}"));
 }
 
+TEST_CASE("a ring is flush with an outline of facets that is turned, and both are of facets then") {
+  const auto at_10 = [](const std::string& figure) {
+    return "multmatrix([[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0]]) " + figure;
+  };
+  const std::string disc = at_10("circle($fn = 24, r = 3); ");
+  // Of a circle and an oval there is no exact hull.
+  const std::string egg = "hull() { " + disc +
+                          "multmatrix([[1, 0, 0, 14], [0, 2, 0, 0], [0, 0, 1, 0]]) circle($fn = "
+                          "24, r = 1); } ";
+  for (const char* arguments : {"angle = 360", "angle = 120"})
+    check_flush(turned(arguments, disc), turned(arguments, egg));
+  CHECK(has_round("union() { " + turned("angle = 360", at_10("circle($fn = 24, r = 2.9); ")) +
+                  turned("angle = 360", egg) + "}"));
+}
+
+TEST_CASE("a post stays round below an extrusion that is a mesh because it shrinks") {
+  const std::string funnel =
+      "linear_extrude(height = 8, scale = 0.6) difference() { circle($fn = 40, r = 14); "
+      "circle($fn = 40, r = 10); } ";
+  CHECK(has_round(funnel + "cylinder($fn = 40, h = 8, r1 = 14, r2 = 14); "));
+}
+
 }  // namespace
 }  // namespace graycube

@@ -35,8 +35,9 @@ TEST_CASE("nothing is left of an exact sum that a faceted hull of it is taken fr
   const std::string slot = "hull() { " + drum + at_corner(drum) + "} ";
   for (const std::string& operands :
        {kBox + kBall, kBox + kPost, kBox + cone, drum + kPost, drum + kBall, cone + kPost,
-        drum + "cylinder($fn = 30, h = 1, r1 = 2, r2 = 2); ", "sphere($fn = 24, r = 5); " + kBall,
-        slot + kPost, kBox + kPost + drum, sum(kBox + kBall) + kBall})
+        cone + kBall, kBall + cone, drum + "cylinder($fn = 30, h = 1, r1 = 2, r2 = 2); ",
+        "sphere($fn = 24, r = 5); " + kBall, slot + kPost, kBox + kPost + drum,
+        sum(kBox + kBall) + kBall})
     check_flush(sum(operands), hull_of(sum(operands)), kSeed);
 }
 
