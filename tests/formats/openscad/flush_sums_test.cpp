@@ -59,6 +59,18 @@ TEST_CASE("a sum stays exact beside what is exact, or of facets but not flush wi
   CHECK(has_round("union() { " + sum(kBox + kPost) + hull_of(kBox) + "}"));
 }
 
+TEST_CASE("extrusions in a sum within a hull keep their own figures") {
+  const std::string prism =
+      "linear_extrude(height = 2) polygon(points = [[0, 0], [7, 0], [5, 5], [0, 7]]); ";
+  const std::string drum = "linear_extrude(height = 3) circle($fn = 24, r = 5); ";
+  const std::string ball = "sphere($fn = 20, r = 1); ";
+  // With a ball within there is no exact hull of what has a round side; of what has none there is.
+  CHECK_FALSE(has_round("hull() { " + sum(prism + drum) + ball + "}"));
+  CHECK_FALSE(has_round("hull() { " + sum(drum + prism) + ball + "}"));
+  CHECK(has_round("hull() { " + sum(prism + prism) +
+                  "multmatrix([[1, 0, 0, -2], [0, 1, 0, 0], [0, 0, 1, 0]]) " + ball + "}"));
+}
+
 TEST_CASE("sums of prisms, and of flat shapes, are flush with others of the same sides") {
   const std::string flat =
       "linear_extrude(height = 4) minkowski() { square(size = [10, 8]); circle($fn = 24, r = 2); "
