@@ -50,7 +50,8 @@ class Corners {
 
  private:
   bool are_told_apart(const std::vector<Vec3>& line) {
-    if (line.size() < (ring_.is_open ? 2 : 3)) return false;
+    if (line.size() < (ring_.is_open ? 2 : 3) || !std::all_of(line.begin(), line.end(), is_finite))
+      return false;
     const double most = kMostOff * length(line[1] - line[0]);
     if (!(off_ < most)) return false;
     most_off_ = std::min(most_off_, most);

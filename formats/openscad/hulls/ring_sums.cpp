@@ -13,7 +13,7 @@ using Kind = RoundRing::Kind;
 
 double radius_of(const RoundRing& ring) { return length(ring.corners[0] - ring.center); }
 
-/// Corners as seen from the centre along a direction, counter-clockwise from the lowest on.
+/// Corners as seen from the centre along a direction, counter-clockwise about it.
 std::vector<Vec3> spokes_of(const RoundRing& ring, const Vec3& along) {
   std::vector<Vec3> spokes;
   for (const Vec3& corner : ring.corners) spokes.push_back(across(corner - ring.center, along));
@@ -49,13 +49,14 @@ std::vector<Vec3> sum_of_spokes(std::vector<Vec3> a, std::vector<Vec3> b, const 
                q = b[(j + 1) % b.size()] - b[j % b.size()];
     const double turn = dot(cross(p, q), along), parallel = share * length(p) * length(q);
     const bool is_a_left = i < a.size(), is_b_left = j < b.size();
-    if (is_a_left && (!is_b_left || turn >= -parallel)) ++i;
-    if (is_b_left && (!is_a_left || turn <= parallel)) ++j;
+    // Negated, so that numbers beyond doubles' range end the loop as well.
+    if (is_a_left && (!is_b_left || !(turn < -parallel))) ++i;
+    if (is_b_left && (!is_a_left || !(turn > parallel))) ++j;
   }
   return sum;
 }
 
-/// The polar angles of the rings of corners on OpenSCAD's balls, of which none is an equator.
+/// The polar angles of the rings of corners on OpenSCAD's balls, none of which need be an equator.
 std::vector<double> polar_angles(const RoundRing& ball) {
   const std::size_t rings = (ball.corners.size() + 1) / 2;
   std::vector<double> angles;
@@ -64,7 +65,8 @@ std::vector<double> polar_angles(const RoundRing& ball) {
   return angles;
 }
 
-/// Corners around a solid where it is widest.
+/// The solid with the corners around it where it is widest: OpenSCAD's balls have less than their
+/// radius there.
 RoundRing waist_of(RoundRing ring) {
   if (ring.kind != Kind::kBall) return ring;
   const std::vector<double> angles = polar_angles(ring);
@@ -114,6 +116,23 @@ RoundRing moved(RoundRing ring, const Vec3& by) {
   return ring;
 }
 
+namespace {
+
+/// `by`: where the second ball is.
+std::optional<RoundRing> sum_of_balls(const RoundRing& a, const RoundRing& b, const Vec3& by,
+                                      double share) {
+  const double more = radius_of(b) / radius_of(a), off = share * length(b.along);
+  const bool is_alike =
+      max_abs(b.along - more * a.along) <= off || max_abs(b.along + more * a.along) <= off;
+  if (!is_alike || !have_like_corners(a, b, share)) return std::nullopt;
+  RoundRing sum = moved(a, by);
+  for (Vec3& corner : sum.corners) corner = corner + more * (corner - sum.center);
+  sum.along = (1 + more) * a.along;
+  return sum;
+}
+
+}  // namespace
+
 std::optional<RoundRing> sum_of(const RoundRing& a, const RoundRing& b, const Vec3& origin,
                                 double share) {
   if (a.is_open || b.is_open || a.corners.size() < 3 || b.corners.size() < 3) return std::nullopt;
@@ -125,16 +144,7 @@ std::optional<RoundRing> sum_of(const RoundRing& a, const RoundRing& b, const Ve
       return std::nullopt;
     return rim_of(a, b, by);
   }
-  if (a.kind == Kind::kBall && b.kind == Kind::kBall) {
-    const double more = radius_of(b) / radius_of(a), off = share * length(b.along);
-    const bool is_alike =
-        max_abs(b.along - more * a.along) <= off || max_abs(b.along + more * a.along) <= off;
-    if (!is_alike || !have_like_corners(a, b, share)) return std::nullopt;
-    RoundRing sum = moved(a, by);
-    for (Vec3& corner : sum.corners) corner = corner + more * (corner - sum.center);
-    sum.along = (1 + more) * a.along;
-    return sum;
-  }
+  if (a.kind == Kind::kBall && b.kind == Kind::kBall) return sum_of_balls(a, b, by, share);
   if (a.kind != Kind::kCylinder || b.kind == Kind::kTurned ||
       !are_parallel(a.along, b.along, share))
     return std::nullopt;

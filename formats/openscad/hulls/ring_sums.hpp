@@ -9,6 +9,7 @@
 
 namespace graycube {
 
+/// The same round surface elsewhere.
 RoundRing moved(RoundRing ring, const Vec3& by);
 
 /// The round surface of the sum of two convex solids where its facets are told by a ring. Of a
@@ -30,7 +31,7 @@ struct SumOperand {
   std::size_t size() const;
 };
 
-/// Most corners of an operand, and of a sum.
+/// Most corners of an operand, and most pairs of corners of two.
 inline constexpr std::size_t kMostSumCorners = std::size_t{1} << 17;
 
 /// Adds an operand to a sum, which becomes what both are together; false if that is too much.

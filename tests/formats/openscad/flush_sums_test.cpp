@@ -138,5 +138,11 @@ TEST_CASE("the ring of two cylinders' sum goes round the hull of all sums of the
   }
 }
 
+TEST_CASE("the sum of rings whose sides have no products within doubles' range ends") {
+  const RoundRing a = ring_of(1e200, 24, 0, {0, 0}), b = ring_of(1e199, 30, 7, {0, 0});
+  const auto sum = sum_of(a, b, {}, 1e-9);
+  CHECK((!sum || sum->corners.size() <= a.corners.size() + b.corners.size()));
+}
+
 }  // namespace
 }  // namespace graycube
