@@ -49,6 +49,7 @@ TEST_CASE("a countersink is one whatever its ends, but not with another tip or s
   check_flush(kCone, hull_of(beyond));
   const std::string hull = hull_of(kCone);
   CHECK(has_round("union() { " + hull + "cylinder($fn = 40, h = 8, r1 = 9.9, r2 = 6); }"));
+  CHECK(has_round("union() { " + hull + "cylinder($fn = 40, h = 8, r1 = 10, r2 = 5); }"));
   CHECK(has_round("union() { " + hull + raised(1) + kCone + "}"));
   CHECK(has_round("union() { " + hull + "cylinder($fn = 42, h = 8, r1 = 10, r2 = 6); }"));
 }

@@ -112,12 +112,12 @@ TEST_CASE("the ring of two cylinders' sum goes round the hull of all sums of the
   INFO("seed " << kSeed);
   std::uniform_int_distribution<int> sides(3, 40), turns(0, 3);
   std::uniform_real_distribution<double> size(0.1, 5), place(-9, 9);
-  const auto any_ring = [&] {
-    const double radius = size(random), start = 30 * turns(random);
-    return ring_of(radius, sides(random), start, {place(random), place(random)});
+  const auto any_ring = [&](double start) {
+    return ring_of(size(random), sides(random), start, {place(random), place(random)});
   };
   for (int i = 0; i < 200; ++i) {
-    const RoundRing a = any_ring(), b = any_ring();
+    const double start_of_a = 30 * turns(random);
+    const RoundRing a = any_ring(start_of_a), b = any_ring(30 * turns(random));
     std::vector<FlatPoint> all;
     for (const Vec3& p : a.corners) {
       for (const Vec3& q : b.corners) all.push_back(turned_back(p + q));
@@ -134,7 +134,8 @@ TEST_CASE("the ring of two cylinders' sum goes round the hull of all sums of the
     CHECK(area_of(ring) == Approx(area_of(flat_hull(all))).epsilon(1e-12));
     // Sides that are parallel are one.
     CHECK(ring.size() <= a.corners.size() + b.corners.size());
-    CHECK(sum_of(a, a, {}, 1e-9)->corners.size() == a.corners.size());
+    const RoundRing wider = ring_of(7.3, static_cast<int>(a.corners.size()), start_of_a, {1, 2});
+    CHECK(sum_of(a, wider, {}, 1e-9)->corners.size() == a.corners.size());
   }
 }
 
