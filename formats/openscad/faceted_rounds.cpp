@@ -20,13 +20,18 @@ constexpr std::size_t kMostCompared = std::size_t{1} << 28;
 /// Most corners of the rounds that get facets, and of those that could follow them.
 constexpr std::size_t kMostRingCorners = std::size_t{1} << 22;
 
+/// Whether an extrusion may grow or shrink.
+bool is_taper(const ScadModule& module) {
+  return module.name == "linear_extrude" && module.argument("scale") != nullptr;
+}
+
 /// Whether a module, if it has no exact form, is of facets; or one within is. Asked first, since
 /// matrices take long to read: their rotations are recovered.
 bool may_have_facets(const ScadModule& module) {
   // A shadow is seldom flush with what throws it.
   if (module.name == "projection") return false;
   return module.name == "hull" || module.name == "minkowski" || module.name == "offset" ||
-         is_for_program(module.name) ||
+         is_for_program(module.name) || is_taper(module) ||
          std::any_of(module.children.begin(), module.children.end(), may_have_facets);
 }
 
@@ -38,6 +43,22 @@ std::optional<FlatShape> upright_figure(const ScadModule& solid, ScadImport& imp
       !(sweep->scale == FlatPoint{1, 1}))
     return std::nullopt;
   return std::move(sweep->shape);
+}
+
+/// Calls visit(outlines) for each polygon of a figure, but for those that belong to something
+/// round.
+template <typename Visit>
+void for_each_outline(const FlatShape& figure, const Visit& visit) {
+  if (!figure.facets.empty()) return;
+  if (figure.kind == FlatShape::Kind::kPolygon) visit(figure.loops);
+  for (const FlatShape& child : figure.children) for_each_outline(child, visit);
+}
+
+/// Whether an extrusion becomes a mesh because it grows or shrinks.
+bool is_faceted_taper(const ScadModule& solid, ScadImport& import) {
+  std::optional<PlainSweep> sweep;
+  return is_taper(solid) && plain_sweep(solid, import, sweep) && sweep &&
+         !(sweep->scale == FlatPoint{1, 1}) && !is_exact_taper(*sweep);
 }
 
 std::size_t corners_of(const RoundGroup& group) {
@@ -61,25 +82,26 @@ FacetedRounds::FacetedRounds(const std::vector<ScadModule>& modules, const Opens
       digits_(digits),
       delegate_(delegate),
       figures_(figures),
-      share_(digits == kOpenscadDigits ? 1e-5 : 1e-9),
+      forms_(forms),
+      share_(placing_share(digits)),
       compared_left_(kMostCompared) {
   if (options.facets || std::none_of(modules.begin(), modules.end(), may_have_facets)) return;
   const auto for_all = [&](const auto& visit) {
     for (const ScadModule& module : modules) for_each_solid(module, {}, digits, visit);
   };
   std::vector<Solid> solids;
-  for_all([&](const ScadModule& solid, const Affine& to_world) {
-    look_at(solid, to_world, forms, solids);
-  });
-  if (!facets_.empty()) {
+  for_all(
+      [&](const ScadModule& solid, const Affine& to_world) { look_at(solid, to_world, solids); });
+  if (!facets_.empty() || !tapers_.empty()) {
     for_all([&](const ScadModule& solid, const Affine& to_world) { add_flush(solid, to_world); });
     facets_.clear();
+    tapers_.clear();
   }
   if (!rings_.empty()) spread(solids);
 }
 
 /// Takes down a solid's facets, and a solid whose rounds get facets together.
-void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
+void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world,
                             std::vector<Solid>& solids) {
   const std::string& name = solid.name;
   if (solid.dimension == 0) return;  // nothing is in it
@@ -88,12 +110,14 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
     OpenscadReport unread;
     ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
     if (const auto figure = upright_figure(solid, import)) add_outlines(*figure, to_world);
+    if (is_faceted_taper(solid, import)) add_taper(solid, to_world);
     solids.push_back({&solid, to_world});
   } else if (name == "rotate_extrude") {
+    if (may_have_facets(solid)) add_turned_outlines(solid, to_world);
     solids.push_back({&solid, to_world});
   } else if (name == "hull" || name == "minkowski") {
-    if (forms.has_form(solid)) {
-      if (name == "hull") solids.push_back({&solid, to_world});
+    if (forms_.has_form(solid)) {
+      solids.push_back({&solid, to_world});
     } else if (name == "minkowski") {
       add_mesh(solid, to_world);
     } else {
@@ -104,35 +128,73 @@ void FacetedRounds::look_at(const ScadModule& solid, const Affine& to_world, Exa
   }
 }
 
+bool FacetedRounds::is_room_for(std::size_t size) const {
+  for (const FacetEdges& facets : facets_) size += facets.size();
+  return size <= kMostFacetEdges;
+}
+
 void FacetedRounds::add_mesh(const ScadModule& solid, const Affine& to_world) {
   OpenscadReport unread;
   ScadImport import{options_, unread, delegate_, digits_, {}};
   const std::optional<PolygonMesh> mesh = solid_by_program(solid, import);
   if (!mesh) return;
-  std::size_t size = mesh->points.size() + mesh->corners.size();
-  for (const FacetEdges& facets : facets_) size += facets.size();
-  if (size <= kMostFacetEdges) facets_.emplace_back(*mesh, to_world);
+  if (is_room_for(mesh->points.size() + mesh->corners.size()))
+    facets_.emplace_back(*mesh, to_world);
 }
 
-/// Takes down the polygons of a figure, but for those that belong to something round.
+/// Takes down the polygons of a figure that is extruded.
 void FacetedRounds::add_outlines(const FlatShape& figure, const Affine& to_world) {
-  if (!figure.facets.empty()) return;
-  if (figure.kind == FlatShape::Kind::kPolygon) facets_.emplace_back(figure.loops, to_world);
-  for (const FlatShape& child : figure.children) add_outlines(child, to_world);
+  for_each_outline(figure, [&](const FlatLoops& loops) { facets_.emplace_back(loops, to_world); });
 }
 
-/// Adds those of a solid's rounds of which a facet is among those taken down.
+/// Takes down the polygons of a figure that is turned, but for those that belong to something
+/// round.
+void FacetedRounds::add_turned_outlines(const ScadModule& solid, const Affine& to_world) {
+  OpenscadReport unread;
+  ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
+  const auto turn = round_turn(solid, import);
+  if (!turn) return;
+  FlatLoops outlines;
+  std::size_t corners = 0;
+  for_each_outline(turn->shape, [&](const FlatLoops& loops) {
+    for (const FlatLoop& loop : loops) corners += loop.size();
+    outlines.insert(outlines.end(), loops.begin(), loops.end());
+  });
+  const RingAngles angles = turn_ring(turn->start, turn->angle, turn->steps);
+  if (is_room_for(2 * corners * angles.degrees.size()))
+    facets_.emplace_back(outlines, angles, to_world);
+}
+
+/// Takes down the cones of an extrusion that is a mesh.
+void FacetedRounds::add_taper(const ScadModule& solid, const Affine& to_world) {
+  tapered_.insert(&solid);
+  std::size_t corners = 0;
+  for (RoundGroup& group : groups_of(solid, to_world)) {
+    corners += corners_of(group);
+    if (corners > kMostRingCorners) return;
+    for (RoundRing& ring : group) {
+      const std::size_t count = ring.corners.size();
+      tapers_.emplace(count, std::move(ring));
+    }
+  }
+}
+
+/// Whether a facet of a round is among those taken down.
+bool FacetedRounds::is_facet_there(const RoundRing& ring) {
+  return has(tapers_, ring) ||
+         std::any_of(facets_.begin(), facets_.end(), [&](const FacetEdges& facets) {
+           if (!facets.are_near(ring) || facets.size() > compared_left_) return false;
+           compared_left_ -= facets.size();
+           return facets.have_one_of(ring, share_);
+         });
+}
+
+/// Adds those of a solid's rounds that are flush with facets taken down.
 void FacetedRounds::add_flush(const ScadModule& solid, const Affine& to_world) {
+  if (tapered_.contains(&solid)) return;
   for (RoundGroup& group : groups_of(solid, to_world)) {
     for (RoundRing& ring : group) {
-      if (has(ring)) continue;
-      const bool is_flush =
-          std::any_of(facets_.begin(), facets_.end(), [&](const FacetEdges& facets) {
-            if (!facets.are_near(ring) || facets.size() > compared_left_) return false;
-            compared_left_ -= facets.size();
-            return facets.have_one_of(ring, share_);
-          });
-      if (is_flush) add({std::move(ring)});
+      if (!has(rings_, ring) && is_facet_there(ring)) add({std::move(ring)});
     }
   }
 }
@@ -162,6 +224,8 @@ void FacetedRounds::spread(std::vector<Solid>& solids) {
 
 std::vector<RoundGroup> FacetedRounds::groups_of(const ScadModule& solid,
                                                  const Affine& to_world) const {
+  // OpenSCAD's own mesh has all facets already.
+  if (solid.name == "minkowski" && solid.dimension == 3 && !forms_.has_form(solid)) return {};
   OpenscadReport unread;
   ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
   return round_groups(solid, to_world, import);
@@ -175,11 +239,11 @@ bool FacetedRounds::touch(const ScadModule& module, const Affine& to_world) cons
 }
 
 bool FacetedRounds::change_figure(const ScadModule& module, const Affine& to_world) const {
-  if (rings_.empty() || module.name != "linear_extrude") return false;
-  if (!may_have_facets(module)) return touch(module, to_world);
+  if (rings_.empty()) return false;
   OpenscadReport unread;
   ScadImport import{options_, unread, delegate_, digits_, {}, &figures_, true};
-  return upright_figure(module, import).has_value();
+  if (module.dimension != 3 || !upright_figure(module, import)) return false;
+  return may_have_facets(module) || touch(module, to_world);
 }
 
 void FacetedRounds::move_corners(std::vector<Vec3>& points, const Affine& to_world,
@@ -254,20 +318,21 @@ FlatShape FacetedRounds::replaced(FlatShape figure, const Affine& to_world, Scad
 
 void FacetedRounds::add(const RoundGroup& group) {
   for (const RoundRing& ring : group) {
-    if (corners_ + ring.corners.size() > kMostRingCorners || has(ring)) continue;
+    if (corners_ + ring.corners.size() > kMostRingCorners || has(rings_, ring)) continue;
     corners_ += ring.corners.size();
     rings_.emplace(ring.corners.size(), ring);
   }
 }
 
-bool FacetedRounds::has(const RoundRing& ring) const {
-  const auto [first, last] = rings_.equal_range(ring.corners.size());
+bool FacetedRounds::has(const Rings& rings, const RoundRing& ring) const {
+  const auto [first, last] = rings.equal_range(ring.corners.size());
   return std::any_of(first, last,
                      [&](const auto& known) { return are_one(known.second, ring, share_); });
 }
 
 bool FacetedRounds::has_any(const RoundGroup& group) const {
-  return std::any_of(group.begin(), group.end(), [&](const RoundRing& ring) { return has(ring); });
+  return std::any_of(group.begin(), group.end(),
+                     [&](const RoundRing& ring) { return has(rings_, ring); });
 }
 
 }  // namespace graycube

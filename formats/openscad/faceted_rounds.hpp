@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "formats/openscad/flat/shape.hpp"
@@ -43,15 +44,19 @@ class FacetedRounds {
  private:
   struct Solid;
 
-  void look_at(const ScadModule& solid, const Affine& to_world, ExactForms& forms,
-               std::vector<Solid>& solids);
+  void look_at(const ScadModule& solid, const Affine& to_world, std::vector<Solid>& solids);
   void add_mesh(const ScadModule& solid, const Affine& to_world);
   void add_outlines(const FlatShape& figure, const Affine& to_world);
+  void add_turned_outlines(const ScadModule& solid, const Affine& to_world);
+  void add_taper(const ScadModule& solid, const Affine& to_world);
+  bool is_room_for(std::size_t size) const;
+  bool is_facet_there(const RoundRing& ring);
   void add_flush(const ScadModule& solid, const Affine& to_world);
   void spread(std::vector<Solid>& solids);
 
   std::vector<RoundGroup> groups_of(const ScadModule& solid, const Affine& to_world) const;
-  bool has(const RoundRing& ring) const;
+  using Rings = std::multimap<std::size_t, RoundRing>;
+  bool has(const Rings& rings, const RoundRing& ring) const;
   bool has_any(const RoundGroup& group) const;
   void add(const RoundGroup& group);
   FlatShape replaced(FlatShape figure, const Affine& to_world, ScadImport& import, int line) const;
@@ -60,16 +65,20 @@ class FacetedRounds {
   std::uint32_t digits_;
   OpenscadDelegate& delegate_;
   KeptFigures& figures_;
-  /// The share of coordinates by which two matrices of so many digits may place points differently.
+  ExactForms& forms_;
+  /// How far coordinates may be off, relative to their size.
   double share_;
   /// The facets that stand there already, until all that is flush with them is found.
   std::vector<FacetEdges> facets_;
+  /// The cones of extrusions that are meshes, until then as well, and these extrusions.
+  Rings tapers_;
+  std::set<const ScadModule*> tapered_;
   /// How many more corners and edges are compared with rounds.
   std::size_t compared_left_;
   /// The corners of all `rings_`.
   std::size_t corners_ = 0;
   /// The rings of everything that gets facets, by their number of corners.
-  std::multimap<std::size_t, RoundRing> rings_;
+  Rings rings_;
 };
 
 }  // namespace graycube

@@ -9,7 +9,6 @@
 
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hull.hpp"
-#include "formats/openscad/hulls/convex_hull.hpp"
 #include "formats/openscad/language/known_arguments.hpp"
 #include "formats/openscad/language/matrix.hpp"
 #include "formats/openscad/language/module_kinds.hpp"
@@ -121,8 +120,7 @@ class Importer {
     } else if (name == "hull") {
       add_hull(module, around, parts);
     } else if (name == "minkowski") {
-      if (!add_exact(module, forms_.form(module, import_), around, parts))
-        add_by_program(module, around, parts);
+      add_sum(module, around, parts);
     } else if (is_for_program(name)) {
       add_by_program(module, around, parts);
     } else {
@@ -254,15 +252,15 @@ class Importer {
   void add_sweep(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
     std::optional<CsgNode> solid;
     std::optional<PlainSweep> sweep;
-    if (module.name == "rotate_extrude" && faceted_.touch(module, around.to_world)) {
-      solid = faceted_turn(module, import_);
-    } else if (!faceted_.change_figure(module, around.to_world)) {
-      solid = openscad_sweep(module, import_);
-    } else if (plain_sweep(module, import_, sweep) && sweep) {
+    if (faceted_.change_figure(module, around.to_world)) {
+      if (!plain_sweep(module, import_, sweep) || !sweep) return;
       const FlatShape figure =
           faceted_.with_facets(std::move(sweep->shape), around.to_world, import_, module.line);
       solid = extruded(figure, sweep->low, sweep->high, import_, module.line);
       if (solid) faceted_.move_prisms(*solid, around.to_world);
+    } else {
+      solid = faceted_.touch(module, around.to_world) ? faceted_sweep(module, import_)
+                                                      : openscad_sweep(module, import_);
     }
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
@@ -298,17 +296,20 @@ class Importer {
       if (is_alone && add_exact(module, forms_.form(module, import_), around, parts)) return;
       return add_by_program(module, around, parts);
     }
-    ScadMesh mesh = convex_hull(corners);
-    if (mesh.faces.empty()) {
-      const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
-      if (std::any_of(corners.begin(), corners.end(), is_far)) {
-        return report_.error(module.line, "hull() reaches beyond the largest coordinate, 1e30");
-      }
-      return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
-    }
-    ScadArguments arguments(module, report_);
-    auto solid = polyhedral_solid(std::move(mesh), arguments, precision_of(import_.digits));
+    auto solid = solid_hull(module, corners, import_);
     if (solid) add_solid(std::move(solid->leaf), solid->corners, module, around, parts);
+  }
+
+  void add_sum(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
+    if (faceted_.touch(module, around.to_world)) {
+      if (auto sum = faceted_sum(module, import_)) {
+        faceted_.move_prisms(sum->node, around.to_world);
+        return add_solid(std::move(sum->node), sum->corners, module, around, parts);
+      }
+      if (import_.delegate.is_there()) return add_by_program(module, around, parts);
+    }
+    if (!add_exact(module, forms_.form(module, import_), around, parts))
+      add_by_program(module, around, parts);
   }
 
   void add_by_program(const ScadModule& module, const Surroundings& around,

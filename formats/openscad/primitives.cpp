@@ -95,13 +95,19 @@ std::optional<ScadRound> openscad_round(const ScadModule& module) {
   OpenscadReport unread;
   const std::optional<ScadSolid> solid = openscad_primitive(module, unread);
   if (!solid) return std::nullopt;
+  ScadRound round;
+  if (const auto* ball = std::get_if<SphereShape>(&solid->leaf.value)) {
+    round = {true, ball->radius, ball->radius, 0, 0, 0};
+  } else if (const auto* cylinder = std::get_if<CylinderShape>(&solid->leaf.value)) {
+    round = {false, cylinder->radius, cylinder->radius, cylinder->base.z, cylinder->top.z, 0};
+  } else if (const auto* cone = std::get_if<ConeShape>(&solid->leaf.value)) {
+    round = {false, cone->base_radius, cone->top_radius, cone->base.z, cone->top.z, 0};
+  } else {
+    return std::nullopt;
+  }
   ScadArguments arguments(module, unread);
-  const ScadFineness fineness = fineness_of(arguments);
-  if (const auto* ball = std::get_if<SphereShape>(&solid->leaf.value))
-    return ScadRound{true, ball->radius, fragments(ball->radius, fineness)};
-  if (const auto* cylinder = std::get_if<CylinderShape>(&solid->leaf.value))
-    return ScadRound{false, cylinder->radius, fragments(cylinder->radius, fineness)};
-  return std::nullopt;
+  round.sides = fragments(std::max(round.radius, round.top_radius), fineness_of(arguments));
+  return round;
 }
 
 std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {

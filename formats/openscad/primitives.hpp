@@ -41,10 +41,13 @@ std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadRe
 /// The corners of a polyhedron()'s faces, which may enclose nothing.
 std::vector<Vec3> polyhedron_corners(const ScadModule& module, OpenscadReport& report);
 
-/// A sphere, or a cylinder as wide at both ends, that may stay round.
+/// A sphere, a cylinder or a cone that may stay round.
 struct ScadRound {
   bool is_ball = false;
-  double radius = 0;
+  /// A sphere's radius, or that of the lower end.
+  double radius = 0, top_radius = 0;
+  /// Heights of the ends.
+  double low = 0, high = 0;
   /// Number of sides that OpenSCAD gives it.
   int sides = 0;
 };

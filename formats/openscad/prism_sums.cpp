@@ -189,23 +189,49 @@ std::optional<std::vector<CsgNode>> rounded(const Prism& prism, const Ball& ball
   return parts;
 }
 
+/// The prisms with OpenSCAD's sides; false if a figure is empty.
+bool give_sides(std::vector<Prism>& prisms, ScadImport& import, int line) {
+  return std::all_of(prisms.begin(), prisms.end(), [&](Prism& prism) {
+    auto outlines = polygon_of(prism.figure, import, line);
+    if (!outlines) return false;
+    prism.figure = FlatShape{};
+    prism.figure.loops = *std::move(outlines);
+    return true;
+  });
+}
+
+/// The prisms whose union the sum is, and the ball that is added to it; false if the operands
+/// aren't known, or have no such sum.
+bool add_up(const ScadModule& module, bool facets, ScadImport& import, std::vector<Prism>& sums,
+            std::optional<Ball>& ball) {
+  for (const ScadModule& child : module.children) {
+    if (child.left_out || child.dimension == 2) continue;
+    Operand operand;
+    if (!add_operand(child, {}, import, operand)) return false;
+    if (operand.ball && !std::exchange(ball, operand.ball)) continue;
+    if (operand.prisms.empty()) return false;
+    if (facets && !give_sides(operand.prisms, import, module.line)) return false;
+    if (sums.empty()) {
+      sums = std::move(operand.prisms);
+    } else if (!add_prisms(sums, operand.prisms)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<CsgNode> united(std::vector<CsgNode> parts) {
+  if (parts.empty()) return std::nullopt;
+  if (parts.size() == 1) return std::move(parts.front());
+  return leaf(OperationNode{Operation::kUnion, std::move(parts)});
+}
+
 }  // namespace
 
 std::optional<CsgNode> exact_prism_sum(const ScadModule& module, ScadImport& import) {
   std::vector<Prism> sums;
   std::optional<Ball> ball;
-  for (const ScadModule& child : module.children) {
-    if (child.left_out || child.dimension == 2) continue;
-    Operand operand;
-    if (!add_operand(child, {}, import, operand)) return std::nullopt;
-    if (operand.ball && !std::exchange(ball, operand.ball)) continue;
-    if (operand.prisms.empty()) return std::nullopt;
-    if (sums.empty()) {
-      sums = std::move(operand.prisms);
-    } else if (!add_prisms(sums, operand.prisms)) {
-      return std::nullopt;
-    }
-  }
+  if (!add_up(module, false, import, sums, ball)) return std::nullopt;
   std::vector<CsgNode> parts;
   for (const Prism& prism : sums) {
     if (ball) {
@@ -216,9 +242,20 @@ std::optional<CsgNode> exact_prism_sum(const ScadModule& module, ScadImport& imp
       parts.push_back(*std::move(solid));
     }
   }
-  if (parts.empty()) return std::nullopt;
-  if (parts.size() == 1) return std::move(parts.front());
-  return leaf(OperationNode{Operation::kUnion, std::move(parts)});
+  return united(std::move(parts));
+}
+
+std::optional<CsgNode> faceted_prism_sum(const ScadModule& module, ScadImport& import) {
+  std::vector<Prism> sums;
+  std::optional<Ball> ball;
+  if (!add_up(module, true, import, sums, ball) || ball) return std::nullopt;
+  std::vector<CsgNode> parts;
+  for (const Prism& prism : sums) {
+    auto solid = extruded(prism.figure, prism.low, prism.high, import, module.line);
+    if (!solid) return std::nullopt;
+    parts.push_back(*std::move(solid));
+  }
+  return united(std::move(parts));
 }
 
 }  // namespace graycube

@@ -16,4 +16,7 @@ inline constexpr std::size_t kMaxPrismSums = 64;
 /// exact, or empty.
 std::optional<CsgNode> exact_prism_sum(const ScadModule& module, ScadImport& import);
 
+/// The same with OpenSCAD's sides for what is round, without balls.
+std::optional<CsgNode> faceted_prism_sum(const ScadModule& module, ScadImport& import);
+
 }  // namespace graycube

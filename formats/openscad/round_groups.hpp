@@ -7,11 +7,17 @@
 
 #include "formats/openscad/flat/shape.hpp"
 #include "formats/openscad/hulls/round_ring.hpp"
+#include "formats/openscad/language/limits.hpp"
 #include "formats/openscad/language/matrix.hpp"
 
 namespace graycube {
 
 using RoundGroup = std::vector<RoundRing>;
+
+/// The share of coordinates by which two matrices of so many digits may place points differently.
+constexpr double placing_share(std::uint32_t digits) {
+  return digits == kOpenscadDigits ? 1e-5 : 1e-9;
+}
 
 /// Levels of modules that are looked into.
 inline constexpr int kMostRoundLevels = 256;
@@ -41,7 +47,9 @@ void for_each_solid(const ScadModule& module, const Affine& to_world, std::uint3
 }
 
 /// Those of a solid that for_each_solid() visits: a sphere(), a straight cylinder(), what is
-/// extruded or turned from circles, all that a hull() is of.
+/// extruded or turned from circles, all that a hull() is of. Of a minkowski() it is one group: what
+/// is round in one operand at each corner of the others, and the sums of what is round in several,
+/// where a ring tells these; none where there are too many.
 std::vector<RoundGroup> round_groups(const ScadModule& module, const Affine& to_world,
                                      ScadImport& import);
 /// Those of an upright extrusion of a figure.

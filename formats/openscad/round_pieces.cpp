@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "formats/openscad/flat/rounds.hpp"
@@ -136,15 +137,16 @@ bool add_turned(const FlatShape& figure, const Affine& map, std::vector<RoundPie
   return true;
 }
 
-bool add_all(const std::vector<ScadModule>& modules, const Affine& map, PieceUse use,
+bool add_all(std::span<const ScadModule> modules, const Affine& map, PieceUse use,
              ScadImport& import, std::vector<RoundPiece>& pieces) {
   return std::all_of(modules.begin(), modules.end(), [&](const ScadModule& module) {
     return module.left_out || module.dimension == 2 || add_pieces(module, map, use, import, pieces);
   });
 }
 
-/// Adds the hull of everything in the module, as one piece.
-bool add_hull(const std::vector<ScadModule>& modules, const Affine& map, ScadImport& import,
+/// Adds the hull of everything in the modules, as one piece. They are the file's own, not copies:
+/// figures are kept by modules' addresses.
+bool add_hull(std::span<const ScadModule> modules, const Affine& map, ScadImport& import,
               std::vector<RoundPiece>& pieces) {
   std::vector<RoundPiece> parts;
   if (!add_all(modules, map, PieceUse::kHull, import, parts)) return false;
@@ -162,7 +164,7 @@ bool add_sum(const ScadModule& module, const Affine& map, PieceUse use, ScadImpo
   for (const ScadModule& child : module.children) {
     if (child.left_out || child.dimension == 2) continue;
     std::vector<RoundPiece> operand;
-    const bool is_known = use == PieceUse::kHull ? add_hull({child}, {}, import, operand)
+    const bool is_known = use == PieceUse::kHull ? add_hull({&child, 1}, {}, import, operand)
                                                  : add_pieces(child, {}, use, import, operand);
     if (!is_known || operand.empty()) return false;
     if (std::exchange(is_first, false)) {
@@ -207,8 +209,8 @@ bool add_pieces(const ScadModule& module, const Affine& map, PieceUse use, ScadI
     return !sweep || add_plain_sweep(*sweep, sweep->shape, map, use, pieces);
   }
   if (module.name == "rotate_extrude" && use == PieceUse::kHull) {
-    const auto turn = whole_turn(module, import);
-    return turn && add_turned(turn->shape, map, pieces);
+    const auto turn = round_turn(module, import);
+    return turn && turn->angle == 360 && add_turned(turn->shape, map, pieces);
   }
   return is_openscad_primitive(module) && add_primitive(module, map, use, import, pieces);
 }

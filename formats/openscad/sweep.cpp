@@ -222,14 +222,13 @@ bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
 }
 
 std::optional<CsgNode> upright(const LinearSweep& sweep, const ScadModule& module,
-                               ScadImport& import) {
+                               ScadImport& import, bool facets) {
   const auto shape = figure_of(module, import);
   if (!shape) return std::nullopt;
   if (sweep.is_straight()) return extruded(*shape, sweep.low, sweep.high, import, module.line);
-  if (sweep.twist == 0 && shape->has_curves()) {
-    if (auto cone = tapered(*shape, sweep)) return cone;
-  }
-  if (shape->has_curves())
+  auto cone = sweep.twist == 0 && shape->has_curves() ? tapered(*shape, sweep) : std::nullopt;
+  if (cone && !facets) return cone;
+  if (!cone && shape->has_curves())
     import.warn_once(module.line,
                      "linear_extrude() with twist or scale takes circles by OpenSCAD's sides");
   const auto loops = polygon_of(*shape, import, module.line);
@@ -238,9 +237,9 @@ std::optional<CsgNode> upright(const LinearSweep& sweep, const ScadModule& modul
   return united(swept(*loops, sweep), module, import);
 }
 
-std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import) {
+std::optional<CsgNode> linear(const ScadModule& module, ScadImport& import, bool facets) {
   const auto sweep = linear_sweep(module, import);
-  auto solid = sweep ? upright(*sweep, module, import) : std::nullopt;
+  auto solid = sweep ? upright(*sweep, module, import, facets) : std::nullopt;
   if (!solid || sweep->lean == FlatPoint{}) return solid;
   const Affine lean = leaning(*sweep);
   solid->transform = solid->transform ? compose(lean, *solid->transform) : lean;
@@ -301,12 +300,13 @@ std::optional<CsgNode> mesh_leaf(const PolygonMesh& mesh, const ScadModule& modu
 }
 
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import) {
-  return module.name == "linear_extrude" ? linear(module, import)
+  return module.name == "linear_extrude" ? linear(module, import, false)
                                          : rotated(module, import, import.options.facets);
 }
 
-std::optional<CsgNode> faceted_turn(const ScadModule& module, ScadImport& import) {
-  return rotated(module, import, true);
+std::optional<CsgNode> faceted_sweep(const ScadModule& module, ScadImport& import) {
+  return module.name == "linear_extrude" ? linear(module, import, true)
+                                         : rotated(module, import, true);
 }
 
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep) {
@@ -317,13 +317,14 @@ bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<Pla
   return true;
 }
 
-std::optional<WholeTurn> whole_turn(const ScadModule& module, ScadImport& import) {
+bool is_exact_taper(const PlainSweep& sweep) { return !disks_of_convex(sweep.shape).empty(); }
+
+std::optional<RoundTurn> round_turn(const ScadModule& module, ScadImport& import) {
   auto shape = figure_of(module, import);
   const auto loops = shape ? polygon_of(*shape, import, module.line) : std::nullopt;
   const auto sweep = loops ? turn_sweep(module, import, *loops) : std::nullopt;
-  if (!sweep || sweep->angle != 360 || import.options.facets || asked_sides(sweep->fineness) > 0)
-    return std::nullopt;
-  return WholeTurn{*std::move(shape), steps_of(*loops, *sweep)};
+  if (!sweep || import.options.facets || asked_sides(sweep->fineness) > 0) return std::nullopt;
+  return RoundTurn{*std::move(shape), sweep->start, sweep->angle, steps_of(*loops, *sweep)};
 }
 
 std::optional<CsgNode> solid_of_profile(const std::vector<FlatDisk>& profile, ScadImport& import,

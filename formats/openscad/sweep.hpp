@@ -13,8 +13,8 @@ namespace graycube {
 /// The solid of one of the two modules in its own coordinates; nothing if it is empty, or wrong,
 /// which is reported.
 std::optional<CsgNode> openscad_sweep(const ScadModule& module, ScadImport& import);
-/// A rotate_extrude() in OpenSCAD's facets.
-std::optional<CsgNode> faceted_turn(const ScadModule& module, ScadImport& import);
+/// The same in OpenSCAD's facets.
+std::optional<CsgNode> faceted_sweep(const ScadModule& module, ScadImport& import);
 
 /// The figure × [low, high] along z.
 std::optional<CsgNode> extruded(const FlatShape& shape, double low, double high, ScadImport& import,
@@ -34,14 +34,18 @@ struct PlainSweep {
 /// reported.
 bool plain_sweep(const ScadModule& module, ScadImport& import, std::optional<PlainSweep>& sweep);
 
-/// A rotate_extrude() that goes all around and is round, which OpenSCAD gives so many facets around
-/// the axis.
-struct WholeTurn {
+/// Whether what grows or shrinks evenly has an exact form: its figure is convex.
+bool is_exact_taper(const PlainSweep& sweep);
+
+/// A rotate_extrude() that is round: a turn by `angle` degrees from `start` on, in which OpenSCAD
+/// gives it so many facets.
+struct RoundTurn {
   FlatShape shape;
+  double start = 0, angle = 360;
   int steps = 0;
 };
 /// Nothing for any other.
-std::optional<WholeTurn> whole_turn(const ScadModule& module, ScadImport& import);
+std::optional<RoundTurn> round_turn(const ScadModule& module, ScadImport& import);
 
 /// The hull of disks and points, each with its mirror image, turned about the y axis, which becomes
 /// z. Nothing if a disk reaches the axis but isn't centred on it.

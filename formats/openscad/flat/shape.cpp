@@ -297,14 +297,33 @@ class FlatReader {
     std::vector<FlatShape> parts = operands(module, {});
     if (parts.empty()) return std::nullopt;
     if (parts.size() > 1 && import_.options.facets) return by_program(module, map);
-    FlatShape sum = std::move(parts.front());
+    FlatShape sum = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {
       auto next = exact_flat_sum(sum, parts[i]);
       if (!next.is_exact) return by_program(module, map);
       if (!next.shape) return std::nullopt;
       sum = *std::move(next.shape);
     }
-    return mapped(map, std::move(sum));
+    return with_own_facets(
+        std::move(sum), [&] { return sum_of_facets(parts, module.line); }, map);
+  }
+
+  /// The sum of the shapes' polygons; empty if it can't be had here.
+  FlatLoops sum_of_facets(const std::vector<FlatShape>& parts, int line) {
+    FlatShape sum;
+    for (const FlatShape& part : parts) {
+      const auto loops = polygon_of(part, import_, line);
+      if (!loops) return {};
+      FlatShape own;
+      own.loops = *loops;
+      if (!sum.loops.empty()) {
+        auto next = exact_flat_sum(sum, own);
+        if (!next.shape || next.shape->kind != Kind::kPolygon) return {};
+        own = *std::move(next.shape);
+      }
+      sum = std::move(own);
+    }
+    return std::move(sum.loops);
   }
 
   std::optional<FlatShape> by_program(const ScadModule& module, const FlatMap& map) {

@@ -17,27 +17,9 @@ const std::string kBall = "sphere($fn = 24, r = 6); ";
 const std::string kAcross =
     "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
     "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); ";
-/// rotate([20, 0, 30]) in six digits.
-const std::string kTurned =
-    "multmatrix([[0.866025, -0.469846, 0.17101, 0], [0.5, 0.813798, -0.296198, 0], "
-    "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
-const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
-
 constexpr std::uint64_t kSeed = 5;
 
 int rays_that_hit(const std::string& text) { return testing::rays_that_hit(text, kSeed); }
-
-bool has_round(const CsgNode& node) {
-  if (const auto* inner = std::get_if<OperationNode>(&node.value))
-    return std::any_of(inner->children.begin(), inner->children.end(), has_round);
-  return std::holds_alternative<SphereShape>(node.value) ||
-         std::holds_alternative<CylinderShape>(node.value);
-}
-bool has_round(const std::string& text) {
-  const Scene scene = scene_of(text);
-  return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const SceneObject& o) { return has_round(o.csg); });
-}
 
 TEST_CASE("nothing is left of a round part that a faceted hull of it is taken from") {
   for (const std::string& part : {kPost, kBall}) {

@@ -14,15 +14,6 @@ namespace {
 
 using namespace graycube::testing;
 
-/// A cylinder that lies across: with an upright circle, there is no exact hull.
-const std::string kAcross =
-    "multmatrix([[1, 0, 0, 30], [0, 0, -1, 0], [0, 1, 0, 4], [0, 0, 0, 1]]) "
-    "cylinder($fn = 30, h = 10, r1 = 4, r2 = 4); ";
-/// rotate([20, 0, 30]) in six digits.
-const std::string kTurned =
-    "multmatrix([[0.866025, -0.469846, 0.17101, 0], [0.5, 0.813798, -0.296198, 0], "
-    "[0, 0.34202, 0.939693, 0], [0, 0, 0, 1]]) ";
-const std::string kAside = "multmatrix([[1, 0, 0, -40], [0, 1, 0, 5], [0, 0, 1, 0]]) ";
 const std::string kDisc = "circle($fn = 40, r = 10); ";
 const std::string kDrum = "linear_extrude(height = 8) " + kDisc;
 const std::string kRing =
@@ -31,29 +22,12 @@ const std::string kRing =
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::string hull_of(const std::string& part) { return "hull() { " + part + kAcross + "} "; }
-
 constexpr std::uint64_t kSeed = 11;
 
 int rays_that_hit(const std::string& text, OpenscadProgram* program = nullptr) {
   OpenscadOptions options;
   options.program = program;
   return testing::rays_that_hit(text, kSeed, options);
-}
-
-bool has_round(const CsgNode& node) {
-  if (const auto* inner = std::get_if<OperationNode>(&node.value))
-    return std::any_of(inner->children.begin(), inner->children.end(), has_round);
-  return std::holds_alternative<SphereShape>(node.value) ||
-         std::holds_alternative<CylinderShape>(node.value) ||
-         std::holds_alternative<TorusShape>(node.value);
-}
-bool has_round(const std::string& text, OpenscadProgram* program = nullptr) {
-  OpenscadOptions options;
-  options.program = program;
-  const Scene scene = scene_of(text, options);
-  return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const SceneObject& o) { return has_round(o.csg); });
 }
 
 /// Stands for OpenSCAD: whatever it is asked for is an upright prism of `sides` sides around a
