@@ -94,9 +94,9 @@ void SceneBuilder::collect_cut(const BrlcadTree& tree, const State& state, std::
   bool is_empty = false;
   for (std::size_t i = 1; i < tree.children.size() && !is_empty; ++i) {
     Part part = build(tree.children[i], state.to_world, is_minus);
-    std::string lacks = std::exchange(lacks_, {});
-    is_empty = !part.node && !is_minus && lacks.empty();
-    if (!lacks.empty()) {
+    Lack lacks = std::exchange(lacks_, {});
+    is_empty = !part.node && !is_minus && !lacks;
+    if (lacks) {
       cuts.push_back({is_minus, {}, 0, std::move(lacks)});
     } else if (part.node) {
       cuts.push_back({is_minus, std::move(*part.node), part.levels, {}});
@@ -154,11 +154,11 @@ MaterialIndex SceneBuilder::material_of(const BrlcadSurface& surface) {
 
 void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSurface& surface,
                               const std::vector<Cut>& cuts) {
-  std::string lacks = std::exchange(lacks_, {});
+  Lack lacks = std::exchange(lacks_, {});
   for (const Cut& cut : cuts) {
-    if (lacks.empty()) lacks = cut.lacks;
+    if (!lacks) lacks = cut.lacks;
   }
-  if (!lacks.empty()) return report_.left_out("regions", lacks, name);
+  if (lacks) return report_.left_out("regions", lacks.why, name, lacks.detail);
   for (const Cut& cut : cuts) {
     if (!part.node) return;
     leaves_ += leaves_below(cut.node);
@@ -234,6 +234,10 @@ Part SceneBuilder::build(const BrlcadTree& tree, const Affine& to_world, bool is
 Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, bool is_cut) {
   if (const auto* foreign = std::get_if<BrlcadForeign>(&object.value)) {
     lack(foreign->kind + " is not supported");
+    return {};
+  }
+  if (const auto* broken = std::get_if<BrlcadBroken>(&object.value)) {
+    lack("an object can't be read", object.where + ": " + object.name + ": " + broken->why);
     return {};
   }
   if (++leaves_ > kMaxBrlcadLeaves) {

@@ -25,13 +25,20 @@ struct State {
   bool rgb_is_set = false, shader_is_set = false;
 };
 
+/// Why a part can't be built; no reason where it can. Regions that share the reason are told of in
+/// one line, with the detail of the first.
+struct Lack {
+  std::string why, detail;
+  explicit operator bool() const { return !why.empty(); }
+};
+
 /// A solid that every region found further down is cut by: it is subtracted, or intersected.
 struct Cut {
   bool is_minus = false;
   CsgNode node;
   std::size_t levels = 0;
   /// Why the solid can't be built; the regions that it cuts are left out then.
-  std::string lacks;
+  Lack lacks;
 };
 
 class SceneBuilder {
@@ -72,8 +79,8 @@ class SceneBuilder {
                   const std::vector<Cut>& cuts);
 
   /// Notes that the part under way can't be built.
-  void lack(const std::string& why) {
-    if (lacks_.empty()) lacks_ = why;
+  void lack(std::string why, std::string detail = {}) {
+    if (!lacks_) lacks_ = {std::move(why), std::move(detail)};
   }
 
   /// The name as UTF-8, which a scene's text must be; names in databases may be any bytes.
@@ -95,8 +102,8 @@ class SceneBuilder {
   std::vector<const BrlcadObject*> path_;
   std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
   std::vector<LampObject> lamps_;
-  /// Why the part under way can't be built; empty when it can.
-  std::string lacks_;
+  /// Why the part under way can't be built.
+  Lack lacks_;
 };
 
 }  // namespace graycube::brlcad
