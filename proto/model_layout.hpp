@@ -12,7 +12,7 @@ namespace graycube::model_layout {
 
 inline constexpr std::size_t kHeaderBytes = 36;
 inline constexpr std::size_t kSettingsBytes = 188;
-inline constexpr std::size_t kLightBytes = 49;
+inline constexpr std::size_t kLightBytes = 81;
 /// Set beside a light's falloff when it casts no shadows.
 inline constexpr std::uint8_t kShadowlessBit = 0x80;
 inline constexpr std::size_t kMaterialBytes = 81;

@@ -181,6 +181,12 @@ class ModelReader {
     if (falloff > 1) return "unknown falloff";
     light.falloff = static_cast<Falloff>(falloff);
     light.shadows = (bits & kShadowlessBit) == 0;
+    light.direction = get_vec(r_);
+    light.angle_degrees = r_.get<double>();
+    if (!is_finite(light.direction) || !(light.angle_degrees >= 0 && light.angle_degrees <= 180) ||
+        length(normalized(light.direction)) == 0) {
+      return "a beam out of range";
+    }
     return is_finite(light.position) && is_color(light.color) ? nullptr : "a value out of range";
   }
 

@@ -54,6 +54,8 @@ void put_light(ByteWriter& w, const PointLight& light) {
   put_rgb(w, light.color);
   const auto falloff = static_cast<std::uint8_t>(light.falloff);
   w.put(static_cast<std::uint8_t>(falloff | (light.shadows ? 0 : kShadowlessBit)));
+  put_vec(w, light.direction);
+  w.put(light.angle_degrees);
 }
 
 void put_material(ByteWriter& w, const Material& m) {

@@ -10,6 +10,7 @@
 
 #include "coordination/credit.hpp"
 #include "film/fixed_point.hpp"
+#include "shading/light_beam.hpp"
 #include "trace/domain.hpp"
 #include "trace/ray_task.hpp"
 
@@ -152,6 +153,8 @@ class Evaluator {
   void close_pixels(Step& step);
 
   const Domain& domain_;
+  /// Where each light shines.
+  std::vector<LightBeam> beams_;
   std::size_t most_leaving_ = std::numeric_limits<std::size_t>::max();
   CrossingScratch scratch_;
   /// Rays of one kind, generation and region, under way together.

@@ -64,7 +64,8 @@ void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut
       collect_tree(*comb->tree, state, cuts);
     }
   } else {
-    add_object(name, solid(*object, state.to_world, false), surface_of(name, state, nullptr), cuts);
+    add_object(name, solid(*object, state.to_world, false), surface_of(name, state, nullptr), cuts,
+               state.to_world);
   }
   path_.pop_back();
 }
@@ -84,7 +85,8 @@ void SceneBuilder::collect_tree(const BrlcadTree& tree, const State& state,
     case Op::kIntersection: return collect_cut(tree, state, cuts);
     default:
       add_object(path_.back()->name, build(tree, state.to_world, false),
-                 surface_of(path_.back()->name, state, nullptr), cuts);
+                 surface_of(path_.back()->name, state, nullptr), cuts,
+                 first_solid_of(tree, state.to_world));
   }
 }
 
@@ -121,7 +123,23 @@ void SceneBuilder::region(const BrlcadObject& object, const BrlcadComb& comb, co
                           const std::vector<Cut>& cuts) {
   if (comb.air != 0) return report_.air(object.name);
   add_object(object.name, build(*comb.tree, state.to_world, false),
-             surface_of(object.name, state, &comb), cuts);
+             surface_of(object.name, state, &comb), cuts,
+             first_solid_of(*comb.tree, state.to_world));
+}
+
+Affine SceneBuilder::first_solid_of(const BrlcadTree& tree, const Affine& to_world) const {
+  Affine map = to_world;
+  const BrlcadTree* at = &tree;
+  // Names that go round in a circle were found when the region was built; this just ends.
+  for (std::size_t names = 0; names < kMaxBrlcadNesting; ++names) {
+    while (at->op != Op::kLeaf) at = &at->children.front();
+    if (at->matrix) map = compose(map, *at->matrix);
+    const BrlcadObject* object = database_.find(at->name);
+    const auto* comb = object != nullptr ? std::get_if<BrlcadComb>(&object->value) : nullptr;
+    if (comb == nullptr || !comb->tree) break;
+    at = &*comb->tree;
+  }
+  return map;
 }
 
 BrlcadSurface SceneBuilder::surface_of(const std::string& name, const State& state,
@@ -153,7 +171,7 @@ MaterialIndex SceneBuilder::material_of(const BrlcadSurface& surface) {
 }
 
 void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSurface& surface,
-                              const std::vector<Cut>& cuts) {
+                              const std::vector<Cut>& cuts, const Affine& first_solid) {
   Lack lacks = std::exchange(lacks_, {});
   for (const Cut& cut : cuts) {
     if (!lacks) lacks = cut.lacks;
@@ -166,7 +184,7 @@ void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSu
                 {cut.node, cut.levels});
   }
   if (!part.node || !check_limits(name, part)) return;
-  if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp});
+  if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp, first_solid});
   scene_.objects.push_back({printable(name), material_of(surface), std::move(*part.node)});
 }
 

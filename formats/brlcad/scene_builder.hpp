@@ -74,9 +74,13 @@ class SceneBuilder {
 
   MaterialIndex material_of(const BrlcadSurface& surface);
 
-  /// Adds a region, unless something of it can't be built: then it is left out.
+  /// Adds a region, unless something of it can't be built: then it is left out. `first_solid` is
+  /// for lamps.
   void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
-                  const std::vector<Cut>& cuts);
+                  const std::vector<Cut>& cuts, const Affine& first_solid);
+
+  /// The map from the coordinates of a tree's first solid to the world's.
+  Affine first_solid_of(const BrlcadTree& tree, const Affine& to_world) const;
 
   /// Notes that the part under way can't be built.
   void lack(std::string why, std::string detail = {}) {

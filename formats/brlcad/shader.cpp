@@ -115,11 +115,21 @@ bool is_one_coloured(const Words& words, Material& m) {
   return true;
 }
 
+/// Reads the three numbers behind a word.
+void read_target(const Words& words, std::size_t i, BrlcadLamp& lamp) {
+  const auto x = value_behind(words, i), y = value_behind(words, i + 1),
+             z = value_behind(words, i + 2);
+  if (!x || !y || !z) return;
+  lamp.has_target = true;
+  lamp.target = {*x, *y, *z};
+}
+
 BrlcadLamp read_lamp(const Words& words) {
   constexpr std::string_view kIntensity[] = {"b", "bright", "inten"}, kFraction[] = {"f", "fract"},
                              kShadows[] = {"s", "shadows"}, kInfinite[] = {"i", "infinite"},
                              kVisible[] = {"v", "visible"}, kInvisible[] = {"invisible"},
-                             kAngle[] = {"a", "angle"};
+                             kAngle[] = {"a", "angle"},
+                             kTarget[] = {"t", "target", "aim", "d", "dir"};
   BrlcadLamp lamp;
   for (std::size_t i = 1; i + 1 < words.size(); ++i) {
     const auto value = value_behind(words, i);
@@ -131,7 +141,9 @@ BrlcadLamp read_lamp(const Words& words) {
     if (is_one_of(key, kInfinite)) lamp.is_infinite = *value != 0;
     if (is_one_of(key, kVisible)) lamp.is_invisible = *value == 0;
     if (is_one_of(key, kInvisible)) lamp.is_invisible = *value != 0;
-    if (is_one_of(key, kAngle)) lamp.angle_degrees = *value;
+    // The cosine of the angle is what rt goes by.
+    if (is_one_of(key, kAngle)) lamp.angle_degrees = std::min(std::fabs(*value), 180.0);
+    if (is_one_of(key, kTarget)) read_target(words, i, lamp);
   }
   return lamp;
 }
@@ -148,8 +160,6 @@ BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>
   out.is_light = name == "light";
   if (out.is_light) {
     out.lamp = read_lamp(words);
-    if (out.lamp.angle_degrees < 180)
-      report.changed("lamps", "they shine in all directions, not in a beam", region);
     // Light on its way from any lamp passes: rt takes a lamp that is met for the one aimed at.
     m.model = ShadingModel::kRtLamp;
     m.diffuse = 0;

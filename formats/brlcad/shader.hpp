@@ -5,6 +5,7 @@
 #include <string>
 
 #include "formats/brlcad/database/report.hpp"
+#include "geometry/vec.hpp"
 #include "shading/material.hpp"
 
 namespace graycube {
@@ -20,8 +21,11 @@ struct BrlcadLamp {
   /// Shines from where the lamp is, seen from the origin, in parallel rays.
   bool is_infinite = false;
   bool is_invisible = false;
-  /// Half the angle of its beam.
+  /// Half the angle of its beam, 0 … 180, and the point that it is aimed at. Without one it is
+  /// aimed along −z in the coordinates of its first solid.
   double angle_degrees = 180;
+  bool has_target = false;
+  Vec3 target;
 };
 
 struct BrlcadSurface {

@@ -168,6 +168,10 @@ class SceneWriter {
       next_key("shadows");
       text_ += "false";
     }
+    if (l.has_beam() || l.direction != PointLight{}.direction) {
+      member("direction", l.direction);
+      member("angle", l.angle_degrees);
+    }
     text_ += '}';
   }
 

@@ -137,6 +137,11 @@ class RandomModel {
       s.lights.push_back({dice_.one_in(3) ? dice_.point(3) : 9 * dice_.unit_vector(), color(),
                           dice_.one_in(3) ? Falloff::kInverseSquare : Falloff::kNone});
     }
+    // The third light shines in a beam.
+    if (lights == 3) {
+      s.lights.back().direction = -s.lights.back().position;
+      s.lights.back().angle_degrees = 20;
+    }
   }
 
   Material material() {

@@ -90,9 +90,9 @@ RenderSettings some_settings(Random& random) {
   s.max_depth = static_cast<std::uint32_t>(random.below(kMaxDepth + 1));
   s.min_weight = random.not_negative();
   for (std::uint64_t n = random.below(4); n > 0; --n) {
-    s.lights.push_back({random.vec(), random.rgb(),
-                        random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare,
-                        random.chance(2)});
+    s.lights.push_back(
+        {random.vec(), random.rgb(), random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare,
+         random.chance(2), Vec3{random.uniform(-1, 1), 1, 0}, random.uniform(0, 180)});
   }
   return s;
 }
@@ -251,6 +251,18 @@ TEST_CASE("a broken model is refused, and the error names the part") {
       {"light 0", "falloff",
        [](Model& m) {
          m.settings.lights.push_back({{}, {}, static_cast<Falloff>(2)});
+       }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 1}, 181});
+       }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 1}, std::nan("")});
+       }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 0}, 30});
        }},
       {"material 0", "range", [](Model& m) { m.materials[0].transmit = 1.5; }},
       {"material 0", "range", [](Model& m) { m.materials[0].ior = 0; }},

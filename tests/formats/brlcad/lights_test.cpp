@@ -74,11 +74,35 @@ TEST_CASE("invisible lamps shine but aren't drawn, shadowless and infinite ones 
   CHECK(length(lights[3].position) > 1e5);
 }
 
-TEST_CASE("a lamp that shines in a beam is told of") {
-  const BrlcadResult result = read_brlcad(kBall + lamp("a", 0, "a 30 t {0 0 0}"));
-  REQUIRE(result.scene);
-  REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].text == "1 lamp: they shine in all directions, not in a beam: a");
+TEST_CASE("a lamp with an angle shines in a beam, along its first solid's -z or at a target") {
+  const auto light_of = [](const std::string& parameters) {
+    const BrlcadResult result = read_brlcad(kBall + lamp("a", 20, parameters));
+    REQUIRE(result.scene);
+    CHECK(result.warnings.empty());
+    REQUIRE(result.scene->settings.lights.size() == 1);
+    return result.scene->settings.lights[0];
+  };
+  CHECK_FALSE(light_of("b 1").has_beam());
+  CHECK_FALSE(light_of("angle 200").has_beam());
+  CHECK(light_of("angle -30").angle_degrees == 30);
+  const PointLight down = light_of("a 30");
+  CHECK(down.angle_degrees == 30);
+  CHECK(down.direction == Vec3{0, 0, -1});
+  // The lamp is at (20, 0, 30).
+  for (const char* name : {"t", "target", "aim", "d", "dir"}) {
+    INFO(name);
+    CHECK(length(light_of(std::string("a 30 ") + name + " {20 5 30}").direction - Vec3{0, 1, 0}) <
+          1e-12);
+  }
+  // rt turns a target's direction, too, where the lamp's solid is turned: here z becomes x.
+  const std::string turned =
+      "put l.s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput inner comb region no tree {u {l "
+      "l.s "
+      "{0 0 1 0 0 1 0 0 -1 0 0 0 0 0 0 1}} {l l.s}}\nput l.r comb region yes shader {light {a 40}} "
+      "tree {l inner}\n";
+  const Scene scene = scene_of(kBall + turned);
+  REQUIRE(scene.settings.lights.size() == 1);
+  CHECK(length(scene.settings.lights[0].direction - Vec3{-1, 0, 0}) < 1e-12);
 }
 
 TEST_CASE("a stack is its last member that is known") {

@@ -80,7 +80,9 @@ class RandomScene {
     const auto lights = below(4);
     for (std::size_t i = 0; i < lights; ++i)
       s.lights.push_back({vector(), color(),
-                          below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare, below(2) == 0});
+                          below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare, below(2) == 0,
+                          Vec3{fraction(), 1, fraction()},
+                          below(2) == 0 ? 180.0 : 180 * fraction()});
   }
 
   Material material() {

@@ -94,7 +94,8 @@ TEST_CASE("every setting is read") {
               "lights",
               R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
                               {"type": "point", "position": [0,0,9], "shadows": false},
-                              {"type": "point", "position": [0,0,9], "shadows": true}])")
+                              {"type": "point", "position": [0,0,9], "shadows": true,
+                               "direction": [0,3,0], "angle": 22.5}])")
           .with(
               "materials",
               R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
@@ -115,7 +116,7 @@ TEST_CASE("every setting is read") {
   REQUIRE(s.lights.size() == 3);
   CHECK(s.lights[0] == PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::kInverseSquare});
   CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, false});
-  CHECK(s.lights[2] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, true});
+  CHECK(s.lights[2] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, true, {0, 3, 0}, 22.5});
   REQUIRE(scene.materials.size() == 4);
   CHECK(scene.materials[0].material ==
         Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});

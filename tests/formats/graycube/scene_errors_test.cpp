@@ -165,7 +165,15 @@ TEST_CASE("a bad light is refused") {
        {R"([{"type": "point", "position": [0,0,0], "shadows": 0}])", "/lights/0/shadows",
         "true or false"},
        {R"([{"type": "point", "position": [0,0,0], "falloff": "linear"}])", "/lights/0/falloff",
-        "unknown word \"linear\""}});
+        "unknown word \"linear\""},
+       {R"([{"type": "point", "position": [0,0,0], "angle": 30}])", "/lights/0",
+        "a beam needs the keys \"direction\" and \"angle\""},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,1]}])", "/lights/0",
+        "a beam needs the keys \"direction\" and \"angle\""},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,0], "angle": 30}])",
+        "/lights/0/direction", "length"},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,1], "angle": 181}])",
+        "/lights/0/angle", "an angle from 0 to 180 degrees, found 181"}});
 }
 
 TEST_CASE("a bad material is refused") {
