@@ -111,7 +111,13 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
   SurfacePoint& at =
       surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
   if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
-  if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) at.material = &kUnlit;
+  if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) {
+    at.material = &kUnlit;
+  } else if (m.pattern.kind != PatternKind::kNone) {
+    patterned_[index] = m;
+    patterned_[index].color = color_at(m.pattern, m.color, p);
+    at.material = &patterned_[index];
+  }
   contribute(ray, task.weight * ambient_light(*at.material, -dot(n, d)), step);
 }
 

@@ -163,6 +163,8 @@ class Evaluator {
   /// The surfaces of the wave, with their points and normals as arrays of coordinates, and for the
   /// current light their unit direction to it, distance from it and cosine to the normal.
   std::vector<SurfacePoint> surfaces_;
+  /// For surfaces with a pattern: their materials with the colour that it has there.
+  std::array<Material, kWaveRays> patterned_;
   alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
   alignas(64) Coordinates distance_, cosine_;
   /// Distances from the current light (if the domain has horizons), for each surface of the wave:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "formats/graycube/read_pattern.hpp"
 #include "formats/graycube/scene_words.hpp"
 #include "spelling.hpp"
 
@@ -160,6 +161,7 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
     kTransmit,
     kIor,
     kModel,
+    kPattern,
     kKeys
   };
   constexpr std::array<KeyRule, kKeys> kRules{{{"color"},
@@ -170,7 +172,8 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
                                                {"reflect"},
                                                {"transmit"},
                                                {"ior"},
-                                               {"model"}}};
+                                               {"model"},
+                                               {"pattern"}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a material", kRules, member);
   json.read_optional(member[kColor], out.color);
@@ -182,6 +185,7 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
   json.read_optional(member[kTransmit], out.transmit, kFraction);
   json.read_optional(member[kIor], out.ior, kPositive);
   json.read_word(member[kModel], out.model, kShadingModelWords);
+  if (member[kPattern] != 0) read_pattern(json, member[kPattern], out.pattern);
 }
 
 }  // namespace graycube

@@ -159,6 +159,8 @@ class PovWriter {
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
                           std::string(word_of(kShadingModelWords, m.model)) +
                           " model; written as phong");
+    if (m.pattern.kind != PatternKind::kNone)
+      warnings_.push_back("material \"" + name + "\": its pattern is left out, it has one colour");
     // The transmit of rt's lamps only says that they don't stand in their own light.
     const double transmit = m.model == ShadingModel::kRtLamp ? 0 : m.transmit;
     const std::string number_text = std::to_string(index);

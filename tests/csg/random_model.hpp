@@ -156,6 +156,8 @@ class RandomModel {
       m.transmit = dice_.between(0.2, 1);
       m.ior = dice_.one_in(3) ? 1 : dice_.between(0.6, 2);
     }
+    // The glossiest have a pattern. No dice: the scenes of the seeds stay what they are.
+    if (m.shininess > 50) m.pattern.kind = PatternKind::kMarble;
     return m;
   }
 

@@ -53,6 +53,19 @@ TEST_CASE("diffuse light falls with the cosine and ignores distance") {
   }
 }
 
+TEST_CASE("a pattern's colour is that of the surface's point, in own, ambient and light's light") {
+  Material chess = matt({9, 9, 9}, 1);
+  chess.ambient = 0.5;
+  chess.pattern.kind = PatternKind::kChecker;
+  chess.pattern.colors = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
+  chess.pattern.to_pattern = translation({0.5, 0.5, 0.5});
+  const auto look_at = [&](double x) {
+    return Stage().add(wall(0), chess).light({x, 0, -5}).look({x, 0, -9}, {0, 0, 1}).light;
+  };
+  check_light(look_at(0), {1.5, 0, 0});
+  check_light(look_at(1), {0, 1.5, 0});
+}
+
 TEST_CASE("a light with a beam lights what is in it, and sends no rays elsewhere") {
   const auto look = [](double angle_degrees) {
     Stage stage;
