@@ -74,13 +74,20 @@ class SceneBuilder {
 
   MaterialIndex material_of(const BrlcadSurface& surface);
 
-  /// Adds a region, unless something of it can't be built: then it is left out. `first_solid` is
-  /// for lamps.
-  void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
-                  const std::vector<Cut>& cuts, const Affine& first_solid);
+  /// The first solid of a tree: nothing where the tree's first member is none; and the map from its
+  /// coordinates to the world's.
+  struct FirstSolid {
+    const BrlcadSolid* solid = nullptr;
+    Affine to_world;
+  };
+  FirstSolid first_solid_of(const BrlcadTree& tree, const Affine& to_world) const;
+  static FirstSolid first_solid_of(const BrlcadObject& object, const Affine& to_world);
 
-  /// The map from the coordinates of a tree's first solid to the world's.
-  Affine first_solid_of(const BrlcadTree& tree, const Affine& to_world) const;
+  /// Adds a region, unless something of it can't be built: then it is left out. Its first solid
+  /// aims lamps and places checkers.
+  void add_object(const std::string& name, Part part, BrlcadSurface surface,
+                  const std::vector<Cut>& cuts, const FirstSolid& first);
+  void place_checker(const std::string& name, const FirstSolid& first, BrlcadSurface& surface);
 
   /// Notes that the part under way can't be built.
   void lack(std::string why, std::string detail = {}) {
@@ -102,7 +109,7 @@ class SceneBuilder {
   const BrlcadDatabase& database_;
   BrlcadReport& report_;
   Scene scene_;
-  std::map<std::array<double, 10>, MaterialIndex> materials_;
+  std::map<std::vector<double>, MaterialIndex> materials_;
   std::vector<const BrlcadObject*> path_;
   std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
   std::vector<LampObject> lamps_;
