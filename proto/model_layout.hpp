@@ -12,10 +12,12 @@ namespace graycube::model_layout {
 
 inline constexpr std::size_t kHeaderBytes = 36;
 inline constexpr std::size_t kSettingsBytes = 188;
-inline constexpr std::size_t kLightBytes = 49;
+inline constexpr std::size_t kLightBytes = 81;
 /// Set beside a light's falloff when it casts no shadows.
 inline constexpr std::uint8_t kShadowlessBit = 0x80;
-inline constexpr std::size_t kMaterialBytes = 81;
+inline constexpr std::size_t kMaterialBytes = 82;
+/// The numbers of a pattern: its map, colours, thresholds and octaves; those without one have none.
+inline constexpr std::size_t kPatternBytes = (12 + 9 + 2 + 3) * 8;
 inline constexpr std::size_t kPlaneBytes = 32;
 /// The three counts of a mesh; at least one point and one triangle follow.
 inline constexpr std::size_t kMeshBytes = 12;

@@ -181,6 +181,12 @@ class ModelReader {
     if (falloff > 1) return "unknown falloff";
     light.falloff = static_cast<Falloff>(falloff);
     light.shadows = (bits & kShadowlessBit) == 0;
+    light.direction = get_vec(r_);
+    light.angle_degrees = r_.get<double>();
+    if (!is_finite(light.direction) || !(light.angle_degrees >= 0 && light.angle_degrees <= 180) ||
+        length(normalized(light.direction)) == 0) {
+      return "a beam out of range";
+    }
     return is_finite(light.position) && is_color(light.color) ? nullptr : "a value out of range";
   }
 
@@ -194,7 +200,33 @@ class ModelReader {
     }
     m.model = static_cast<ShadingModel>(r_.get<std::uint8_t>());
     if (m.model > ShadingModel::kHallGreenberg && !is_rt_model(m)) return "unknown shading model";
-    return valid && m.transmit <= 1 && m.ior > 0 ? nullptr : "a coefficient out of range";
+    if (!valid || m.transmit > 1 || !(m.ior > 0)) return "a coefficient out of range";
+    const auto kind = r_.get<std::uint8_t>();
+    if (kind >= kPatternKinds) return "unknown pattern";
+    m.pattern.kind = static_cast<PatternKind>(kind);
+    return m.pattern.kind == PatternKind::kNone ? nullptr : pattern(m.pattern);
+  }
+
+  const char* pattern(Pattern& p) {
+    for (auto& row : p.to_pattern.m) {
+      for (double& v : row) v = r_.get<double>();
+    }
+    bool valid = p.to_pattern.is_finite();
+    for (Rgb& c : p.colors) {
+      c = get_rgb(r_);
+      valid = valid && is_color(c);
+    }
+    for (double& v : p.thresholds) {
+      v = r_.get<double>();
+      valid = valid && std::isfinite(v);
+    }
+    NoiseOctaves& o = p.octaves;
+    for (double* v : {&o.count, &o.lacunarity, &o.decay}) {
+      *v = r_.get<double>();
+      valid = valid && std::isfinite(*v);
+    }
+    valid = valid && o.count >= 0 && o.count <= kMaxOctaves && o.lacunarity > 0;
+    return valid ? nullptr : "a pattern out of range";
   }
 
   const char* plane(Plane& plane) {

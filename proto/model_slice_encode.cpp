@@ -54,6 +54,17 @@ void put_light(ByteWriter& w, const PointLight& light) {
   put_rgb(w, light.color);
   const auto falloff = static_cast<std::uint8_t>(light.falloff);
   w.put(static_cast<std::uint8_t>(falloff | (light.shadows ? 0 : kShadowlessBit)));
+  put_vec(w, light.direction);
+  w.put(light.angle_degrees);
+}
+
+void put_pattern(ByteWriter& w, const Pattern& p) {
+  for (const auto& row : p.to_pattern.m) {
+    for (const double v : row) w.put(v);
+  }
+  for (const Rgb& c : p.colors) put_rgb(w, c);
+  for (const double v : p.thresholds) w.put(v);
+  for (const double v : {p.octaves.count, p.octaves.lacunarity, p.octaves.decay}) w.put(v);
 }
 
 void put_material(ByteWriter& w, const Material& m) {
@@ -63,6 +74,8 @@ void put_material(ByteWriter& w, const Material& m) {
     w.put(v);
   }
   w.put(static_cast<std::uint8_t>(m.model));
+  w.put(static_cast<std::uint8_t>(m.pattern.kind));
+  if (m.pattern.kind != PatternKind::kNone) put_pattern(w, m.pattern);
 }
 
 void put_primitive(ByteWriter& w, const Primitive& p, unsigned flags) {
@@ -122,8 +135,12 @@ struct Counts {
 };
 
 std::size_t beginning_bytes(const Model& model) {
+  const auto patterns =
+      std::count_if(model.materials.begin(), model.materials.end(),
+                    [](const Material& m) { return m.pattern.kind != PatternKind::kNone; });
   return kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
-         model.materials.size() * kMaterialBytes;
+         model.materials.size() * kMaterialBytes +
+         static_cast<std::size_t>(patterns) * kPatternBytes;
 }
 
 /// Writes the header, settings, lights and materials.

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "geometry/vec.hpp"
+#include "shading/pattern.hpp"
 
 namespace graycube {
 
@@ -25,6 +26,8 @@ struct Material {
   double transmit = 0;
   double ior = 1;
   ShadingModel model = ShadingModel::kPhong;
+  /// Takes the place of the colour where there is one, but not in what shines through.
+  Pattern pattern = {};
 
   friend bool operator==(const Material&, const Material&) = default;
 };

@@ -55,7 +55,12 @@ struct PointLight {
   Falloff falloff = Falloff::kNone;
   /// Whether solids between the light and a surface keep it in the dark.
   bool shadows = true;
+  /// It shines where the angle with this direction, of any length, is at most so many degrees (0 …
+  /// 180).
+  Vec3 direction{0, 0, -1};
+  double angle_degrees = 180;
 
+  bool has_beam() const { return angle_degrees < 180; }
   friend bool operator==(const PointLight&, const PointLight&) = default;
 };
 

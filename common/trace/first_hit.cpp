@@ -44,7 +44,8 @@ void note_first_hit(const Domain& domain, const RayTask& task, const Crossing& h
     put(settings, kNormalPlane, task.pixel, {bits_of(n.x), bits_of(n.y), bits_of(n.z)}, step);
   }
   if (has_plane(settings.aovs, kAlbedoPlane)) {
-    const Rgb& c = model.materials[model.primitives[hit.primitive].material].color;
+    const Material& m = model.materials[model.primitives[hit.primitive].material];
+    const Rgb c = color_at(m.pattern, m.color, task.ray.at(hit.t));
     put(settings, kAlbedoPlane, task.pixel, {bits_of(c.r), bits_of(c.g), bits_of(c.b)}, step);
   }
   if (has_plane(settings.aovs, kDepthPlane)) {

@@ -111,7 +111,13 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
   SurfacePoint& at =
       surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
   if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
-  if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) at.material = &kUnlit;
+  if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) {
+    at.material = &kUnlit;
+  } else if (m.pattern.kind != PatternKind::kNone) {
+    patterned_[index] = m;
+    patterned_[index].color = color_at(m.pattern, m.color, p);
+    at.material = &patterned_[index];
+  }
   contribute(ray, task.weight * ambient_light(*at.material, -dot(n, d)), step);
 }
 
@@ -162,8 +168,9 @@ void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3&
   if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
 }
 
-/// Sends a shadow ray to a light from every surface of the wave that faces it. The first loop is
-/// written to be vectorized: its expressions are those of length(), scaling and dot().
+/// Sends a shadow ray to a light from every surface of the wave that faces it, within its beam. The
+/// first loop is written to be vectorized: its expressions are those of length(), scaling and
+/// dot().
 void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   const Vec3 at = domain_.settings().lights[light].position;
   const std::size_t count = surfaces_.size();
@@ -181,7 +188,9 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
                  normal_[2][i] * to_light_[2][i];
   }
   look_up_horizons(light);
+  const LightBeam& beam = beams_[light];
   for (std::size_t i = 0; i < count; ++i) {
+    if (!beam.reaches({to_light_[0][i], to_light_[1][i], to_light_[2][i]})) continue;
     // A light that lies in the surface's plane to within rounding lights nothing: else highlights
     // would come and go at random.
     const double above = cosine_[i] * distance_[i];

@@ -23,7 +23,9 @@ bool are_alike(const RayTask& a, const RayTask& b) {
 }  // namespace
 
 Evaluator::Evaluator(const Domain& domain)
-    : domain_(domain), shadow_(domain.settings().lights.size()) {}
+    : domain_(domain),
+      beams_(domain.settings().lights.begin(), domain.settings().lights.end()),
+      shadow_(domain.settings().lights.size()) {}
 
 void Step::clear() {
   leaving.clear();

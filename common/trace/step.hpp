@@ -10,6 +10,7 @@
 
 #include "coordination/credit.hpp"
 #include "film/fixed_point.hpp"
+#include "shading/light_beam.hpp"
 #include "trace/domain.hpp"
 #include "trace/ray_task.hpp"
 
@@ -152,6 +153,8 @@ class Evaluator {
   void close_pixels(Step& step);
 
   const Domain& domain_;
+  /// Where each light shines.
+  std::vector<LightBeam> beams_;
   std::size_t most_leaving_ = std::numeric_limits<std::size_t>::max();
   CrossingScratch scratch_;
   /// Rays of one kind, generation and region, under way together.
@@ -160,6 +163,8 @@ class Evaluator {
   /// The surfaces of the wave, with their points and normals as arrays of coordinates, and for the
   /// current light their unit direction to it, distance from it and cosine to the normal.
   std::vector<SurfacePoint> surfaces_;
+  /// For surfaces with a pattern: their materials with the colour that it has there.
+  std::array<Material, kWaveRays> patterned_;
   alignas(64) std::array<Coordinates, 3> point_, normal_, to_light_;
   alignas(64) Coordinates distance_, cosine_;
   /// Distances from the current light (if the domain has horizons), for each surface of the wave:

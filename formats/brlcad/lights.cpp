@@ -50,6 +50,13 @@ Vec3 place_of(const BrlcadLamp& lamp, const Aabb& box, const Aabb& whole) {
   return whole.center() + kInfinitelyFar * std::max(length(whole.hi - whole.lo), 1.0) * direction;
 }
 
+/// The way that a lamp in `box` is aimed. rt turns a target's direction as it turns its own, −z.
+Vec3 aim_of(const LampObject& lamp, const Aabb& box) {
+  const Vec3 aim = lamp.lamp.has_target ? normalized(lamp.lamp.target - box.center()) : Vec3{};
+  const Vec3 turned = lamp.first_solid.vector(aim == Vec3{} ? Vec3{0, 0, -1} : aim);
+  return normalized(turned);
+}
+
 }  // namespace
 
 void light_scene(const std::vector<LampObject>& lamps, const std::vector<Aabb>& bounds,
@@ -59,7 +66,7 @@ void light_scene(const std::vector<LampObject>& lamps, const std::vector<Aabb>& 
   for (const Aabb& box : bounds) whole = union_of(whole, box);
   const std::vector<double> fractions = fractions_of(lamps);
   for (std::size_t i = 0; i < lamps.size(); ++i) {
-    const auto& [object, lamp] = lamps[i];
+    const auto& [object, lamp, first_solid] = lamps[i];
     Material& material = scene.materials[scene.objects[object].material].material;
     material.ambient = fractions[i];
     if (bounds[object].is_empty()) continue;
@@ -73,6 +80,8 @@ void light_scene(const std::vector<LampObject>& lamps, const std::vector<Aabb>& 
     light.position = place_of(lamp, bounds[object], whole);
     light.color = fractions[i] * material.color;
     light.shadows = lamp.has_shadows;
+    light.angle_degrees = lamp.angle_degrees;
+    if (light.has_beam()) light.direction = aim_of(lamps[i], bounds[object]);
   }
   for (auto l = lamps.rbegin(); l != lamps.rend(); ++l) {
     if (!l->lamp.is_invisible) continue;

@@ -7,15 +7,17 @@
 #include "formats/brlcad/database/report.hpp"
 #include "formats/brlcad/shader.hpp"
 #include "geometry/aabb.hpp"
+#include "geometry/affine.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube::brlcad {
 
-/// A region that shines: its object's index in the scene, and its parameters. Its material is its
-/// own.
+/// A region that shines: its object's index in the scene, its parameters, and the map from the
+/// coordinates of its first solid to the world's, which turns its beam. Its material is its own.
 struct LampObject {
   std::size_t object = 0;
   BrlcadLamp lamp;
+  Affine first_solid;
 };
 
 /// Gives the scene the lights of its lamps, in the middle of their `bounds` (one box an object),

@@ -1,7 +1,10 @@
 // Turns a BRL-CAD database into a scene: chooses the objects, places the eye and the lights.
 #include <algorithm>
+#include <charconv>
+#include <functional>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "csg/model.hpp"
@@ -90,22 +93,68 @@ std::vector<Aabb> finite_bounds(const Model& model) {
   return all;
 }
 
-/// Nothing, after reporting, when solids can't be computed; they are named with their regions.
-std::optional<Model> compiled(const Scene& scene, BrlcadReport& report) {
-  try {
-    return compile_scene(scene);
-  } catch (const UnrenderableScene& e) {
-    for (const SceneFault& f : e.faults()) report.error("", f.message);
-  }
-  return std::nullopt;
+/// Each time that a scene is compiled, its first kMaxSceneFaults solids that can't be computed are
+/// found. A model with more of them than so many times show is refused.
+constexpr int kMostCompilations = 8;
+
+/// The object that a fault lies in, if it lies in one.
+std::optional<std::size_t> object_of(const SceneFault& fault, const Scene& scene) {
+  constexpr std::string_view kObjects = "/objects/";
+  if (!fault.pointer.starts_with(kObjects)) return std::nullopt;
+  const char* digits = fault.pointer.data() + kObjects.size();
+  std::size_t index = 0;
+  const auto [end, error] =
+      std::from_chars(digits, fault.pointer.data() + fault.pointer.size(), index);
+  if (error != std::errc() || index >= scene.objects.size()) return std::nullopt;
+  return index;
 }
 
-void place_eye(const BrlcadOptions& options, const std::vector<brlcad::LampObject>& lamps,
-               Scene& scene, BrlcadReport& report) {
+void remove_object(std::size_t object, Scene& scene, std::vector<brlcad::LampObject>& lamps) {
+  scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(object));
+  std::erase_if(lamps, [&](const brlcad::LampObject& l) { return l.object == object; });
+  for (brlcad::LampObject& l : lamps) l.object -= l.object > object ? 1 : 0;
+}
+
+/// Leaves out the regions with solids that can't be computed; false where that is of no use.
+bool leave_out_faulty(const std::vector<SceneFault>& faults, Scene& scene,
+                      std::vector<brlcad::LampObject>& lamps, BrlcadReport& report) {
+  // The last ones first, so that the places of the others stay.
+  std::map<std::size_t, std::string, std::greater<>> faulty;
+  for (const SceneFault& f : faults) {
+    if (const auto object = object_of(f, scene)) faulty.emplace(*object, f.message);
+  }
+  for (const auto& [object, why] : faulty) {
+    report.left_out("regions", "a solid can't be computed", scene.objects[object].name, why);
+    remove_object(object, scene, lamps);
+  }
+  return !faulty.empty();
+}
+
+/// Leaves out regions until the others can be computed. Nothing, after reporting, when none is
+/// left, or too many solids are at fault.
+std::optional<Model> compiled(Scene& scene, std::vector<brlcad::LampObject>& lamps,
+                              BrlcadReport& report) {
+  for (int turn = 1;; ++turn) {
+    try {
+      return compile_scene(scene);
+    } catch (const UnrenderableScene& e) {
+      if (turn < kMostCompilations && leave_out_faulty(e.faults(), scene, lamps, report)) {
+        if (!scene.objects.empty()) continue;
+        report.error("", "nothing is left to render: " + report.take_left_out());
+        return std::nullopt;
+      }
+      for (const SceneFault& f : e.faults()) report.error("", f.message);
+      return std::nullopt;
+    }
+  }
+}
+
+void place_eye(const BrlcadOptions& options, std::vector<brlcad::LampObject> lamps, Scene& scene,
+               BrlcadReport& report) {
   RenderSettings& s = scene.settings;
   s.image = options.image;
   s.max_depth = options.max_depth;
-  const std::optional<Model> model = compiled(scene, report);
+  const std::optional<Model> model = compiled(scene, lamps, report);
   if (!model) return;
   const std::vector<Aabb> bounds = finite_bounds(*model);
   Aabb whole = Aabb::nothing();

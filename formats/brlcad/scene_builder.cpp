@@ -15,6 +15,29 @@ constexpr std::size_t kMaxVisits = std::size_t{1} << 23;
 constexpr std::array<int, 3> kWhite{255, 255, 255};
 constexpr const char* kBrokenMatrix = "their matrix is no invertible affine map";
 
+/// All of a material, as numbers that can be compared.
+std::vector<double> key_of(const Material& m) {
+  const Pattern& p = m.pattern;
+  std::vector<double> key{m.color.r,
+                          m.color.g,
+                          m.color.b,
+                          m.ambient,
+                          m.diffuse,
+                          m.specular,
+                          m.shininess,
+                          m.reflect,
+                          m.transmit,
+                          m.ior,
+                          static_cast<double>(m.model),
+                          static_cast<double>(p.kind)};
+  if (p.kind == PatternKind::kNone) return key;
+  for (const auto& row : p.to_pattern.m) key.insert(key.end(), row.begin(), row.end());
+  for (const Rgb& c : p.colors) key.insert(key.end(), {c.r, c.g, c.b});
+  key.insert(key.end(), {p.thresholds[0], p.thresholds[1], p.octaves.count, p.octaves.lacunarity,
+                         p.octaves.decay});
+  return key;
+}
+
 }  // namespace
 
 void SceneBuilder::add(const std::string& name) {
@@ -64,7 +87,8 @@ void SceneBuilder::collect(const std::string& name, State state, std::vector<Cut
       collect_tree(*comb->tree, state, cuts);
     }
   } else {
-    add_object(name, solid(*object, state.to_world, false), surface_of(name, state, nullptr), cuts);
+    add_object(name, solid(*object, state.to_world, false), surface_of(name, state, nullptr), cuts,
+               first_solid_of(*object, state.to_world));
   }
   path_.pop_back();
 }
@@ -84,7 +108,8 @@ void SceneBuilder::collect_tree(const BrlcadTree& tree, const State& state,
     case Op::kIntersection: return collect_cut(tree, state, cuts);
     default:
       add_object(path_.back()->name, build(tree, state.to_world, false),
-                 surface_of(path_.back()->name, state, nullptr), cuts);
+                 surface_of(path_.back()->name, state, nullptr), cuts,
+                 first_solid_of(tree, state.to_world));
   }
 }
 
@@ -94,9 +119,9 @@ void SceneBuilder::collect_cut(const BrlcadTree& tree, const State& state, std::
   bool is_empty = false;
   for (std::size_t i = 1; i < tree.children.size() && !is_empty; ++i) {
     Part part = build(tree.children[i], state.to_world, is_minus);
-    std::string lacks = std::exchange(lacks_, {});
-    is_empty = !part.node && !is_minus && lacks.empty();
-    if (!lacks.empty()) {
+    Lack lacks = std::exchange(lacks_, {});
+    is_empty = !part.node && !is_minus && !lacks;
+    if (lacks) {
       cuts.push_back({is_minus, {}, 0, std::move(lacks)});
     } else if (part.node) {
       cuts.push_back({is_minus, std::move(*part.node), part.levels, {}});
@@ -121,7 +146,44 @@ void SceneBuilder::region(const BrlcadObject& object, const BrlcadComb& comb, co
                           const std::vector<Cut>& cuts) {
   if (comb.air != 0) return report_.air(object.name);
   add_object(object.name, build(*comb.tree, state.to_world, false),
-             surface_of(object.name, state, &comb), cuts);
+             surface_of(object.name, state, &comb), cuts,
+             first_solid_of(*comb.tree, state.to_world));
+}
+
+SceneBuilder::FirstSolid SceneBuilder::first_solid_of(const BrlcadTree& tree,
+                                                      const Affine& to_world) const {
+  FirstSolid first{nullptr, to_world};
+  const BrlcadTree* at = &tree;
+  // Names that go round in a circle were found when the region was built; this just ends.
+  for (std::size_t names = 0; names < kMaxBrlcadNesting; ++names) {
+    while (at->op != Op::kLeaf) at = &at->children.front();
+    if (at->matrix) first.to_world = compose(first.to_world, *at->matrix);
+    const BrlcadObject* object = database_.find(at->name);
+    if (object == nullptr) break;
+    const auto* comb = std::get_if<BrlcadComb>(&object->value);
+    if (comb == nullptr || !comb->tree) return first_solid_of(*object, first.to_world);
+    at = &*comb->tree;
+  }
+  return first;
+}
+SceneBuilder::FirstSolid SceneBuilder::first_solid_of(const BrlcadObject& object,
+                                                      const Affine& to_world) {
+  return {std::get_if<BrlcadSolid>(&object.value), to_world};
+}
+
+void SceneBuilder::place_checker(const std::string& name, const FirstSolid& first,
+                                 BrlcadSurface& surface) {
+  const Checker& checker = *surface.checker;
+  const auto pattern = first.solid != nullptr
+                           ? checker_pattern(checker, *first.solid, first.to_world)
+                           : std::nullopt;
+  surface.material.color = checker.colors[0];
+  if (pattern) {
+    surface.material.pattern = *pattern;
+  } else if (checker.colors[0] != checker.colors[1]) {
+    surface.material.color = 0.5 * (checker.colors[0] + checker.colors[1]);
+    report_.changed("regions", "a checker is one colour, the mean of its two", name);
+  }
 }
 
 BrlcadSurface SceneBuilder::surface_of(const std::string& name, const State& state,
@@ -133,13 +195,19 @@ BrlcadSurface SceneBuilder::surface_of(const std::string& name, const State& sta
       if (region->region_id >= range.low && region->region_id <= range.high) rgb = range.rgb;
     }
   }
-  return brlcad_surface(state.shader, rgb, name, report_);
+  BrlcadSurface surface = brlcad_surface(state.shader, rgb, name, report_);
+  Pattern& pattern = surface.material.pattern;
+  if (pattern.kind == PatternKind::kNone) return surface;
+  const auto to_region = state.to_world.inverse();
+  if (to_region) pattern.to_pattern = compose(pattern.to_pattern, *to_region);
+  if (to_region && pattern.to_pattern.is_finite() && pattern.to_pattern.inverse()) return surface;
+  report_.changed("regions", "a pattern whose sizes leave the range of doubles isn't drawn", name);
+  pattern = {};
+  return surface;
 }
 
 MaterialIndex SceneBuilder::material_of(const BrlcadSurface& surface) {
   const Material& m = surface.material;
-  const std::array<double, 10> key{m.color.r,  m.color.g,   m.color.b, m.ambient,  m.diffuse,
-                                   m.specular, m.shininess, m.reflect, m.transmit, m.ior};
   const auto index = static_cast<MaterialIndex>(scene_.materials.size());
   const std::string name = "material " + std::to_string(index + 1);
   if (surface.is_light) {
@@ -147,18 +215,18 @@ MaterialIndex SceneBuilder::material_of(const BrlcadSurface& surface) {
     scene_.materials.push_back({name, m});
     return index;
   }
-  const auto [known, is_new] = materials_.emplace(key, index);
+  const auto [known, is_new] = materials_.emplace(key_of(m), index);
   if (is_new) scene_.materials.push_back({name, m});
   return known->second;
 }
 
-void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSurface& surface,
-                              const std::vector<Cut>& cuts) {
-  std::string lacks = std::exchange(lacks_, {});
+void SceneBuilder::add_object(const std::string& name, Part part, BrlcadSurface surface,
+                              const std::vector<Cut>& cuts, const FirstSolid& first) {
+  Lack lacks = std::exchange(lacks_, {});
   for (const Cut& cut : cuts) {
-    if (lacks.empty()) lacks = cut.lacks;
+    if (!lacks) lacks = cut.lacks;
   }
-  if (!lacks.empty()) return report_.left_out("regions", lacks, name);
+  if (lacks) return report_.left_out("regions", lacks.why, name, lacks.detail);
   for (const Cut& cut : cuts) {
     if (!part.node) return;
     leaves_ += leaves_below(cut.node);
@@ -166,7 +234,8 @@ void SceneBuilder::add_object(const std::string& name, Part part, const BrlcadSu
                 {cut.node, cut.levels});
   }
   if (!part.node || !check_limits(name, part)) return;
-  if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp});
+  if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp, first.to_world});
+  if (surface.checker) place_checker(name, first, surface);
   scene_.objects.push_back({printable(name), material_of(surface), std::move(*part.node)});
 }
 
@@ -234,6 +303,10 @@ Part SceneBuilder::build(const BrlcadTree& tree, const Affine& to_world, bool is
 Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, bool is_cut) {
   if (const auto* foreign = std::get_if<BrlcadForeign>(&object.value)) {
     lack(foreign->kind + " is not supported");
+    return {};
+  }
+  if (const auto* broken = std::get_if<BrlcadBroken>(&object.value)) {
+    lack("an object can't be read", object.where + ": " + object.name + ": " + broken->why);
     return {};
   }
   if (++leaves_ > kMaxBrlcadLeaves) {

@@ -25,13 +25,20 @@ struct State {
   bool rgb_is_set = false, shader_is_set = false;
 };
 
+/// Why a part can't be built; no reason where it can. Regions that share the reason are told of in
+/// one line, with the detail of the first.
+struct Lack {
+  std::string why, detail;
+  explicit operator bool() const { return !why.empty(); }
+};
+
 /// A solid that every region found further down is cut by: it is subtracted, or intersected.
 struct Cut {
   bool is_minus = false;
   CsgNode node;
   std::size_t levels = 0;
   /// Why the solid can't be built; the regions that it cuts are left out then.
-  std::string lacks;
+  Lack lacks;
 };
 
 class SceneBuilder {
@@ -67,13 +74,24 @@ class SceneBuilder {
 
   MaterialIndex material_of(const BrlcadSurface& surface);
 
-  /// Adds a region, unless something of it can't be built: then it is left out.
-  void add_object(const std::string& name, Part part, const BrlcadSurface& surface,
-                  const std::vector<Cut>& cuts);
+  /// The first solid of a tree: nothing where the tree's first member is none; and the map from its
+  /// coordinates to the world's.
+  struct FirstSolid {
+    const BrlcadSolid* solid = nullptr;
+    Affine to_world;
+  };
+  FirstSolid first_solid_of(const BrlcadTree& tree, const Affine& to_world) const;
+  static FirstSolid first_solid_of(const BrlcadObject& object, const Affine& to_world);
+
+  /// Adds a region, unless something of it can't be built: then it is left out. Its first solid
+  /// aims lamps and places checkers.
+  void add_object(const std::string& name, Part part, BrlcadSurface surface,
+                  const std::vector<Cut>& cuts, const FirstSolid& first);
+  void place_checker(const std::string& name, const FirstSolid& first, BrlcadSurface& surface);
 
   /// Notes that the part under way can't be built.
-  void lack(const std::string& why) {
-    if (lacks_.empty()) lacks_ = why;
+  void lack(std::string why, std::string detail = {}) {
+    if (!lacks_) lacks_ = {std::move(why), std::move(detail)};
   }
 
   /// The name as UTF-8, which a scene's text must be; names in databases may be any bytes.
@@ -91,12 +109,12 @@ class SceneBuilder {
   const BrlcadDatabase& database_;
   BrlcadReport& report_;
   Scene scene_;
-  std::map<std::array<double, 10>, MaterialIndex> materials_;
+  std::map<std::vector<double>, MaterialIndex> materials_;
   std::vector<const BrlcadObject*> path_;
   std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
   std::vector<LampObject> lamps_;
-  /// Why the part under way can't be built; empty when it can.
-  std::string lacks_;
+  /// Why the part under way can't be built.
+  Lack lacks_;
 };
 
 }  // namespace graycube::brlcad

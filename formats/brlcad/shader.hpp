@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
+#include "formats/brlcad/checker.hpp"
 #include "formats/brlcad/database/report.hpp"
+#include "geometry/vec.hpp"
 #include "shading/material.hpp"
 
 namespace graycube {
@@ -20,19 +23,26 @@ struct BrlcadLamp {
   /// Shines from where the lamp is, seen from the origin, in parallel rays.
   bool is_infinite = false;
   bool is_invisible = false;
-  /// Half the angle of its beam.
+  /// Half the angle of its beam, 0 … 180, and the point that it is aimed at. Without one it is
+  /// aimed along −z in the coordinates of its first solid.
   double angle_degrees = 180;
+  bool has_target = false;
+  Vec3 target;
 };
 
 struct BrlcadSurface {
   Material material;
+  /// The squares of a checker, which only the solid can place: without them the material is that of
+  /// a checker whose colour is its own.
+  std::optional<brlcad::Checker> checker;
   bool is_light = false;
   BrlcadLamp lamp;
 };
 
 /// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. A `stack` is
-/// its last member that is known. Others than plastic, glass, mirror and light become plastic,
-/// which is told once a kind; `region` is the name that is told.
+/// its last member that is plastic, glass, mirror or light, with the colours of its last camo or
+/// marble; what else it has isn't drawn. Alone, other shaders become plastic. Both is told once a
+/// kind; `region` is the name that is told. A pattern's map is that from the region's coordinates.
 BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb,
                              const std::string& region, BrlcadReport& report);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "formats/graycube/read_pattern.hpp"
 #include "formats/graycube/scene_words.hpp"
 #include "spelling.hpp"
 
@@ -15,6 +16,7 @@ constexpr double kLeastUpSine = 1e-9;
 
 constexpr NumberRule kFieldOfView{
     .what = "an angle between 0 and 180 degrees", .min = 0, .max = 180, .open = true};
+constexpr NumberRule kBeamAngle{.what = "an angle from 0 to 180 degrees", .min = 0, .max = 180};
 
 void check_frame(JsonAccess& json, JsonIndex look_at_at, JsonIndex up_at, const Camera& camera) {
   const Vec3 view = camera.look_at - camera.eye;
@@ -47,9 +49,14 @@ void read_yes_or_no(JsonAccess& json, JsonIndex at, bool& out) {
 }
 
 void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
-  enum : std::size_t { kType, kPosition, kColor, kFalloff, kShadows, kKeys };
-  constexpr std::array<KeyRule, kKeys> kRules{
-      {{"type", true}, {"position", true}, {"color"}, {"falloff"}, {"shadows"}}};
+  enum : std::size_t { kType, kPosition, kColor, kFalloff, kShadows, kDirection, kAngle, kKeys };
+  constexpr std::array<KeyRule, kKeys> kRules{{{"type", true},
+                                               {"position", true},
+                                               {"color"},
+                                               {"falloff"},
+                                               {"shadows"},
+                                               {"direction"},
+                                               {"angle"}}};
   constexpr std::array<Word<int>, 1> kTypes{{{"point", 0}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a light", kRules, member);
@@ -59,6 +66,10 @@ void read_light(JsonAccess& json, JsonIndex at, PointLight& out) {
   json.read_optional(member[kColor], out.color);
   json.read_word(member[kFalloff], out.falloff, kFalloffWords);
   if (member[kShadows] != 0) read_yes_or_no(json, member[kShadows], out.shadows);
+  if (member[kDirection] != 0) json.read_direction(member[kDirection], out.direction);
+  json.read_optional(member[kAngle], out.angle_degrees, kBeamAngle);
+  if ((member[kDirection] == 0) != (member[kAngle] == 0))
+    json.errors.add(at, "a beam needs the keys \"direction\" and \"angle\"");
 }
 
 }  // namespace
@@ -150,6 +161,7 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
     kTransmit,
     kIor,
     kModel,
+    kPattern,
     kKeys
   };
   constexpr std::array<KeyRule, kKeys> kRules{{{"color"},
@@ -160,7 +172,8 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
                                                {"reflect"},
                                                {"transmit"},
                                                {"ior"},
-                                               {"model"}}};
+                                               {"model"},
+                                               {"pattern"}}};
   std::array<JsonIndex, kKeys> member{};
   json.members(at, "a material", kRules, member);
   json.read_optional(member[kColor], out.color);
@@ -172,6 +185,7 @@ void read_material(JsonAccess& json, JsonIndex at, Material& out) {
   json.read_optional(member[kTransmit], out.transmit, kFraction);
   json.read_optional(member[kIor], out.ior, kPositive);
   json.read_word(member[kModel], out.model, kShadingModelWords);
+  if (member[kPattern] != 0) read_pattern(json, member[kPattern], out.pattern);
 }
 
 }  // namespace graycube

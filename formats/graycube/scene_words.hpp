@@ -16,6 +16,10 @@ inline constexpr std::array<Word<ShadingModel>, 5> kShadingModelWords{
      {"hall_greenberg", ShadingModel::kHallGreenberg},
      {"rt", ShadingModel::kRt},
      {"rt_lamp", ShadingModel::kRtLamp}}};
+inline constexpr std::array<Word<PatternKind>, kPatternKinds - 1> kPatternWords{
+    {{"camouflage", PatternKind::kCamouflage},
+     {"marble", PatternKind::kMarble},
+     {"checker", PatternKind::kChecker}}};
 inline constexpr std::array<Word<Projection>, 2> kProjectionWords{
     {{"perspective", Projection::kPerspective}, {"orthographic", Projection::kOrthographic}}};
 inline constexpr std::array<Word<Handedness>, 2> kHandednessWords{

@@ -1,5 +1,6 @@
 #include "formats/pov/write_pov.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -18,6 +19,8 @@ namespace {
 
 /// The highest trace level that POV-Ray accepts.
 constexpr std::uint32_t kMaxPovTraceLevel = 256;
+/// Half the angle of the widest cone of a spotlight, in degrees.
+constexpr double kWidestSpotlight = 90;
 /// POV-Ray's falloff is 2 / (1 + (d / f)²): with a small f this is 2 f² / d², with a relative error
 /// of f² / d².
 constexpr double kFadeDistance = 1e-4;
@@ -135,7 +138,19 @@ class PovWriter {
     color(gain * light.color);
     if (fades) item(" fade_power 2 fade_distance ", kFadeDistance);
     if (!light.shadows) text_ += " shadowless";
+    if (light.has_beam()) write_beam(light);
     text_ += " }\n";
+  }
+
+  /// A spotlight whose cone has the full brightness everywhere, and none outside.
+  void write_beam(const PointLight& light) {
+    if (light.angle_degrees > kWidestSpotlight)
+      warnings_.push_back("a light's beam is wider than POV-Ray's spotlights, which it gets");
+    const double angle = std::min(light.angle_degrees, kWidestSpotlight);
+    item(" spotlight radius ", angle);
+    item(" falloff ", angle);
+    item(" tightness 0 point_at ",
+         light.position + std::fmax(1, max_abs(light.position)) * normalized(light.direction));
   }
 
   void write_material(std::size_t index) {
@@ -144,6 +159,8 @@ class PovWriter {
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
                           std::string(word_of(kShadingModelWords, m.model)) +
                           " model; written as phong");
+    if (m.pattern.kind != PatternKind::kNone)
+      warnings_.push_back("material \"" + name + "\": its pattern is left out, it has one colour");
     // The transmit of rt's lamps only says that they don't stand in their own light.
     const double transmit = m.model == ShadingModel::kRtLamp ? 0 : m.transmit;
     const std::string number_text = std::to_string(index);

@@ -137,6 +137,11 @@ class RandomModel {
       s.lights.push_back({dice_.one_in(3) ? dice_.point(3) : 9 * dice_.unit_vector(), color(),
                           dice_.one_in(3) ? Falloff::kInverseSquare : Falloff::kNone});
     }
+    // The third light shines in a beam.
+    if (lights == 3) {
+      s.lights.back().direction = -s.lights.back().position;
+      s.lights.back().angle_degrees = 20;
+    }
   }
 
   Material material() {
@@ -151,6 +156,8 @@ class RandomModel {
       m.transmit = dice_.between(0.2, 1);
       m.ior = dice_.one_in(3) ? 1 : dice_.between(0.6, 2);
     }
+    // The glossiest have a pattern. No dice: the scenes of the seeds stay what they are.
+    if (m.shininess > 50) m.pattern.kind = PatternKind::kMarble;
     return m;
   }
 

@@ -90,9 +90,9 @@ RenderSettings some_settings(Random& random) {
   s.max_depth = static_cast<std::uint32_t>(random.below(kMaxDepth + 1));
   s.min_weight = random.not_negative();
   for (std::uint64_t n = random.below(4); n > 0; --n) {
-    s.lights.push_back({random.vec(), random.rgb(),
-                        random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare,
-                        random.chance(2)});
+    s.lights.push_back(
+        {random.vec(), random.rgb(), random.chance(2) ? Falloff::kNone : Falloff::kInverseSquare,
+         random.chance(2), Vec3{random.uniform(-1, 1), 1, 0}, random.uniform(0, 180)});
   }
   return s;
 }
@@ -100,6 +100,19 @@ RenderSettings some_settings(Random& random) {
 constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranceSparrow,
                                     ShadingModel::kHallGreenberg, ShadingModel::kRt,
                                     ShadingModel::kRtLamp};
+
+Pattern some_pattern(Random& random) {
+  Pattern p;
+  p.kind = static_cast<PatternKind>(random.below(kPatternKinds));
+  if (p.kind == PatternKind::kNone) return p;
+  for (auto& row : p.to_pattern.m) {
+    for (double& v : row) v = random.any_finite();
+  }
+  for (Rgb& c : p.colors) c = random.rgb();
+  for (double& v : p.thresholds) v = random.any_finite();
+  p.octaves = {random.uniform(0, kMaxOctaves), random.uniform(0.1, 9), random.any_finite()};
+  return p;
+}
 
 Model some_model(std::uint64_t seed) {
   Random random(seed);
@@ -110,7 +123,7 @@ Model some_model(std::uint64_t seed) {
     model.materials.push_back({random.rgb(), random.not_negative(), random.not_negative(),
                                random.not_negative(), random.not_negative(), random.not_negative(),
                                random.uniform(0, 1), random.uniform(0.1, 3),
-                               kModels[random.below(5)]});
+                               kModels[random.below(5)], some_pattern(random)});
   }
   for (std::uint64_t n = random.below(5); n > 0; --n)
     model.planes.push_back({random.vec(), random.any_finite()});
@@ -203,9 +216,9 @@ TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives"
   CHECK(load_little<std::uint32_t>(bytes.data() + 36) == 4);
   CHECK(load_little<std::uint32_t>(bytes.data() + 40) == 3);
   CHECK(load_little<double>(bytes.data() + 52 + 16) == -5);
-  // Settings end at 224; a material of 81 bytes, two planes, a mesh of three points, two triangles
+  // Settings end at 224; a material of 82 bytes, two planes, a mesh of three points, two triangles
   // and a plane, then the first primitive.
-  const std::byte* mesh = bytes.data() + 224 + 81 + 64;
+  const std::byte* mesh = bytes.data() + 224 + 82 + 64;
   CHECK(load_little<std::uint32_t>(mesh) == 3);
   CHECK(load_little<std::uint32_t>(mesh + 4) == 2);
   CHECK(load_little<std::uint32_t>(mesh + 8) == 1);
@@ -252,11 +265,50 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        [](Model& m) {
          m.settings.lights.push_back({{}, {}, static_cast<Falloff>(2)});
        }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 1}, 181});
+       }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 1}, std::nan("")});
+       }},
+      {"light 0", "beam",
+       [](Model& m) {
+         m.settings.lights.push_back({{}, {}, Falloff::kNone, true, {0, 0, 0}, 30});
+       }},
       {"material 0", "range", [](Model& m) { m.materials[0].transmit = 1.5; }},
       {"material 0", "range", [](Model& m) { m.materials[0].ior = 0; }},
       {"material 0", "range", [](Model& m) { m.materials[0].diffuse = std::nan(""); }},
       {"material 0", "shading",
        [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
+      {"material 0", "unknown pattern",
+       [](Model& m) { m.materials[0].pattern.kind = static_cast<PatternKind>(kPatternKinds); }},
+      {"material 0", "pattern out of range",
+       [](Model& m) {
+         m.materials[0].pattern.kind = PatternKind::kMarble;
+         m.materials[0].pattern.octaves.count = 33;
+       }},
+      {"material 0", "pattern out of range",
+       [](Model& m) {
+         m.materials[0].pattern.kind = PatternKind::kMarble;
+         m.materials[0].pattern.octaves.lacunarity = 0;
+       }},
+      {"material 0", "pattern out of range",
+       [](Model& m) {
+         m.materials[0].pattern.kind = PatternKind::kMarble;
+         m.materials[0].pattern.to_pattern.m[1][1] = kInf;
+       }},
+      {"material 0", "pattern out of range",
+       [](Model& m) {
+         m.materials[0].pattern.kind = PatternKind::kMarble;
+         m.materials[0].pattern.colors[2].g = -1;
+       }},
+      {"material 0", "pattern out of range",
+       [](Model& m) {
+         m.materials[0].pattern.kind = PatternKind::kCamouflage;
+         m.materials[0].pattern.thresholds[1] = std::nan("");
+       }},
       {"plane 1", "finite", [](Model& m) { m.planes[1].offset = kInf; }},
       {"primitive 0", "kind",
        [](Model& m) { m.primitives[0].kind = static_cast<PrimitiveKind>(kPrimitiveKinds); }},
@@ -323,7 +375,7 @@ TEST_CASE("a broken model is refused, and the error names the part") {
 
 TEST_CASE("a mesh's counts and indices are checked") {
   const Bytes good = encode_model(small_model());
-  constexpr std::size_t kMesh = 224 + 81 + 64;
+  constexpr std::size_t kMesh = 224 + 82 + 64;
   const auto why_with = [&](std::size_t at, std::uint32_t value) {
     Bytes bytes = good;
     store_little(bytes.data() + kMesh + at, value);

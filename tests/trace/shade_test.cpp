@@ -53,6 +53,37 @@ TEST_CASE("diffuse light falls with the cosine and ignores distance") {
   }
 }
 
+TEST_CASE("a pattern's colour is that of the surface's point, in own, ambient and light's light") {
+  Material chess = matt({9, 9, 9}, 1);
+  chess.ambient = 0.5;
+  chess.pattern.kind = PatternKind::kChecker;
+  chess.pattern.colors = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
+  chess.pattern.to_pattern = translation({0.5, 0.5, 0.5});
+  const auto look_at = [&](double x) {
+    return Stage().add(wall(0), chess).light({x, 0, -5}).look({x, 0, -9}, {0, 0, 1}).light;
+  };
+  check_light(look_at(0), {1.5, 0, 0});
+  check_light(look_at(1), {0, 1.5, 0});
+}
+
+TEST_CASE("a light with a beam lights what is in it, and sends no rays elsewhere") {
+  const auto look = [](double angle_degrees) {
+    Stage stage;
+    // The light is seen 45 degrees off the axis of its beam.
+    stage.add(wall(0), matt({1, 1, 1}, 1)).light({3, 0, -3});
+    stage.settings().lights[0].direction = {0, 0, 5};
+    stage.settings().lights[0].angle_degrees = angle_degrees;
+    return stage.look();
+  };
+  const double lit = std::sqrt(0.5);
+  check_light(look(180).light, {lit, lit, lit});
+  check_light(look(45.001).light, {lit, lit, lit});
+  CHECK(look(45.001).count(RayKind::kShadow) == 1);
+  check_light(look(44.999).light, {0, 0, 0});
+  CHECK(look(44.999).count(RayKind::kShadow) == 0);
+  check_light(look(0).light, {0, 0, 0});
+}
+
 TEST_CASE("light with falloff is divided by the distance squared") {
   Stage stage;
   stage.add(wall(0), matt({1, 1, 1}, 1)).light({0, 0, -4}, {8, 16, 32}, Falloff::kInverseSquare);

@@ -108,10 +108,10 @@ class BinaryReader {
     name = name.substr(0, name.find('\0'));
     const Part attributes = read_part(r, attribute_flags);
     const Part body = read_part(r, body_flags);
-    if (!r.ok()) return fail("an object's parts are longer than it is");
-    if (!attributes.is_good || !body.is_good) {
-      return fail(name + ": compressed in a way that can't be undone");
-    }
+    constexpr const char* kTooShort = "an object's parts are longer than it is";
+    if (!r.ok() && name.empty())
+      return report_.warning_once("parts", where(), std::string(kTooShort) + ": left out");
+    if (!r.ok()) return database_.add({name, where(), BrlcadBroken{kTooShort}});
     constexpr unsigned kBrlcad = 1, kAttributesOnly = 2;
     if (major == kAttributesOnly && name == "_GLOBAL") {
       each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
@@ -119,20 +119,26 @@ class BinaryReader {
       });
     }
     if (major != kBrlcad || name.empty()) return;
-    BrlcadObject object{name, where(), BrlcadForeign{}};
-    BrlcadByteReader b(body.bytes);
     constexpr unsigned kCombination = 31;
-    if (minor == kCombination) {
-      BrlcadComb comb;
-      if (const auto why = read_binary_tree(b, comb)) return fail(name + ": " + *why);
-      each_attribute(attributes.bytes, [&](std::string_view key, std::string_view value) {
-        set_brlcad_attribute(comb, key, value);
-      });
-      object.value = std::move(comb);
+    BrlcadObject object{name, where(), BrlcadForeign{}};
+    if (!attributes.is_good || !body.is_good) {
+      object.value = BrlcadBroken{"compressed in a way that can't be undone"};
+    } else if (minor == kCombination) {
+      object.value = comb(body.bytes, attributes.bytes);
     } else {
-      solid(b, minor, object);
+      object.value = solid(body.bytes, minor);
     }
     database_.add(std::move(object));
+  }
+
+  static BrlcadValue comb(std::string_view body, std::string_view attributes) {
+    BrlcadComb comb;
+    BrlcadByteReader r(body);
+    if (auto why = read_binary_tree(r, comb)) return BrlcadBroken{std::move(*why)};
+    each_attribute(attributes, [&](std::string_view key, std::string_view value) {
+      set_brlcad_attribute(comb, key, value);
+    });
+    return comb;
   }
 
   template <typename Visit>
@@ -184,96 +190,82 @@ class BinaryReader {
     return "kind " + std::to_string(minor);
   }
 
-  void solid(BrlcadByteReader& r, unsigned minor, BrlcadObject& object) {
+  static BrlcadValue solid(std::string_view body, unsigned minor) {
     const auto kind = kind_of(minor);
-    if (!kind) {
-      object.value = BrlcadForeign{foreign_name(minor)};
-      return;
-    }
-    BrlcadSolid out;
-    out.kind = *kind;
+    if (!kind) return BrlcadForeign{foreign_name(minor)};
+    BrlcadByteReader r(body);
     switch (*kind) {
-      case BrlcadKind::kArbn: counted(r, 4, object.name, out); break;
-      case BrlcadKind::kPipe: counted(r, 6, object.name, out); break;
-      case BrlcadKind::kArs: ars(r, object.name, out); break;
-      case BrlcadKind::kBot:
-        if (!bot(r, object, out)) return;
-        break;
-      default: numbers(r, brlcad_value_count(*kind), object.name, out);
+      case BrlcadKind::kArbn: return counted(*kind, r, 4);
+      case BrlcadKind::kPipe: return counted(*kind, r, 6);
+      case BrlcadKind::kArs: return ars(r);
+      case BrlcadKind::kBot: return bot(r);
+      default: return numbers(*kind, r, brlcad_value_count(*kind));
     }
-    object.value = std::move(out);
   }
 
-  void numbers(BrlcadByteReader& r, std::size_t count, const std::string& name, BrlcadSolid& out) {
+  static BrlcadValue numbers(BrlcadKind kind, BrlcadByteReader& r, std::size_t count) {
+    BrlcadSolid out;
+    out.kind = kind;
     bool is_finite = count <= r.remaining() / 8;
     for (std::size_t i = 0; i < count && is_finite; ++i) {
       out.values.push_back(r.number());
       is_finite = std::isfinite(out.values.back());
     }
-    if (!is_finite)
-      fail(name + ": a " + std::to_string(count) +
-           "-number solid with too few, or with one that is none");
+    if (is_finite) return out;
+    return BrlcadBroken{"expected " + std::to_string(count) + " numbers"};
   }
 
-  void counted(BrlcadByteReader& r, std::size_t each, const std::string& name, BrlcadSolid& out) {
+  static BrlcadValue counted(BrlcadKind kind, BrlcadByteReader& r, std::size_t each) {
     const std::uint64_t count = r.integer(4);
-    if (count > kMaxBrlcadNumbers / each) return fail(name + ": too many numbers");
-    numbers(r, static_cast<std::size_t>(count) * each, name, out);
+    if (count > kMaxBrlcadNumbers / each) return BrlcadBroken{"too many numbers"};
+    return numbers(kind, r, static_cast<std::size_t>(count) * each);
   }
 
-  bool points(BrlcadByteReader& r, std::uint64_t count, const std::string& name,
-              std::vector<Vec3>& out) {
-    if (count > kMaxBrlcadVertices || count > r.remaining() / 24) {
-      fail(name + ": more points than it has room for");
-      return false;
-    }
+  /// Reads points; what is wrong with them, or nothing.
+  static std::optional<std::string> points(BrlcadByteReader& r, std::uint64_t count,
+                                           std::vector<Vec3>& out) {
+    if (count > kMaxBrlcadVertices || count > r.remaining() / 24)
+      return "more points than it has room for";
     for (std::uint64_t i = 0; i < count; ++i) {
       out.push_back(r.vector());
-      if (is_finite(out.back())) continue;
-      fail(name + ": a point that is none");
-      return false;
+      if (!is_finite(out.back())) return "a point that is none";
     }
-    return true;
+    return std::nullopt;
   }
 
-  void ars(BrlcadByteReader& r, const std::string& name, BrlcadSolid& out) {
+  static BrlcadValue ars(BrlcadByteReader& r) {
     const std::uint64_t curves = r.integer(4), per_curve = r.integer(4);
+    if (curves < 2 || per_curve < 3 || per_curve > kMaxBrlcadVertices)
+      return BrlcadBroken{"expected two curves or more of three points or more"};
     std::vector<Vec3> all;
-    if (curves < 2 || per_curve < 3 || per_curve > kMaxBrlcadVertices) {
-      return fail(name + ": expected two curves or more of three points or more");
-    }
-    if (!points(r, curves * per_curve, name, all)) return;
+    if (auto why = points(r, curves * per_curve, all)) return BrlcadBroken{std::move(*why)};
+    BrlcadSolid out{BrlcadKind::kArs, {}, {}};
     out.mesh =
         brlcad_ars_mesh(all, static_cast<std::size_t>(curves), static_cast<std::size_t>(per_curve));
+    return out;
   }
 
-  bool bot(BrlcadByteReader& r, BrlcadObject& object, BrlcadSolid& out) {
+  static BrlcadValue bot(BrlcadByteReader& r) {
     const std::uint64_t vertices = r.integer(4), faces = r.integer(4);
     r.integer(1);
     const std::uint64_t mode = r.integer(1);
     r.integer(1);
     constexpr std::uint64_t kSolidMode = 2;
-    if (r.ok() && mode != kSolidMode) {
-      object.value =
-          BrlcadForeign{std::string("bot in ") + (mode == 1 ? "surface" : "plate") + " mode"};
-      return false;
-    }
-    if (!points(r, vertices, object.name, out.mesh.vertices)) return true;
-    if (faces > kMaxBrlcadVertices || faces > r.remaining() / 12) {
-      fail(object.name + ": more faces than it has room for");
-      return true;
-    }
+    if (r.ok() && mode != kSolidMode)
+      return BrlcadForeign{std::string("bot in ") + (mode == 1 ? "surface" : "plate") + " mode"};
+    BrlcadSolid out{BrlcadKind::kBot, {}, {}};
+    if (auto why = points(r, vertices, out.mesh.vertices)) return BrlcadBroken{std::move(*why)};
+    if (faces > kMaxBrlcadVertices || faces > r.remaining() / 12)
+      return BrlcadBroken{"more faces than it has room for"};
     for (std::uint64_t i = 0; i < faces; ++i) {
       std::array<std::uint32_t, 3> face;
-      for (auto& corner : face) corner = static_cast<std::uint32_t>(r.integer(4));
-      for (const auto corner : face) {
-        if (corner < vertices) continue;
-        fail(object.name + ": a face names a vertex that isn't there");
-        return true;
+      for (auto& corner : face) {
+        corner = static_cast<std::uint32_t>(r.integer(4));
+        if (corner >= vertices) return BrlcadBroken{"a face names a vertex that isn't there"};
       }
       out.mesh.faces.push_back(face);
     }
-    return true;
+    return out;
   }
 
   std::string_view bytes_;

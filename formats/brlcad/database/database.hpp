@@ -61,6 +61,11 @@ struct BrlcadForeign {
   std::string kind;
 };
 
+/// An object whose record can't be read; `why` says what is wrong with it.
+struct BrlcadBroken {
+  std::string why;
+};
+
 struct BrlcadComb {
   std::optional<BrlcadTree> tree;
   bool is_region = false;
@@ -71,11 +76,13 @@ struct BrlcadComb {
   std::string shader;
 };
 
+using BrlcadValue = std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign, BrlcadBroken>;
+
 struct BrlcadObject {
   std::string name;
   /// The object's place in the file: "line 7" or "byte 4096".
   std::string where;
-  std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> value;
+  BrlcadValue value;
 };
 
 /// Regions whose ids are low … high have this colour.
@@ -117,8 +124,8 @@ BrlcadPlace brlcad_place(const std::array<double, 16>& m);
 BrlcadMesh brlcad_ars_mesh(const std::vector<Vec3>& points, std::size_t curves,
                            std::size_t per_curve);
 
-/// Reads any of the formats: .asc or .g, of version 4 or 5. Errors and warnings go to the
-/// report.
+/// Reads any of the formats: .asc or .g, of version 4 or 5. Objects that can't be read are kept as
+/// broken ones; errors of the file as a whole, and warnings, go to the report.
 BrlcadDatabase read_brlcad_database(std::string_view bytes, BrlcadReport& report);
 
 // The readers of the single formats.

@@ -196,53 +196,54 @@ class V4BinaryReader {
     end_line();
   }
 
-  /// Goes on with `count` more records; nothing when the file has fewer.
+  /// Goes on with `count` more records; false where the file has fewer, and then takes all of them.
   bool take_more(std::uint64_t count) {
-    if (count > (bytes_.size() - at_) / kRecord) {
-      fail("the record of " + name_at(kName) + " says that more follow than the file has");
-      return false;
-    }
-    at_ += static_cast<std::size_t>(count) * kRecord;
-    return true;
+    const std::uint64_t most = (bytes_.size() - at_) / kRecord;
+    at_ += static_cast<std::size_t>(std::min(count, most)) * kRecord;
+    return count <= most;
   }
-  /// The record from `from` on and `count` more behind it.
-  std::optional<BrlcadByteReader> with_more(std::size_t from, std::uint64_t count) {
+  /// The record from `from` on and `count` more behind it; nothing where the file has fewer.
+  BrlcadByteReader with_more(std::size_t from, std::uint64_t count) {
     const std::size_t start = at_ - kRecord + from;
-    if (!take_more(count)) return std::nullopt;
+    if (!take_more(count)) return BrlcadByteReader({});
     return BrlcadByteReader(bytes_.substr(start, at_ - start));
   }
-  bool has_room(const BrlcadByteReader& r, std::uint64_t count, std::size_t each) {
+  /// Whether the reader has bytes for so many numbers. If not, a record without any is written,
+  /// which the text's reader takes for a broken one.
+  bool has_room(const BrlcadByteReader& r, std::uint64_t count, std::size_t each,
+                const std::string& name) {
     if (count <= r.remaining() / each) return true;
-    fail(name_at(kName) + ": more numbers than its records have room for");
+    put(name);
+    end_line();
     return false;
   }
 
   void arbn() {
     const std::uint64_t planes = big_at(18, 4);
     const std::string name = name_at(kName);
-    auto r = with_more(kRecord, big_at(22, 4));
-    if (!r || !has_room(*r, planes, 32)) return;
+    BrlcadByteReader r = with_more(kRecord, big_at(22, 4));
     put("n");
+    if (!has_room(r, planes, 32, name)) return;
     put(name);
     put(static_cast<long>(planes));
     end_line();
     for (std::uint64_t i = 0; i < planes; ++i) {
       put("N");
-      for (int k = 0; k < 4; ++k) put(r->number());
+      for (int k = 0; k < 4; ++k) put(r.number());
       end_line();
     }
   }
   void pipe() {
     const std::uint64_t points = big_at(18, 4);
     const std::string name = name_at(kName);
-    auto r = with_more(26, big_at(22, 4));
-    if (!r || !has_room(*r, points, 48)) return;
+    BrlcadByteReader r = with_more(26, big_at(22, 4));
     put("w");
+    if (!has_room(r, points, 48, name)) return;
     put(name);
     end_line();
     for (std::uint64_t i = 0; i < points; ++i) {
-      const Vec3 at = r->vector();
-      const double bend = r->number(), inner = r->number(), outer = r->number();
+      const Vec3 at = r.vector();
+      const double bend = r.number(), inner = r.number(), outer = r.number();
       for (const double v : {inner, outer, bend, at.x, at.y, at.z}) put(v);
       end_line();
     }
@@ -259,12 +260,12 @@ class V4BinaryReader {
     const std::uint64_t vertices = big_at(kBotCounts, 4), faces = big_at(kBotCounts + 4, 4);
     const long mode = static_cast<unsigned char>(record_[kBotMode]);
     const std::string name = name_at(kName);
-    auto r = with_more(kBotData, big_at(18, 4));
-    if (!r || !has_room(*r, vertices, 24) || !has_room(*r, faces, 12)) return;
+    BrlcadByteReader r = with_more(kBotData, big_at(18, 4));
     // A bot that is no solid is known by its mode; its faces don't matter.
     constexpr long kSolidMode = 2;
     const bool is_solid = mode == kSolidMode;
     put("t");
+    if (!has_room(r, vertices, 24, name) || !has_room(r, faces, 12, name)) return;
     put(name);
     put(is_solid || mode == 1 ? mode : 0l);
     put("0 0");
@@ -274,12 +275,12 @@ class V4BinaryReader {
     if (!is_solid) return;
     for (std::uint64_t i = 0; i < vertices; ++i) {
       put("v");
-      for (int k = 0; k < 3; ++k) put(r->number());
+      for (int k = 0; k < 3; ++k) put(r.number());
       end_line();
     }
     for (std::uint64_t i = 0; i < faces; ++i) {
       put("f");
-      for (int k = 0; k < 3; ++k) put(static_cast<long>(r->integer(4)));
+      for (int k = 0; k < 3; ++k) put(static_cast<long>(r.integer(4)));
       end_line();
     }
   }

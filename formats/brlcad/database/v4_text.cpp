@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formats/brlcad/database/database.hpp"
+#include "formats/brlcad/database/v4_lines.hpp"
 #include "formats/brlcad/database/words.hpp"
 
 namespace graycube {
@@ -36,11 +37,11 @@ void make_unit(Values& v, std::size_t at) {
 
 class V4TextReader {
  public:
-  V4TextReader(std::string_view text, BrlcadReport& report) : text_(text), report_(report) {}
+  V4TextReader(std::string_view text, BrlcadReport& report) : lines_(text), report_(report) {}
 
   BrlcadDatabase read() {
     while (next_line() && !report_.has_errors()) {
-      if (line_.empty() || line_.front() == '#') continue;
+      if (line().empty() || line().front() == '#') continue;
       record();
       if (database_.objects.size() > kMaxBrlcadObjects) {
         fail("more than " + std::to_string(kMaxBrlcadObjects) + " objects");
@@ -50,26 +51,21 @@ class V4TextReader {
   }
 
  private:
-  bool next_line() {
-    if (is_pushed_back_) {
-      is_pushed_back_ = false;
-      return true;
-    }
-    if (text_.empty()) return false;
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    line_ = text_.substr(0, end);
-    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    ++number_;
-    return true;
-  }
-  std::string where() const { return "line " + std::to_string(number_); }
+  static constexpr std::string_view kEndPipe = "END_PIPE";
+  /// The letters that rows of a bot may begin with: v4_binary.cpp writes them.
+  static constexpr std::string_view kBotRows = "vf";
+
+  bool next_line() { return lines_.next(); }
+  bool next_row(std::string_view letters) { return lines_.next_row(letters); }
+  std::string_view line() const { return lines_.line(); }
+  std::string where() const { return lines_.where(); }
   void fail(std::string why) { report_.error(where(), std::move(why)); }
 
   void record() {
-    switch (line_.front()) {
+    if (!lines_.begins_record()) return unknown();
+    switch (line().front()) {
       case 'I':
-        if (next_line()) database_.title = line_;
+        if (next_line()) database_.title = line();
         return;
       case 'S': return solid();
       case 'C': return comb();
@@ -85,31 +81,41 @@ class V4TextReader {
     }
   }
 
+  void unknown() { report_.warning_once("?", where(), "a record of unknown kind is left out"); }
+
   /// Keeps a solid of a kind that isn't read under its name, in case that is used.
   void foreign() {
-    const auto words = blank_separated(line_, 3);
-    if (words.size() < 2 || words.front().size() != 1) {
-      return report_.warning_once("?", where(), "a record of unknown kind is left out");
-    }
-    if (line_.front() == 's' && words.size() > 2)
+    const auto words = blank_separated(line(), 3);
+    if (words.size() < 2) return unknown();
+    if (line().front() == 's' && words.size() > 2)
       return add(words[2], BrlcadForeign{std::string(words[1])});
     add(words[1], BrlcadForeign{"a record '" + std::string(words.front()) + "'"});
   }
 
-  void add(std::string_view name, std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> value) {
+  void add(std::string_view name, BrlcadValue value) {
     database_.add({std::string(name), where(), std::move(value)});
   }
+  /// Keeps the object under way as one that can't be read; the line that was reached shows why.
+  void broken(std::string_view name, const std::string& why) {
+    if (!name.empty()) return add(name, BrlcadBroken{why});
+    report_.warning_once("nameless", where(), "a record without a name is left out: " + why);
+  }
+  static std::string_view word_or_nothing(const std::vector<std::string_view>& words,
+                                          std::size_t i) {
+    return i < words.size() ? words[i] : std::string_view();
+  }
+  /// The same for a record that goes on in rows, which are skipped.
+  void broken_rows(std::string_view name, const std::string& why, std::string_view letters) {
+    broken(name, why);
+    while (next_row(letters) && !line().starts_with(kEndPipe)) continue;
+  }
 
-  /// The words from `from` on as numbers; false after reporting when there are fewer than `count`.
-  bool numbers(const std::vector<std::string_view>& words, std::size_t from, std::size_t count,
-               Values& out) {
+  /// The words from `from` on as numbers; false when there are fewer than `count`.
+  static bool numbers(const std::vector<std::string_view>& words, std::size_t from,
+                      std::size_t count, Values& out) {
     for (std::size_t i = from; i < from + count; ++i) {
       const auto v = i < words.size() ? parse_brlcad_number(words[i]) : std::nullopt;
-      if (!v) {
-        fail("expected " + std::to_string(count) + " numbers behind the first " +
-             std::to_string(from) + " words");
-        return false;
-      }
+      if (!v) return false;
       out.push_back(*v);
     }
     return true;
@@ -117,11 +123,12 @@ class V4TextReader {
 
   /// Reads S TYPE NAME CLASS and 24 numbers.
   void solid() {
-    const auto words = blank_separated(line_, 28);
+    const auto words = blank_separated(line(), 28);
     Values v;
     const auto type = words.size() > 3 ? parse_brlcad_integer(words[1]) : std::nullopt;
-    if (!type) return fail("a solid's record wants a type, a name, a class and 24 numbers");
-    if (!numbers(words, 4, 24, v)) return;
+    if (!type || !numbers(words, 4, 24, v))
+      return broken(word_or_nothing(words, 2),
+                    "a solid's record wants a type, a name, a class and 24 numbers");
     BrlcadSolid out;
     switch (*type) {
       case kTorus: {
@@ -157,9 +164,10 @@ class V4TextReader {
   /// Reads C FLAG NAME region air members reference material los override r g b [shader?
   /// parameters? inherit], then lines for shader and parameters, then its members.
   void comb() {
-    const auto words = blank_separated(line_, 17);
-    const std::string name(words.size() > 2 ? words[2] : "");
-    if (words.size() < 13 || words[1].empty()) return fail("a combination's record is too short");
+    const auto words = blank_separated(line(), 17);
+    if (words.size() < 13)
+      return broken_rows(word_or_nothing(words, 2), "a combination's record is too short", "M");
+    const std::string name(words[2]);
     const auto integer = [&](std::size_t i) {
       return i < words.size() ? parse_brlcad_integer(words[i]).value_or(0) : 0;
     };
@@ -175,10 +183,9 @@ class V4TextReader {
     const bool has_parameters = integer(14) != 0;
     out.inherits = integer(15) != 0;
     const std::string at = where();
-    if (has_shader && next_line()) out.shader = line_;
-    if (has_parameters && next_line()) out.shader += " " + std::string(line_);
-    if (!members(name, out)) return;
-    database_.add({name, at, std::move(out)});
+    if (has_shader && next_line()) out.shader = line();
+    if (has_parameters && next_line()) out.shader += " " + std::string(line());
+    if (members(name, out)) database_.add({name, at, std::move(out)});
   }
 
   /// Reads members with u, + and − as they bind: products of intersections and subtractions, then
@@ -187,26 +194,16 @@ class V4TextReader {
     using Op = BrlcadTree::Op;
     BrlcadTreeBuilder builder;
     std::size_t products = 0;
-    while (next_line()) {
-      if (line_.empty() || line_.front() != 'M') {
-        is_pushed_back_ = true;
-        break;
-      }
-      const auto words = blank_separated(line_, 20);
-      Values v;
+    while (next_row("M") && lines_.begins_record()) {
+      const auto words = blank_separated(line(), 20);
       if (words.size() < 3 || words[1].size() != 1) {
-        fail("a member wants an operation, a name and a matrix");
+        broken_rows(name, "a member wants an operation, a name and a matrix", "M");
         return false;
-      }
-      std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-      if (words.size() > 3) {
-        if (!numbers(words, 3, 16, v)) return false;
-        std::copy(v.begin(), v.end(), m.begin());
       }
       const char relation = products == 0 ? 'u' : words[1].front();
       if (relation == 'u' && products > 1 && !builder.operation(Op::kUnion)) return too_deep(name);
       if (relation == 'u') ++products;
-      builder.leaf(std::string(words[2]), brlcad_place(m));
+      builder.leaf(std::string(words[2]), place_of(words));
       if (relation != 'u' &&
           !builder.operation(relation == '+' ? Op::kIntersection : Op::kDifference)) {
         return too_deep(name);
@@ -217,36 +214,48 @@ class V4TextReader {
     out.tree = builder.finish();
     return true;
   }
+  /// Where a member is: its matrix stands behind the first three words, if it has one.
+  static BrlcadPlace place_of(const std::vector<std::string_view>& words) {
+    std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    if (words.size() > 3) {
+      Values v;
+      if (!numbers(words, 3, 16, v)) return {std::nullopt, true};
+      std::copy(v.begin(), v.end(), m.begin());
+    }
+    return brlcad_place(m);
+  }
   bool too_deep(const std::string& name) {
-    fail(name + ": its members make a tree that is too deep, or too many");
+    broken_rows(name, "its members make a tree that is too deep, or too many", "M");
     return false;
   }
 
   /// Reads A NAME … curves points, then B records of up to 8 points each.
   void ars() {
-    const auto words = blank_separated(line_, 5);
+    const auto words = blank_separated(line(), 5);
     const auto curves =
         words.size() > 3 ? parse_brlcad_integer(words[words.size() - 2]) : std::nullopt;
     const auto per_curve = words.size() > 3 ? parse_brlcad_integer(words.back()) : std::nullopt;
     if (!curves || !per_curve || *curves < 2 || *per_curve < 3 ||
         static_cast<double>(*curves) * static_cast<double>(*per_curve) >
             static_cast<double>(kMaxBrlcadVertices)) {
-      return fail(
+      return broken_rows(
+          word_or_nothing(words, 1),
           "an ars wants a name, the number of its curves (2 or more) and of their points (3 or "
-          "more)");
+          "more)",
+          "B");
     }
     const std::string name(words[words.size() - 3]);
     const std::string at = where();
     std::vector<Vec3> points;
     for (long curve = 0; curve < *curves; ++curve) {
       for (long done = 0; done < *per_curve; done += 8) {
-        if (!next_line() || line_.empty() || line_.front() != 'B') {
-          return fail("a B record of the ars " + name + " is missing");
-        }
+        if (!next_row("B") || line().empty() || line().front() != 'B')
+          return broken_rows(name, "a B record is missing", "B");
         const long count = std::min(8l, *per_curve - done);
         Values v;
         // B, the curve's and the granule's number, then points; all but the first relative to it.
-        if (!numbers(blank_separated(line_, 27), 3, static_cast<std::size_t>(3 * count), v)) return;
+        if (!numbers(blank_separated(line(), 27), 3, static_cast<std::size_t>(3 * count), v))
+          return broken_rows(name, "a B record wants 3 words and points of 3 numbers", "B");
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
           const Vec3 p{v[i], v[i + 1], v[i + 2]};
           points.push_back(points.empty() ? p : points.front() + p);
@@ -261,8 +270,9 @@ class V4TextReader {
 
   /// Reads m FLAGS LOW HIGH R G B.
   void color() {
-    const auto words = blank_separated(line_, 7);
-    if (words.size() < 7) return fail("a colour wants flags, two region numbers and r, g, b");
+    const auto words = blank_separated(line(), 7);
+    if (words.size() < 7)
+      return report_.warning_once("colour", where(), "a colour without its 6 numbers is left out");
     const auto low = parse_brlcad_integer(words[2]);
     const auto high = parse_brlcad_integer(words[3]);
     const auto rgb = parse_brlcad_rgb(std::string(words[4]) + " " + std::string(words[5]) + " " +
@@ -271,72 +281,76 @@ class V4TextReader {
   }
 
   void particle() {
-    const auto words = blank_separated(line_, 10);
+    const auto words = blank_separated(line(), 10);
     BrlcadSolid out{BrlcadKind::kPart, {}, {}};
-    if (!numbers(words, 2, 8, out.values)) return;
+    if (!numbers(words, 2, 8, out.values))
+      return broken(word_or_nothing(words, 1), "a particle wants a name and 8 numbers");
     add(words[1], std::move(out));
   }
 
   void pipe() {
-    const auto words = blank_separated(line_, 2);
-    if (words.size() < 2) return fail("a pipe wants a name");
+    const auto words = blank_separated(line(), 2);
+    if (words.size() < 2) return broken_rows("", "a pipe wants a name", "");
     const std::string name(words[1]), at = where();
     BrlcadSolid out{BrlcadKind::kPipe, {}, {}};
     for (;;) {
-      if (!next_line()) return fail("the pipe " + name + " has no END_PIPE");
-      if (line_.starts_with("END_PIPE")) break;
+      if (!next_row("")) return broken(name, "it has no END_PIPE");
+      if (line().starts_with(kEndPipe)) break;
       Values v;
       // The numbers: inner and outer diameter, bend radius, position.
-      if (!numbers(blank_separated(line_, 6), 0, 6, v)) return;
+      if (!numbers(blank_separated(line(), 6), 0, 6, v))
+        return broken_rows(name, "a point of a pipe wants 6 numbers", "");
       for (const std::size_t i : {3u, 4u, 5u, 0u, 1u, 2u}) out.values.push_back(v[i]);
-      if (out.values.size() > kMaxBrlcadNumbers) return fail("the pipe " + name + " is too long");
+      if (out.values.size() > kMaxBrlcadNumbers) return broken_rows(name, "it is too long", "");
     }
     database_.add({name, at, std::move(out)});
   }
 
   void arbn() {
-    const auto words = blank_separated(line_, 3);
+    const auto words = blank_separated(line(), 3);
     const auto count = words.size() > 2 ? parse_brlcad_integer(words[2]) : std::nullopt;
     if (!count || *count < 1 || *count > static_cast<long>(kMaxBrlcadNumbers / 4)) {
-      return fail("an arbn wants a name and the number of its planes");
+      return broken_rows(word_or_nothing(words, 1),
+                         "an arbn wants a name and the number of its planes", "N");
     }
     const std::string name(words[1]), at = where();
     BrlcadSolid out{BrlcadKind::kArbn, {}, {}};
     for (long i = 0; i < *count; ++i) {
-      if (!next_line()) return fail("the arbn " + name + " lacks planes");
-      if (!numbers(blank_separated(line_, 5), 1, 4, out.values)) return;
+      if (!next_row("N") || !numbers(blank_separated(line(), 5), 1, 4, out.values))
+        return broken_rows(name, "a plane wants 4 numbers behind its first word", "N");
     }
     database_.add({name, at, std::move(out)});
   }
 
   /// Reads t NAME mode orientation error vertices faces, lines of "N: x y z", and of "N: a b c".
   void bot() {
-    const auto words = blank_separated(line_, 7);
+    const auto words = blank_separated(line(), 7);
     const auto integer = [&](std::size_t i) {
       return i < words.size() ? parse_brlcad_integer(words[i]).value_or(-1) : -1;
     };
     const long vertices = integer(5), faces = integer(6);
     if (vertices < 0 || faces < 0 || vertices > static_cast<long>(kMaxBrlcadVertices) ||
         faces > static_cast<long>(kMaxBrlcadVertices)) {
-      return fail(
-          "a bot wants name, mode, orientation, error mode, number of vertices and of faces");
+      return broken_rows(
+          word_or_nothing(words, 1),
+          "a bot wants name, mode, orientation, error mode, number of vertices and of faces",
+          kBotRows);
     }
     const std::string name(words[1]), at = where();
     const long mode = integer(2);
     BrlcadSolid out{BrlcadKind::kBot, {}, {}};
     for (long i = 0; i < vertices + faces; ++i) {
-      if (!next_line()) return fail("the bot " + name + " lacks lines");
       Values v;
-      if (!numbers(blank_separated(line_, 4), 1, 3, v)) return;
+      if (!next_row(kBotRows) || !numbers(blank_separated(line(), 4), 1, 3, v))
+        return broken_rows(name, "a row wants 3 numbers behind its first word", kBotRows);
       if (i < vertices) {
         out.mesh.vertices.push_back({v[0], v[1], v[2]});
         continue;
       }
       std::array<std::uint32_t, 3> face{};
       for (std::size_t k = 0; k < 3; ++k) {
-        if (!(v[k] >= 0 && v[k] < static_cast<double>(vertices))) {
-          return fail("a face of " + name + " names a vertex that isn't there");
-        }
+        if (!(v[k] >= 0 && v[k] < static_cast<double>(vertices)))
+          return broken_rows(name, "a face names a vertex that isn't there", kBotRows);
         face[k] = static_cast<std::uint32_t>(v[k]);
       }
       out.mesh.faces.push_back(face);
@@ -352,11 +366,8 @@ class V4TextReader {
     database_.add({name, at, std::move(out)});
   }
 
-  std::string_view text_;
+  BrlcadV4Lines lines_;
   BrlcadReport& report_;
-  std::string_view line_;
-  std::size_t number_ = 0;
-  bool is_pushed_back_ = false;
   BrlcadDatabase database_;
 };
 

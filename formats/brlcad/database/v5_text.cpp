@@ -92,15 +92,12 @@ class V5TextReader {
 
  private:
   static constexpr std::size_t kMaxWords = 4 * kMaxBrlcadNumbers;
+  static constexpr const char* kNoTriples = "expected a list of three numbers each";
 
   std::string where() const { return "line " + std::to_string(line_); }
-  void fail(const std::string& name, const std::string& why) {
-    report_.error(where(), name + ": " + why);
-  }
-
   void command(const Words& words) {
     const std::string& verb = words.front();
-    if (verb == "put" && words.size() >= 3) {
+    if (verb == "put" && words.size() >= 2) {
       put(words);
     } else if (verb == "attr" && words.size() >= 3 && words[1] == "set") {
       attributes(words);
@@ -109,7 +106,7 @@ class V5TextReader {
     } else if (verb == "color" && words.size() >= 6) {
       color(words);
     } else if (verb == "put" || verb == "attr") {
-      report_.error(where(), "'" + verb + "' wants more words");
+      report_.warning_once("short " + verb, where(), "'" + verb + "' wants more words: left out");
     } else if (verb != "title" && verb != "units" && verb != "color" && verb != "find" &&
                verb != "rm" && verb != "dbfind") {
       report_.warning_once("command " + verb, where(), "the command '" + verb + "' is left out");
@@ -139,15 +136,19 @@ class V5TextReader {
     BrlcadObject object;
     object.name = name_of(words[1]);
     object.where = where();
-    const std::string& kind = words[2];
-    if (kind == "comb") {
-      object.value = comb(words);
-    } else if (kind == "arbn" || kind == "pipe" || kind == "ars" || kind == "bot") {
-      object.value = varying(words);
-    } else {
-      object.value = fixed(words);
-    }
+    object.value = value_of_put(words);
     database_.add(std::move(object));
+  }
+
+  static BrlcadValue value_of_put(const Words& words) {
+    if (words.size() < 3) return BrlcadBroken{"'put' wants a kind behind the name"};
+    const std::string& kind = words[2];
+    if (kind == "comb") return comb(words);
+    if (kind == "arbn") return arbn(words);
+    if (kind == "pipe") return pipe(words);
+    if (kind == "ars") return ars(words);
+    if (kind == "bot") return bot(words);
+    return fixed(words);
   }
 
   /// The value of a key; null when the command doesn't have it.
@@ -158,21 +159,17 @@ class V5TextReader {
     return nullptr;
   }
 
-  bool numbers_of(const Words& words, const std::string& key, std::size_t count,
-                  std::vector<double>& out) {
-    const std::string* value = value_of(words, key);
-    if (value != nullptr && append_brlcad_numbers(*value, count, out)) return true;
-    fail(words[1], "expected " + key + " with " + std::to_string(count) + " numbers");
-    return false;
-  }
-
-  std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> fixed(const Words& words) {
+  static BrlcadValue fixed(const Words& words) {
     for (const Layout& layout : kLayouts) {
       if (layout.kind != words[2]) continue;
       BrlcadSolid solid;
       solid.kind = layout.is;
       for (const Key& key : layout.keys) {
-        if (!numbers_of(words, std::string(key.name), key.count, solid.values)) break;
+        const std::string* value = value_of(words, key.name);
+        if (value == nullptr || !append_brlcad_numbers(*value, key.count, solid.values)) {
+          return BrlcadBroken{"expected " + std::string(key.name) + " with " +
+                              std::to_string(key.count) + " numbers"};
+        }
       }
       return solid;
     }
@@ -191,29 +188,22 @@ class V5TextReader {
     }
   }
 
-  std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> varying(const Words& words) {
-    if (words[2] == "arbn") return arbn(words);
-    if (words[2] == "pipe") return pipe(words);
-    if (words[2] == "ars") return ars(words);
-    return bot(words);
-  }
-
-  BrlcadSolid arbn(const Words& words) {
+  static BrlcadValue arbn(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kArbn, {}, {}};
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
       if (words[i].size() < 2 || words[i][0] != 'P' || solid.values.size() >= kMaxBrlcadNumbers)
         continue;
       if (!append_brlcad_numbers(words[i + 1], 4, solid.values)) {
-        fail(words[1], "expected " + words[i] + " with 4 numbers");
-        break;
+        return BrlcadBroken{"expected " + words[i] + " with 4 numbers"};
       }
     }
     return solid;
   }
 
-  BrlcadSolid pipe(const Words& words) {
+  static BrlcadValue pipe(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kPipe, {}, {}};
     std::vector<double> all;
+    if ((words.size() - 3) % 8 != 0) return BrlcadBroken{"its last point is not whole"};
     // Each point has V0 {…} O0 o I0 i R0 r, in any order within the point; then V1 … follows.
     for (std::size_t at = 3; at + 7 < words.size() && all.size() < kMaxBrlcadNumbers; at += 8) {
       const std::string number = std::to_string((at - 3) / 8);
@@ -227,9 +217,8 @@ class V5TextReader {
                                  : words[i] == "R" + number ? 5
                                                             : 6;
         if (slot == 6 || !append_brlcad_numbers(words[i + 1], is_place ? 3 : 1, v)) {
-          fail(words[1],
-               "expected V" + number + ", O" + number + ", I" + number + " and R" + number);
-          return solid;
+          return BrlcadBroken{"expected V" + number + ", O" + number + ", I" + number + " and R" +
+                              number};
         }
         std::copy(v.begin(), v.end(), point.begin() + static_cast<std::ptrdiff_t>(slot));
       }
@@ -240,13 +229,11 @@ class V5TextReader {
   }
 
   /// Reads a list of points, or of triples of indices: {{x y z} {x y z} …}.
-  bool triples(const std::string& name, const std::string& text, std::vector<double>& out) {
+  static bool triples(const std::string& text, std::vector<double>& out) {
     TclWords words(text);
     for (std::string word; words.next(word);) {
-      if (out.size() / 3 >= kMaxBrlcadVertices || !append_brlcad_numbers(word, 3, out)) {
-        fail(name, "expected a list of three numbers each");
+      if (out.size() / 3 >= kMaxBrlcadVertices || !append_brlcad_numbers(word, 3, out))
         return false;
-      }
     }
     return !words.is_broken();
   }
@@ -256,30 +243,25 @@ class V5TextReader {
     return points;
   }
 
-  BrlcadSolid ars(const Words& words) {
+  static BrlcadValue ars(const Words& words) {
     BrlcadSolid solid{BrlcadKind::kArs, {}, {}};
     std::vector<double> numbers;
     const auto curves = values_of(words, "C");
     std::size_t per_curve = 0;
     for (const std::string* curve : curves) {
       const std::size_t before = numbers.size();
-      if (!triples(words[1], *curve, numbers)) return solid;
+      if (!triples(*curve, numbers)) return BrlcadBroken{kNoTriples};
       const std::size_t count = (numbers.size() - before) / 3;
       if (curve == curves.front()) per_curve = count;
-      if (count != per_curve) {
-        fail(words[1], "its curves differ in their number of points");
-        return solid;
-      }
+      if (count != per_curve) return BrlcadBroken{"its curves differ in their number of points"};
     }
-    if (curves.size() < 2 || per_curve < 3) {
-      fail(words[1], "expected two curves or more of three points or more");
-      return solid;
-    }
+    if (curves.size() < 2 || per_curve < 3)
+      return BrlcadBroken{"expected two curves or more of three points or more"};
     solid.mesh = brlcad_ars_mesh(points_of(numbers), curves.size(), per_curve);
     return solid;
   }
 
-  std::variant<BrlcadSolid, BrlcadComb, BrlcadForeign> bot(const Words& words) {
+  static BrlcadValue bot(const Words& words) {
     const std::string* mode = value_of(words, "mode");
     if (mode != nullptr && *mode != "volume" && *mode != "solid" && *mode != "2") {
       return BrlcadForeign{"bot in " + *mode + " mode"};
@@ -288,20 +270,15 @@ class V5TextReader {
     const std::string* vertices = value_of(words, "V");
     const std::string* faces = value_of(words, "F");
     std::vector<double> places, corners;
-    if (vertices == nullptr || faces == nullptr) {
-      fail(words[1], "expected V and F");
-      return solid;
-    }
-    if (!triples(words[1], *vertices, places) || !triples(words[1], *faces, corners)) return solid;
+    if (vertices == nullptr || faces == nullptr) return BrlcadBroken{"expected V and F"};
+    if (!triples(*vertices, places) || !triples(*faces, corners)) return BrlcadBroken{kNoTriples};
     solid.mesh.vertices = points_of(places);
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
       std::array<std::uint32_t, 3> face{};
       for (std::size_t k = 0; k < 3; ++k) {
         const double index = corners[i + k];
-        if (!(index >= 0 && index < static_cast<double>(solid.mesh.vertices.size()))) {
-          fail(words[1], "a face names a vertex that isn't there");
-          return BrlcadSolid{BrlcadKind::kBot, {}, {}};
-        }
+        if (!(index >= 0 && index < static_cast<double>(solid.mesh.vertices.size())))
+          return BrlcadBroken{"a face names a vertex that isn't there"};
         face[k] = static_cast<std::uint32_t>(index);
       }
       solid.mesh.faces.push_back(face);
@@ -309,11 +286,14 @@ class V5TextReader {
     return solid;
   }
 
-  BrlcadComb comb(const Words& words) {
+  static BrlcadValue comb(const Words& words) {
     BrlcadComb comb;
+    std::string problem;
     for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
       if (words[i] == "tree") {
-        comb.tree = tree(words[1], words[i + 1]);
+        if (words[i + 1].find_first_not_of(" \t\r\n") == std::string::npos) continue;
+        comb.tree = read_brlcad_tree_text(words[i + 1], problem);
+        if (!comb.tree) return BrlcadBroken{problem};
       } else if (words[i] == "region") {
         comb.is_region = words[i + 1] == "yes" || words[i + 1] == "1";
       } else {
@@ -321,14 +301,6 @@ class V5TextReader {
       }
     }
     return comb;
-  }
-
-  std::optional<BrlcadTree> tree(const std::string& name, const std::string& text) {
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return std::nullopt;
-    std::string problem;
-    auto tree = read_brlcad_tree_text(text, problem);
-    if (!tree) fail(name, problem);
-    return tree;
   }
 
   TclWords script_;

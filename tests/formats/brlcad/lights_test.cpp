@@ -74,11 +74,35 @@ TEST_CASE("invisible lamps shine but aren't drawn, shadowless and infinite ones 
   CHECK(length(lights[3].position) > 1e5);
 }
 
-TEST_CASE("a lamp that shines in a beam is told of") {
-  const BrlcadResult result = read_brlcad(kBall + lamp("a", 0, "a 30 t {0 0 0}"));
-  REQUIRE(result.scene);
-  REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].text == "1 lamp: they shine in all directions, not in a beam: a");
+TEST_CASE("a lamp with an angle shines in a beam, along its first solid's -z or at a target") {
+  const auto light_of = [](const std::string& parameters) {
+    const BrlcadResult result = read_brlcad(kBall + lamp("a", 20, parameters));
+    REQUIRE(result.scene);
+    CHECK(result.warnings.empty());
+    REQUIRE(result.scene->settings.lights.size() == 1);
+    return result.scene->settings.lights[0];
+  };
+  CHECK_FALSE(light_of("b 1").has_beam());
+  CHECK_FALSE(light_of("angle 200").has_beam());
+  CHECK(light_of("angle -30").angle_degrees == 30);
+  const PointLight down = light_of("a 30");
+  CHECK(down.angle_degrees == 30);
+  CHECK(down.direction == Vec3{0, 0, -1});
+  // The lamp is at (20, 0, 30).
+  for (const char* name : {"t", "target", "aim", "d", "dir"}) {
+    INFO(name);
+    CHECK(length(light_of(std::string("a 30 ") + name + " {20 5 30}").direction - Vec3{0, 1, 0}) <
+          1e-12);
+  }
+  // rt turns a target's direction, too, where the lamp's solid is turned: here z becomes x.
+  const std::string turned =
+      "put l.s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput inner comb region no tree {u {l "
+      "l.s "
+      "{0 0 1 0 0 1 0 0 -1 0 0 0 0 0 0 1}} {l l.s}}\nput l.r comb region yes shader {light {a 40}} "
+      "tree {l inner}\n";
+  const Scene scene = scene_of(kBall + turned);
+  REQUIRE(scene.settings.lights.size() == 1);
+  CHECK(length(scene.settings.lights[0].direction - Vec3{-1, 0, 0}) < 1e-12);
 }
 
 TEST_CASE("a stack is its last member that is known") {
@@ -87,17 +111,120 @@ TEST_CASE("a stack is its last member that is known") {
   CHECK(surface("stack fbm s=1;plastic di=0.5 sp=0").material.diffuse == 0.5);
   CHECK(surface("stack {light {b 2}}").is_light);
   BrlcadReport report;
-  brlcad_surface("stack {wood} {bump}", {1, 2, 3}, "r", report);
-  REQUIRE(report.take_warnings().size() == 1);
+  brlcad_surface("stack {wood} {plastic}", {1, 2, 3}, "r", report);
+  const auto warnings = report.take_warnings();
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].text == "1 region: the shader 'wood' of a stack isn't drawn: r");
+}
+
+TEST_CASE("camo and marble are patterns, lit by what follows them in a stack") {
+  const Material m = surface(
+                         "stack {{camo {s 5 c1 {144 148 146} c2 {.1 .2 1} c3 255/0/0 t1 -.5 t2 "
+                         ".5 o 3 l 2 H .75 d {1 2 3}}} {plastic {re .40 di .6}}}")
+                         .material;
+  CHECK(m.model == ShadingModel::kRt);
+  CHECK(m.reflect == 0.4);
+  CHECK(m.diffuse == 0.6);
+  CHECK(m.pattern.kind == PatternKind::kCamouflage);
+  CHECK(m.pattern.colors ==
+        std::array<Rgb, 3>{{{144 / 255.0, 148 / 255.0, 146 / 255.0}, {0.1, 0.2, 1}, {1, 0, 0}}});
+  CHECK(m.pattern.thresholds == std::array<double, 2>{-0.5, 0.5});
+  CHECK(m.pattern.octaves == NoiseOctaves{3, 2, 0.75});
+  CHECK(length(m.pattern.to_pattern.point({5, 10, 0}) - Vec3{2, 4, 3}) < 1e-12);
+  // Without a size, the sizes along the axes count; 0.0125 unless they are given.
+  CHECK(length(surface("camo").material.pattern.to_pattern.point({1, 0, 0}) -
+               Vec3{1080, 1000, 1000}) < 1e-9);
+  CHECK(length(surface("camo vs=1,2,4").material.pattern.to_pattern.point({4, 4, 4}) -
+               Vec3{1004, 1002, 1001}) < 1e-9);
+  // On its own, and on top of a stack, it is seen in any light.
+  for (const char* unlit : {"camo s=5", "stack plastic;camo s=5"}) {
+    const Material own = surface(unlit).material;
+    CHECK(own.model == ShadingModel::kPhong);
+    CHECK(own.ambient == 1);
+    CHECK(own.diffuse == 0);
+    CHECK(own.pattern.kind == PatternKind::kCamouflage);
+  }
+  CHECK(surface("marble c2=1,.5,0").material.pattern.colors[0] == Rgb{1, 0.5, 0});
+  CHECK(surface("plastic").material.pattern == Pattern{});
+}
+
+TEST_CASE("a pattern with sizes beyond doubles isn't drawn, which is told") {
+  const BrlcadResult result = read_brlcad(
+      "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+      "put r comb region yes shader {stack {camo {s 1e-320}} {plastic}} tree {l s}\n");
+  REQUIRE(result.scene);
+  CHECK(result.scene->materials.at(0).material.pattern == Pattern{});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].text ==
+        "1 region: a pattern whose sizes leave the range of doubles isn't drawn: r");
+}
+
+TEST_CASE("a pattern lies in the coordinates of its region") {
+  const Scene scene = scene_of(
+      "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+      "put r comb region yes shader {stack {camo {s 2}} {plastic}} tree {l s}\n"
+      "put g comb region no tree {u {l r {1 0 0 10 0 1 0 0 0 0 1 0 0 0 0 1}} {l r}}\n");
+  REQUIRE(scene.objects.size() == 2);
+  REQUIRE(scene.materials.size() == 2);
+  const auto at = [&](std::size_t i, const Vec3& p) {
+    return scene.materials[scene.objects[i].material].material.pattern.to_pattern.point(p);
+  };
+  CHECK(length(at(0, {12, 0, 0}) - Vec3{1001, 1000, 1000}) < 1e-9);
+  CHECK(length(at(1, {2, 0, 0}) - Vec3{1001, 1000, 1000}) < 1e-9);
 }
 
 TEST_CASE("a checker of one colour has that colour in any light") {
-  const Material m = surface("checker a=0/0/150 b=0/0/150").material;
-  CHECK(m.model == ShadingModel::kPhong);
-  CHECK(m.color == Rgb{0, 0, 150 / 255.0});
+  for (const char* shader : {"checker a=0/0/150 b=0/0/150", "checker {a {0 0 150} b {0 0 150}}"}) {
+    const Scene scene = scene_of(
+        "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+        "put r comb region yes shader {" +
+        std::string(shader) + "} tree {l s}\n");
+    const Material& m = scene.materials.at(0).material;
+    CHECK(m.model == ShadingModel::kPhong);
+    CHECK(m.color == Rgb{0, 0, 150 / 255.0});
+    CHECK(m.ambient == 1);
+    CHECK(m.diffuse == 0);
+    CHECK(m.pattern == Pattern{});
+  }
+}
+
+TEST_CASE("a checker on a half-space has squares of 5 m about the normal through the origin") {
+  const std::string text =
+      "title t\nput h half N {0 0 1} d -7\nput s ell V {0 0 0} A {9 0 0} B {0 9 "
+      "0} C {0 0 9}\nput r comb region yes shader {checker a=255/0/0 b=0/0/255} "
+      "tree {- {l h} {l s}}\n";
+  const Scene scene = scene_of(text);
+  const Material& m = scene.materials.at(0).material;
+  REQUIRE(m.pattern.kind == PatternKind::kChecker);
   CHECK(m.ambient == 1);
-  CHECK(m.diffuse == 0);
-  CHECK(surface("checker a=0/0/150 b=0/9/150").material.model == ShadingModel::kRt);
+  const auto red_at = [&](double x, double y) {
+    return color_at(m.pattern, m.color, {x, y, -7}).r;
+  };
+  CHECK(red_at(0, 0) == 1);
+  CHECK(red_at(2400, -2400) == 1);
+  CHECK(red_at(2600, 0) == 0);
+  CHECK(red_at(0, -2600) == 0);
+  CHECK(red_at(-2600, 2600) == 1);
+  CHECK(red_at(7400, 0) == 0);
+  CHECK(red_at(7600, 0) == 1);
+  // Elsewhere its squares follow the solid's u and v: told of, and drawn in one colour.
+  const BrlcadResult other = read_brlcad(
+      "title t\nput s ell V {0 0 0} A {9 0 0} B {0 9 0} C {0 0 9}\nput r comb region yes shader "
+      "{checker} tree {l s}\n");
+  REQUIRE(other.scene);
+  CHECK(other.scene->materials.at(0).material.color == Rgb{0.5, 0.5, 0.5});
+  REQUIRE(other.warnings.size() == 1);
+  CHECK(other.warnings[0].text == "1 region: a checker is one colour, the mean of its two: r");
+}
+
+TEST_CASE("flat is its own colour, or the region's, in any light") {
+  const Material own = surface("flat {rgb {255 0 51}}").material;
+  CHECK(own.color == Rgb{1, 0, 0.2});
+  CHECK(own.model == ShadingModel::kPhong);
+  CHECK(own.ambient == 1);
+  CHECK(own.diffuse == 0);
+  CHECK(surface("flat bright=.25").material.color == Rgb{0.25, 0.25, 0.25});
+  CHECK(surface("flat").material.color == surface("plastic").material.color);
 }
 
 TEST_CASE("surfaces are rt's: its shines are whole numbers and its ambient light is 0.4") {

@@ -90,10 +90,10 @@ TEST_CASE(
     BrlcadReport report;
     const BrlcadDatabase database =
         read_brlcad_database("put r comb region yes tree {" + tree + "}\n", report);
-    const auto errors = report.take_errors();
-    return std::make_pair(
-        std::get<BrlcadComb>(database.find("r")->value).tree,
-        errors.empty() ? std::string() : errors.front().where + ": " + errors.front().text);
+    const BrlcadValue& value = database.find("r")->value;
+    const auto* broken = std::get_if<BrlcadBroken>(&value);
+    return broken != nullptr ? std::make_pair(std::optional<BrlcadTree>(), broken->why)
+                             : std::make_pair(std::get<BrlcadComb>(value).tree, std::string());
   };
   const auto [tree, problem] = read(
       " - {l {a {b} c}}\n { ^ {l d{e}f} { ! {l \"g h\" {1 0 0 4 0 1 0 0 0 0 1 0 0 0 0 1} } } } ");
@@ -131,7 +131,7 @@ TEST_CASE(
     INFO(text);
     const auto [nothing, why] = read(text);
     CHECK_FALSE(nothing);
-    CHECK(why.find("line 1: ") == 0);
+    CHECK_FALSE(why.empty());
   }
   const auto broken = read("l a {1 2 3}").first;
   REQUIRE(broken);

@@ -1,5 +1,6 @@
 // Binary databases of version 4, in the byte orders of the machines that wrote them.
 #include <bit>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -165,9 +166,30 @@ TEST_CASE("a database of version 4 that is cut short says so, and takes no memor
   V4Binary g(true);
   g.with_data('n', "n", V5Binary::big(0xFFFFFFFF, 4) + V5Binary::big(2, 4), 128,
               std::string(256, '\1'));
-  CHECK(error_of(g.bytes()).find("n: more numbers than its records have room for") !=
-        std::string::npos);
+  CHECK(error_of(g.bytes()).find("n: an arbn wants") != std::string::npos);
   V4Binary w(true);
   w.with_data('w', "w", V5Binary::big(2, 4) + V5Binary::big(0xFFFFFFFF, 4), 26, "");
-  CHECK(error_of(w.bytes()).find("more follow than the file has") != std::string::npos);
+  CHECK(error_of(w.bytes()).find("w: it has no END_PIPE") != std::string::npos);
+}
+
+TEST_CASE("a solid that can't be read leaves out its region only, in a binary of version 4") {
+  V4Binary g(true);
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  g.solid(19, "b", {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2});
+  g.solid(19, "s", {0, 0, 0, 2, 0, 0, 0, none, 0, 0, 0, 2});
+  g.with_data('t', "t",
+              V5Binary::big(0, 4) + std::string("\x02\x02\x00", 3) + V5Binary::big(9, 4) +
+                  V5Binary::big(4, 4),
+              33, "");
+  g.region("bad1").member('u', "b").member('u', "s");
+  g.region("bad2").member('u', "b").member('u', "t");
+  g.region("good").member('u', "b");
+  const BrlcadResult result = read_brlcad(g.bytes());
+  REQUIRE(result.scene);
+  REQUIRE(result.scene->objects.size() == 1);
+  CHECK(result.scene->objects[0].name == "good");
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].text.find("2 regions are left out (an object can't be read; bad1:") ==
+        0);
+  CHECK(result.warnings[0].leaves_out);
 }

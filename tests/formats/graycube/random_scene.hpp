@@ -80,15 +80,28 @@ class RandomScene {
     const auto lights = below(4);
     for (std::size_t i = 0; i < lights; ++i)
       s.lights.push_back({vector(), color(),
-                          below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare, below(2) == 0});
+                          below(2) == 0 ? Falloff::kNone : Falloff::kInverseSquare, below(2) == 0,
+                          Vec3{fraction(), 1, fraction()},
+                          below(2) == 0 ? 180.0 : 180 * fraction()});
   }
 
   Material material() {
     constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranceSparrow,
                                         ShadingModel::kHallGreenberg, ShadingModel::kRt,
                                         ShadingModel::kRtLamp};
-    return {color(),    positive(), positive(), positive(),       positive(),
-            positive(), fraction(), positive(), kModels[below(5)]};
+    return {color(),    positive(), positive(), positive(),        positive(),
+            positive(), fraction(), positive(), kModels[below(5)], pattern()};
+  }
+  /// What the kind doesn't use keeps its default: it isn't written.
+  Pattern pattern() {
+    Pattern p;
+    p.kind = static_cast<PatternKind>(below(kPatternKinds));
+    if (p.kind == PatternKind::kNone) return p;
+    if (below(2) == 0) p.to_pattern = transform();
+    for (std::size_t i = 0; i < colors_of(p.kind); ++i) p.colors[i] = color();
+    if (p.kind == PatternKind::kCamouflage) p.thresholds = {fraction(), fraction()};
+    if (has_noise(p.kind)) p.octaves = {kMaxOctaves * fraction(), positive(), fraction()};
+    return p;
   }
 
   /// A map that scales, mirrors and shears, always well away from singular.

@@ -94,13 +94,18 @@ TEST_CASE("every setting is read") {
               "lights",
               R"([{"type": "point", "position": [1,2,3], "color": [4,5,6], "falloff": "inverse_square"},
                               {"type": "point", "position": [0,0,9], "shadows": false},
-                              {"type": "point", "position": [0,0,9], "shadows": true}])")
+                              {"type": "point", "position": [0,0,9], "shadows": true,
+                               "direction": [0,3,0], "angle": 22.5}])")
           .with(
               "materials",
               R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
                                  "reflect": 8, "transmit": 0.5, "ior": 1.5, "model": "torrance_sparrow"},
                                  "hall": {"model": "hall_greenberg"},
-                                 "rt": {"model": "rt"}, "lamp": {"model": "rt_lamp"}})"));
+                                 "rt": {"model": "rt"}, "lamp": {"model": "rt_lamp"},
+                                 "camo": {"pattern": {"type": "camouflage", "colors": [[1,0,0], [0,1,0], [0,0,1]],
+                                   "to_pattern": [{"scale": 2}, {"translate": [1,0,0]}], "thresholds": [-0.5, 0.75],
+                                   "octaves": 3.5, "lacunarity": 2, "decay": -0.5}},
+                                 "marble": {"pattern": {"type": "marble", "colors": [[1,0,0]]}}})"));
   const RenderSettings& s = scene.settings;
   CHECK(s.image == ImageSize{300, 200, 3});
   CHECK(
@@ -115,8 +120,18 @@ TEST_CASE("every setting is read") {
   REQUIRE(s.lights.size() == 3);
   CHECK(s.lights[0] == PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::kInverseSquare});
   CHECK(s.lights[1] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, false});
-  CHECK(s.lights[2] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, true});
-  REQUIRE(scene.materials.size() == 4);
+  CHECK(s.lights[2] == PointLight{{0, 0, 9}, {1, 1, 1}, Falloff::kNone, true, {0, 3, 0}, 22.5});
+  REQUIRE(scene.materials.size() == 6);
+  const Pattern& camo = scene.materials[4].material.pattern;
+  CHECK(camo.kind == PatternKind::kCamouflage);
+  CHECK(camo.colors == std::array<Rgb, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+  CHECK(camo.to_pattern == compose(translation({1, 0, 0}), scaling({2, 2, 2})));
+  CHECK(camo.thresholds == std::array<double, 2>{-0.5, 0.75});
+  CHECK(camo.octaves == NoiseOctaves{3.5, 2, -0.5});
+  const Pattern& marble = scene.materials[5].material.pattern;
+  CHECK(marble.kind == PatternKind::kMarble);
+  CHECK(marble.colors[0] == Rgb{1, 0, 0});
+  CHECK(marble.octaves == NoiseOctaves{});
   CHECK(scene.materials[0].material ==
         Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});
   CHECK(scene.materials[1].material.model == ShadingModel::kHallGreenberg);

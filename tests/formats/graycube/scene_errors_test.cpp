@@ -165,7 +165,15 @@ TEST_CASE("a bad light is refused") {
        {R"([{"type": "point", "position": [0,0,0], "shadows": 0}])", "/lights/0/shadows",
         "true or false"},
        {R"([{"type": "point", "position": [0,0,0], "falloff": "linear"}])", "/lights/0/falloff",
-        "unknown word \"linear\""}});
+        "unknown word \"linear\""},
+       {R"([{"type": "point", "position": [0,0,0], "angle": 30}])", "/lights/0",
+        "a beam needs the keys \"direction\" and \"angle\""},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,1]}])", "/lights/0",
+        "a beam needs the keys \"direction\" and \"angle\""},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,0], "angle": 30}])",
+        "/lights/0/direction", "length"},
+       {R"([{"type": "point", "position": [0,0,0], "direction": [0,0,1], "angle": 181}])",
+        "/lights/0/angle", "an angle from 0 to 180 degrees, found 181"}});
 }
 
 TEST_CASE("a bad material is refused") {
@@ -186,6 +194,32 @@ TEST_CASE("a bad material is refused") {
        bad(R"("diffuse": 1e999)", "diffuse", "found 1e999"),
        bad(R"("colour": [1,1,1])", "colour", "did you mean \"color\"?"),
        bad(R"("difuse": 1)", "difuse", "did you mean \"diffuse\"?")});
+}
+
+TEST_CASE("a bad pattern is refused") {
+  const auto bad = [](const std::string& pattern, const std::string& key,
+                      const std::string& fragment) {
+    return Case{R"({"red": {"pattern": {)" + pattern + "}}}", "/materials/red/pattern" + key,
+                fragment};
+  };
+  const std::string camo = R"("type": "camouflage", "colors": [[1,0,0], [0,1,0], [0,0,1]])";
+  check_key(
+      "materials",
+      {bad(R"("colors": [[1,0,0]])", "", "a pattern needs the key \"type\""),
+       bad(R"("type": "marble")", "", "a pattern needs the key \"colors\""),
+       bad(R"("type": "marbel", "colors": [])", "/type", "did you mean \"marble\"?"),
+       bad(R"("type": "marble", "colors": [[1,0,0], [0,0,1]])", "/colors", "a list of 1 colour"),
+       bad(R"("type": "checker", "colors": [[1,0,0]])", "/colors", "a list of 2 colours"),
+       bad(R"("type": "checker", "colors": [[1,0,0], [0,0,-1]])", "/colors/1/2", ">= 0"),
+       bad(R"("type": "checker", "colors": [[1,0,0], [0,0,1]], "octaves": 3)", "/octaves",
+           "a checker pattern has no key \"octaves\""),
+       bad(R"("type": "marble", "colors": [[1,0,0]], "thresholds": [0, 1])", "/thresholds",
+           "a marble pattern has no key \"thresholds\""),
+       bad(camo + R"(, "thresholds": [0])", "/thresholds", "two numbers"),
+       bad(camo + R"(, "octaves": 33)", "/octaves", "a number from 0 to 32, found 33"),
+       bad(camo + R"(, "lacunarity": 0)", "/lacunarity", "> 0"),
+       bad(camo + R"(, "decay": 1e999)", "/decay", "finite"),
+       bad(camo + R"(, "to_pattern": [{"scale": 0}])", "/to_pattern/0/scale", "not zero")});
 }
 
 TEST_CASE("every leaf's values are checked") {

@@ -59,6 +59,13 @@ TEST_CASE("handedness decides where the picture's right is") {
   require_holds(camera("left"), "direction <0,0,1> right <4,0,0> up <0,3,0>");
 }
 
+TEST_CASE("a beam is a spotlight as bright everywhere within its cone") {
+  const auto text = pov_of(SceneText().with("lights", R"([{"type": "point", "position": [1,2,3],
+                                              "direction": [0,0,-4], "angle": 30}])"))
+                        .text;
+  require_holds(text, "spotlight radius 30 falloff 30 tightness 0 point_at <1,2,0> }");
+}
+
 TEST_CASE("every leaf has its POV-Ray object") {
   require_holds(csg_text(R"({"type": "sphere", "center": [1,2,3], "radius": 4})"),
                 "sphere { <1,2,3>, 4 texture { M0 } }");
@@ -164,6 +171,11 @@ TEST_CASE("what POV-Ray can't compute is told") {
          "material \"m\": POV-Ray has no torrance_sparrow");
   warned("materials", R"({"m": {"model": "hall_greenberg"}})", "hall_greenberg");
   warned("image", R"({"width": 8, "height": 6, "samples": 2})", "2 times as large");
+  warned("materials", R"({"m": {"pattern": {"type": "marble", "colors": [[1,0,0]]}}})",
+         "its pattern is left out");
+  warned("lights",
+         R"([{"type": "point", "position": [0,0,0], "direction": [0,0,1], "angle": 120}])",
+         "wider than POV-Ray's spotlights");
   warned("min_weight", "0.25", "adc_bailout");
   warned("max_depth", "256", "at most 256 generations");
 }

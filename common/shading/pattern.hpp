@@ -1,0 +1,47 @@
+// Patterns: colours that change with the place in a material.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/affine.hpp"
+#include "geometry/vec.hpp"
+#include "shading/lattice_noise.hpp"
+
+namespace graycube {
+
+enum class PatternKind : std::uint8_t {
+  kNone,
+  kCamouflage,  // three colours: noise below the first threshold, below the second, the rest
+  kMarble,      // veins of the material's colour in another one, by turbulence
+  kChecker,     // two colours in cubes of side 1
+};
+inline constexpr std::uint8_t kPatternKinds = 4;
+
+struct Pattern {
+  PatternKind kind = PatternKind::kNone;
+  /// From the world's coordinates to the pattern's.
+  Affine to_pattern;
+  /// The first colors_of(kind) count.
+  std::array<Rgb, 3> colors{{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}}};
+  /// Of camouflage.
+  std::array<double, 2> thresholds{-0.25, 0.25};
+  /// Of camouflage and marble.
+  NoiseOctaves octaves;
+
+  friend bool operator==(const Pattern&, const Pattern&) = default;
+};
+
+/// How many colours a pattern has besides its material's.
+constexpr std::size_t colors_of(PatternKind kind) {
+  return kind == PatternKind::kCamouflage ? 3 : kind == PatternKind::kChecker ? 2 : 1;
+}
+constexpr bool has_noise(PatternKind kind) {
+  return kind == PatternKind::kCamouflage || kind == PatternKind::kMarble;
+}
+
+/// The colour at p, in the world's coordinates; `color` is that of the material.
+Rgb color_at(const Pattern& pattern, const Rgb& color, const Vec3& p);
+
+}  // namespace graycube
