@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "crossings/walk.hpp"
 #include "csg/one_primitive.hpp"
 #include "csg/random_rays.hpp"
 #include "csg/whole_tree.hpp"
+#include "subdivisions/walk.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

@@ -80,10 +80,10 @@ TEST_CASE(
     const Harvest forward = Machine(model, grid, columns, rows).trace(dice);
     check_equal(whole, forward, model.settings.image);
     const Harvest horizon =
-        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, horizons).trace(dice);
+        Machine(model, grid, columns, rows, {Subdivision::kSurfaces}, horizons).trace(dice);
     check_equal(whole, horizon, model.settings.image);
     const Harvest deep =
-        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, depths).trace(dice);
+        Machine(model, grid, columns, rows, {Subdivision::kSurfaces}, depths).trace(dice);
     check_equal(whole, deep, model.settings.image);
     without += forward.handed_over;
     with += horizon.handed_over;
@@ -165,11 +165,11 @@ TEST_CASE("both subdivisions give the same picture, of the whole and of macro-re
     INFO("seed " << seed);
     const Model model = compile_scene(RandomModel(seed).scene());
     const Harvest whole = trace_whole(model);
-    check_equal(whole, trace_whole(model, Subdivision::kLinkedCells), model.settings.image);
+    check_equal(whole, trace_whole(model, {Subdivision::kLinked}), model.settings.image);
     const MacroGrid grid =
         MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
     Dice dice(seed);
-    check_equal(whole, Machine(model, grid, Subdivision::kLinkedCells).trace(dice),
+    check_equal(whole, Machine(model, grid, {Subdivision::kLinked}).trace(dice),
                 model.settings.image);
   }
 }

@@ -1,12 +1,12 @@
 // The walk through the leaf regions against the whole trees: bit for bit.
-#include "crossings/walk.hpp"
+#include "subdivisions/walk.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "against_whole_trees.hpp"
 #include "catch.hpp"
+#include "crossings/against_whole_trees.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;

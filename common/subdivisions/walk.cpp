@@ -1,4 +1,4 @@
-#include "crossings/walk.hpp"
+#include "subdivisions/walk.hpp"
 
 #include <algorithm>
 
