@@ -12,8 +12,9 @@ namespace graycube {
 
 class Tally {
  public:
-  void add(const Step& step) {
+  void add(const Step& step, const WalkCounts& walk) {
     traced_.add(step.rays);
+    walk_.add(walk);
     non_finite_ += step.rounding.non_finite;
     clamped_ += step.rounding.clamped;
   }
@@ -31,6 +32,8 @@ class Tally {
     stats.skipped_by_horizon = traced_.skipped_by_horizon;
     stats.non_finite = non_finite_;
     stats.clamped = clamped_;
+    stats.cells_visited = walk_.cells_visited;
+    stats.primitives_tested = walk_.primitives_tested;
   }
 
  private:
@@ -39,6 +42,7 @@ class Tally {
   }
 
   RayCounts traced_;
+  WalkCounts walk_;
   std::uint64_t non_finite_ = 0, clamped_ = 0;
   std::uint64_t rays_in_ = 0, queue_peak_ = 0;
 };

@@ -21,8 +21,9 @@ TEST_CASE("what was traced adds up, each kind of ray by itself") {
   step.rounding.non_finite = 6;
   step.rounding.clamped = 7;
   Tally tally;
-  tally.add(step);
-  tally.add(step);
+  const WalkCounts walk{.cells_visited = 8, .primitives_tested = 9, .quartics_solved = 1};
+  tally.add(step, walk);
+  tally.add(step, walk);
   const control::NodeStats stats = report_of(tally);
   CHECK(stats.primary == 2);
   CHECK(stats.shadow == 40);
@@ -31,6 +32,8 @@ TEST_CASE("what was traced adds up, each kind of ray by itself") {
   CHECK(stats.skipped_by_horizon == 10);
   CHECK(stats.non_finite == 12);
   CHECK(stats.clamped == 14);
+  CHECK(stats.cells_visited == 16);
+  CHECK(stats.primitives_tested == 18);
 }
 
 TEST_CASE("rays that come are counted, and of those that wait the most at a time") {
