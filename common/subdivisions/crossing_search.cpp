@@ -2,14 +2,26 @@
 
 #include "check.hpp"
 #include "subdivisions/linked_cells.hpp"
+#include "subdivisions/pieces.hpp"
 
 namespace graycube {
+namespace {
+
+template <typename Cells, typename... Arguments>
+std::unique_ptr<const CrossingSearch> search_of(const Arguments&... arguments) {
+  return std::make_unique<WalkingSearch<Cells>>(Cells(arguments...));
+}
+
+}  // namespace
 
 std::unique_ptr<const CrossingSearch> make_search(const Model& model,
                                                   const SubdivisionChoice& choice) {
-  GRAYCUBE_CHECK(choice.way == Subdivision::kLinked, "subdivision %d has no search",
-                 static_cast<int>(choice.way));
-  return std::make_unique<LinkedCells>(model);
+  switch (choice.way) {
+    case Subdivision::kLinked: return search_of<LinkedCells>(model);
+    default: break;
+  }
+  GRAYCUBE_CHECK(false, "subdivision %d has no search", static_cast<int>(choice.way));
+  return nullptr;
 }
 
 }  // namespace graycube
