@@ -1,8 +1,11 @@
 #include "subdivisions/crossing_search.hpp"
 
 #include "check.hpp"
+#include "subdivisions/kaplan_cells.hpp"
 #include "subdivisions/linked_cells.hpp"
+#include "subdivisions/octree_cells.hpp"
 #include "subdivisions/pieces.hpp"
+#include "subdivisions/roth_objects.hpp"
 
 namespace graycube {
 namespace {
@@ -17,7 +20,10 @@ std::unique_ptr<const CrossingSearch> search_of(const Arguments&... arguments) {
 std::unique_ptr<const CrossingSearch> make_search(const Model& model,
                                                   const SubdivisionChoice& choice) {
   switch (choice.way) {
+    case Subdivision::kRoth: return search_of<RothObjects>(model);
     case Subdivision::kLinked: return search_of<LinkedCells>(model);
+    case Subdivision::kOctree: return search_of<OctreeCells>(model);
+    case Subdivision::kKaplan: return search_of<KaplanCells>(model);
     default: break;
   }
   GRAYCUBE_CHECK(false, "subdivision %d has no search", static_cast<int>(choice.way));
