@@ -1,6 +1,7 @@
 #include "subdivisions/crossing_search.hpp"
 
 #include "check.hpp"
+#include "subdivisions/arnaldi_cells.hpp"
 #include "subdivisions/kaplan_cells.hpp"
 #include "subdivisions/linked_cells.hpp"
 #include "subdivisions/octree_cells.hpp"
@@ -21,10 +22,11 @@ std::unique_ptr<const CrossingSearch> make_search(const Model& model,
                                                   const SubdivisionChoice& choice) {
   switch (choice.way) {
     case Subdivision::kRoth: return search_of<RothObjects>(model);
-    case Subdivision::kLinked: return search_of<LinkedCells>(model);
+    case Subdivision::kLinked: return search_of<LinkedCells>(model, entry_of(choice));
+    case Subdivision::kArnaldi: return search_of<ArnaldiCells>(model, entry_of(choice));
     case Subdivision::kOctree: return search_of<OctreeCells>(model);
     case Subdivision::kKaplan: return search_of<KaplanCells>(model);
-    default: break;
+    case Subdivision::kSurfaces: break;
   }
   GRAYCUBE_CHECK(false, "subdivision %d has no search", static_cast<int>(choice.way));
   return nullptr;

@@ -4,21 +4,25 @@
 #include <utility>
 
 #include "crossings/bsp.hpp"
-#include "subdivisions/linked_walk.hpp"
+#include "subdivisions/leaf_entry.hpp"
 #include "subdivisions/pieces.hpp"
+#include "subdivisions/subdivision.hpp"
 
 namespace graycube {
 
 class LinkedCells {
  public:
-  explicit LinkedCells(const Model& model, const BspOptions& options = {})
-      : bsp_(Bsp::build(model, options)) {}
+  explicit LinkedCells(const Model& model, Entry entry = Entry::kDescent,
+                       const BspOptions& options = {})
+      : bsp_(Bsp::build(model, options)), outermost_(bsp_), entry_(entry) {}
 
   /// As pieces.hpp says.
   template <typename Visit>
   bool walk(const Ray& ray, double t0, double t1, Mailbox& mailbox, Visit&& visit) const {
     const PlaneOrder order(ray);
-    const BspLeaf& first = leaf_at(bsp_, 0, order, t0, mailbox.counts);
+    const BspLeaf& first = entry_ == Entry::kExtremal
+                               ? outermost_.enter(bsp_, order, t0, mailbox.counts)
+                               : leaf_at(bsp_, 0, order, t0, mailbox.counts);
     return walk_links(bsp_, order, first, t0, t1, mailbox.counts,
                       [&](const BspLeaf& leaf, double from, double to) {
                         return visit(CellPiece(bsp_.cell_programs(), leaf.programs(), ray, mailbox),
@@ -33,6 +37,8 @@ class LinkedCells {
 
  private:
   Bsp bsp_;
+  OutermostLeaves outermost_;
+  Entry entry_;
 };
 
 }  // namespace graycube

@@ -14,6 +14,9 @@ struct NamedChoice {
 inline constexpr std::array kAllSearches{
     NamedChoice{"roth", {Subdivision::kRoth}},
     NamedChoice{"linked", {Subdivision::kLinked}},
+    NamedChoice{"linked, extremal entry", {Subdivision::kLinked, Entry::kExtremal}},
+    NamedChoice{"arnaldi", {Subdivision::kArnaldi}},
+    NamedChoice{"arnaldi, descent", {Subdivision::kArnaldi, Entry::kDescent}},
     NamedChoice{"octree", {Subdivision::kOctree}},
     NamedChoice{"kaplan", {Subdivision::kKaplan}},
 };

@@ -47,7 +47,7 @@ TEST_CASE("the walk gives bit for bit the crossings of the whole trees") {
     searches.clear();
     std::vector<SplitPlane> planes;
     for (const BspOptions& o : kOptions) {
-      searches.emplace_back(LinkedCells(model, o));
+      searches.emplace_back(LinkedCells(model, Entry::kDescent, o));
       add_planes(searches.back().cells().bsp(), planes);
     }
     return planes;
