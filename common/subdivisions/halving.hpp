@@ -7,8 +7,9 @@
 
 namespace graycube {
 
-/// A cell with so few primitives is a leaf region.
-inline constexpr std::size_t kFewPrimitives = 2;
+/// A cell with so few primitives is a leaf region: to go on from one cell to the next, a ray passes
+/// about ten planes on its way down from the root, which costs it as much as a few primitives do.
+inline constexpr std::size_t kFewPrimitives = 6;
 /// The most times that a cell is halved along each axis, whatever the model.
 inline constexpr int kMostHalvings = 12;
 

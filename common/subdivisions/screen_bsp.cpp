@@ -14,8 +14,11 @@ namespace {
 /// How often the screen, and then the depth of one of its regions, is cut at most.
 constexpr int kMostScreenCuts = 32;
 constexpr int kMostDepthCuts = 24;
-/// Cost of one step of the walk, in tests of a primitive.
-constexpr double kStepCost = 0.6;
+/// Cost of one step of the walk, in tests of a primitive. A cut of the screen costs more than what
+/// it shows: every region of the screen is cut in depth, at much the same places as its neighbours,
+/// and rays that cross the view pass one after the other.
+constexpr double kScreenStepCost = 8;
+constexpr double kDepthStepCost = 0.6;
 /// Planes keep off the ends of bounds, which are grown already, by this share of the extent.
 constexpr double kGap = 1e-12;
 
@@ -143,7 +146,8 @@ class Builder {
     for (int a = stage.first; a < stage.end; ++a) {
       extent = larger(extent, larger(std::fabs(cell.lo[a]), std::fabs(cell.hi[a])));
     }
-    SplitFinder finder(flattened(cell), kGap * extent, kStepCost);
+    SplitFinder finder(flattened(cell), kGap * extent,
+                       is_screen ? kScreenStepCost : kDepthStepCost);
     content.for_each_literal(
         [&](std::uint32_t primitive) { finder.add(flattened(bounds_[primitive])); });
     const Split split = finder.best();
