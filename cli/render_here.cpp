@@ -8,6 +8,7 @@
 
 #include "process/clocks.hpp"
 #include "proto/job_settings.hpp"
+#include "proto/search_report.hpp"
 #include "proto/statistics.hpp"
 #include "trace/render_serial.hpp"
 #include "version.hpp"
@@ -51,8 +52,7 @@ control::NodeStats node_stats(const SerialResult& r, double threads, double rend
   n.skipped_by_horizon = r.rays.skipped_by_horizon;
   n.non_finite = r.rounding.non_finite;
   n.clamped = r.rounding.clamped;
-  n.cells_visited = r.walk.cells_visited;
-  n.primitives_tested = r.walk.primitives_tested;
+  report_search(r.walk, n);
   return n;
 }
 

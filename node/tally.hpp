@@ -7,6 +7,7 @@
 
 #include "node/work.hpp"
 #include "proto/messages.hpp"
+#include "proto/search_report.hpp"
 
 namespace graycube {
 
@@ -32,8 +33,7 @@ class Tally {
     stats.skipped_by_horizon = traced_.skipped_by_horizon;
     stats.non_finite = non_finite_;
     stats.clamped = clamped_;
-    stats.cells_visited = walk_.cells_visited;
-    stats.primitives_tested = walk_.primitives_tested;
+    report_search(walk_, stats);
   }
 
  private:

@@ -91,6 +91,14 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("cells", m.cells, kDefaulted);
   visit("cells_visited", m.cells_visited, kDefaulted);
   visit("primitives_tested", m.primitives_tested, kDefaulted);
+  visit("tests_saved", m.tests_saved, kDefaulted);
+  visit("boxes_tested", m.boxes_tested, kDefaulted);
+  visit("boxes_rejected", m.boxes_rejected, kDefaulted);
+  visit("spheres_tested", m.spheres_tested, kDefaulted);
+  visit("spheres_rejected", m.spheres_rejected, kDefaulted);
+  visit("nodes_descended", m.nodes_descended, kDefaulted);
+  visit("entry_links", m.entry_links, kDefaulted);
+  visit("rays_not_shot", m.rays_not_shot, kDefaulted);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {

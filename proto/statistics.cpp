@@ -58,11 +58,19 @@ Json balance_json(const Statistics& s) {
 
 Json subdivision_json(const Statistics& s) {
   const auto sum = [&](std::uint64_t NodeStats::*field) { return total(s.per_node, field); };
-  Json j{{"way", to_string(s.subdivision.way)},
-         {"cells", sum(&NodeStats::cells)},
-         {"cells_visited", sum(&NodeStats::cells_visited)},
-         {"primitives_tested", sum(&NodeStats::primitives_tested)}};
+  Json j{{"way", to_string(s.subdivision.way)}};
   if (has_links(s.subdivision.way)) j["entry"] = to_string(entry_of(s.subdivision));
+  j["cells"] = sum(&NodeStats::cells);
+  j["cells_visited"] = sum(&NodeStats::cells_visited);
+  j["primitives_tested"] = sum(&NodeStats::primitives_tested);
+  j["tests_saved"] = sum(&NodeStats::tests_saved);
+  j["boxes_tested"] = sum(&NodeStats::boxes_tested);
+  j["boxes_rejected"] = sum(&NodeStats::boxes_rejected);
+  j["spheres_tested"] = sum(&NodeStats::spheres_tested);
+  j["spheres_rejected"] = sum(&NodeStats::spheres_rejected);
+  j["nodes_descended"] = sum(&NodeStats::nodes_descended);
+  j["entry_links"] = sum(&NodeStats::entry_links);
+  j["rays_not_shot"] = sum(&NodeStats::rays_not_shot);
   return j;
 }
 

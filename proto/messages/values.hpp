@@ -115,9 +115,10 @@ struct NodeStats {
   std::uint64_t tiles_taken_over = 0, rays_taken_over = 0;
   /// Leaf regions, or items of a surface tree, of the node's own part of the scene.
   std::uint64_t cells = 0;
-  /// What the search for crossings did: cells that rays (in today's way packets of rays) came into,
-  /// and primitives intersected with a ray.
-  std::uint64_t cells_visited = 0, primitives_tested = 0;
+  /// What the search for crossings did, as WalkCounts says.
+  std::uint64_t cells_visited = 0, primitives_tested = 0, tests_saved = 0;
+  std::uint64_t boxes_tested = 0, boxes_rejected = 0, spheres_tested = 0, spheres_rejected = 0;
+  std::uint64_t nodes_descended = 0, entry_links = 0, rays_not_shot = 0;
   /// Seconds from the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kSize = "96x64";
 /// For pictures whose pixels take many rays.
 constexpr const char* kSmallSize = "64x48";
-constexpr const char* kSubdivisions[] = {"surfaces", "linked"};
+constexpr const char* kSubdivisions[] = {"surfaces", "roth",   "linked",
+                                         "arnaldi",  "octree", "kaplan"};
 
 /// The bytes of the EXR that a render of the scene writes.
 std::string picture(Sandbox& sandbox, const std::string& scene, const char* size,

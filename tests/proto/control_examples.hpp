@@ -34,6 +34,14 @@ inline control::NodeStats example_stats() {
   s.cells = 70000;
   s.cells_visited = 1ull << 34;
   s.primitives_tested = 1ull << 35;
+  s.tests_saved = 11;
+  s.boxes_tested = 12;
+  s.boxes_rejected = 13;
+  s.spheres_tested = 14;
+  s.spheres_rejected = 15;
+  s.nodes_descended = 16;
+  s.entry_links = 17;
+  s.rays_not_shot = 18;
   s.models_borrowed = 3;
   s.endgame_s = 0.125;
   return s;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "subdivisions/searches.hpp"
 #include "trace/machine.hpp"
 #include "trace/render_serial.hpp"
 #include "visibility/light_depths.hpp"
@@ -160,17 +161,18 @@ TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {
   CHECK(lacking > 1000);
 }
 
-TEST_CASE("both subdivisions give the same picture, of the whole and of macro-regions") {
-  for (std::uint64_t seed = 1000; seed < 1080; ++seed) {
-    INFO("seed " << seed);
+TEST_CASE("every subdivision gives the same picture, of the whole and of macro-regions") {
+  for (std::uint64_t seed = 1000; seed < 1040; ++seed) {
     const Model model = compile_scene(RandomModel(seed).scene());
     const Harvest whole = trace_whole(model);
-    check_equal(whole, trace_whole(model, {Subdivision::kLinked}), model.settings.image);
     const MacroGrid grid =
         MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
-    Dice dice(seed);
-    check_equal(whole, Machine(model, grid, {Subdivision::kLinked}).trace(dice),
-                model.settings.image);
+    for (const NamedChoice& way : kAllSearches) {
+      INFO("seed " << seed << ", " << way.name);
+      check_equal(whole, trace_whole(model, way.choice), model.settings.image);
+      Dice dice(seed);
+      check_equal(whole, Machine(model, grid, way.choice).trace(dice), model.settings.image);
+    }
   }
 }
 
