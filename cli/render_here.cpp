@@ -8,7 +8,7 @@
 
 #include "process/clocks.hpp"
 #include "proto/job_settings.hpp"
-#include "proto/search_report.hpp"
+#include "proto/messages/search_report.hpp"
 #include "proto/statistics.hpp"
 #include "trace/render_serial.hpp"
 #include "version.hpp"

@@ -7,7 +7,7 @@
 
 #include "node/work.hpp"
 #include "proto/messages.hpp"
-#include "proto/search_report.hpp"
+#include "proto/messages/search_report.hpp"
 
 namespace graycube {
 

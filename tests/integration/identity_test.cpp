@@ -101,6 +101,22 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
   CHECK(sandbox.temporary_files().empty());
 }
 
+TEST_CASE("compare --report renders a scene with every subdivision and distribution") {
+  Sandbox sandbox;
+  const Outcome o = sandbox.run({"compare", scene_file("first.json").string(), "-n", "4", "--size",
+                                 kSmallSize, "--report", "-q"});
+  INFO(o.out << o.err);
+  REQUIRE(o.status == 0);
+  for (const char* distribution : {"serial, ", "roth, ", "macro, forward, ", "macro, "}) {
+    for (const char* subdivision : kSubdivisions) {
+      CHECK(o.out.find(std::string(distribution) + subdivision + " ") != std::string::npos);
+    }
+  }
+  CHECK(o.out.find("TESTS/RAY") != std::string::npos);
+  CHECK(lines_of(o.out).size() == 2 + 4 * std::size(kSubdivisions));
+  CHECK(o.out.find("DIFFERENT") == std::string::npos);
+}
+
 TEST_CASE("a deadlock's report, row and bars show what the nodes did until then") {
   Sandbox sandbox;
   const std::string scene = scene_file("mirrors.json").string();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "crossings/mailbox.hpp"
-#include "proto/messages.hpp"
+#include "proto/messages/values.hpp"
 
 namespace graycube {
 
