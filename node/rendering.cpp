@@ -264,7 +264,7 @@ void Rendering::adopt(Copied& copied, Mail& mail) {
 
 void Rendering::absorb(Traced& traced, Mail& mail) {
   const Step& step = traced.step;
-  tally_.add(step);
+  tally_.add(step, traced.walk);
   helping_.has_traced(work_cost(step.rays.created, traced.walk), traced.tile.has_value());
   let_leave(traced, mail);
   keep_set_aside(traced);

@@ -74,6 +74,7 @@ class Domain {
   const RenderSettings& settings() const { return territory_->model->settings; }
   const CameraFrame& frame() const { return frame_; }
   const Model& model() const { return *territory_->model; }
+  const SubdivisionChoice& subdivision() const { return territory_->subdivision; }
   /// The number of leaf regions; of items, where a surface tree stands for them.
   std::size_t cell_count() const;
   /// Bytes of models and subdivisions, borrowed ones included.

@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kSize = "96x64";
 /// For pictures whose pixels take many rays.
 constexpr const char* kSmallSize = "64x48";
+constexpr const char* kSubdivisions[] = {"surfaces", "roth",   "linked",
+                                         "arnaldi",  "octree", "kaplan"};
 
 /// The bytes of the EXR that a render of the scene writes.
 std::string picture(Sandbox& sandbox, const std::string& scene, const char* size,
@@ -191,6 +193,35 @@ TEST_CASE("simulate forwards the very rays of a real render, and finds the same 
   CHECK(table.status == 0);
   CHECK(table.out.starts_with("NODES  TIME s"));
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a picture does not show which subdivision found its crossings, statistics do") {
+  const Arguments algorithms[] = {{"--algorithm", "serial"},
+                                  {"--algorithm", "roth", "-n", "4"},
+                                  {"--algorithm", "macro", "-n", "8"}};
+  for (const char* scene :
+       {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json"}) {
+    std::vector<Arguments> ways;
+    for (const Arguments& algorithm : algorithms) {
+      for (const char* subdivision : kSubdivisions) {
+        ways.push_back(algorithm);
+        ways.back().insert(ways.back().end(), {"--subdivision", subdivision});
+      }
+    }
+    check_ways(scene, ways, kSmallSize, {});
+  }
+  Sandbox sandbox;
+  for (const Arguments& algorithm : algorithms) {
+    for (const char* subdivision : kSubdivisions) {
+      Arguments options = algorithm;
+      options.insert(options.end(), {"--subdivision", subdivision, "--stats", "stats.json"});
+      picture(sandbox, "mirrors.json", kSmallSize, options);
+      const auto found = sandbox.json("stats.json")["subdivision"];
+      INFO(algorithm[1] << ' ' << subdivision);
+      CHECK(found["way"] == subdivision);
+      CHECK(found["primitives_tested"] > 1000);
+    }
+  }
 }
 
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }
