@@ -38,6 +38,17 @@ struct WalkCounts {
     constexpr std::uint32_t kQuartics = csg::kinds_with(&csg::KindTraits::is_quartic);
     if (csg::is_among(kind, kQuartics)) quartics_solved += rays;
   }
+  /// All that was done between tests, in cells visited: nodes and links by what they cost beside a
+  /// cell (docs/lab/2026-11-30-subdivisions.md).
+  double visits() const {
+    return static_cast<double>(cells_visited) + 0.5 * static_cast<double>(nodes_descended) +
+           static_cast<double>(entry_links);
+  }
+  /// All tests, in primitives tested: boxes and spheres by what they cost beside a primitive.
+  double tests() const {
+    return static_cast<double>(primitives_tested) +
+           0.4 * static_cast<double>(boxes_tested + spheres_tested);
+  }
   inline void add(const WalkCounts& o);
   inline WalkCounts since(const WalkCounts& before) const;
 };

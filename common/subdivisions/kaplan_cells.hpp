@@ -7,6 +7,7 @@
 
 #include "crossings/bsp.hpp"
 #include "subdivisions/bounded_space.hpp"
+#include "subdivisions/halving.hpp"
 
 namespace graycube {
 
@@ -30,7 +31,8 @@ class KaplanCells {
 
  private:
   KaplanCells(const Model& model, CellContent inside);
-  void subdivide(std::uint32_t node, const Aabb& cell, CellContent content, int depth);
+  template <typename Add>
+  void cut(const HalvedCell& cell, Add&& add);
 
   /// The planes passed on the way down that the ray is still to cross bound its stay.
   LocatedCell locate(const PlaneOrder& order, double t, WalkCounts& counts) const {
@@ -54,7 +56,6 @@ class KaplanCells {
   BoundedSpace space_;
   std::vector<BspNode> nodes_;
   std::vector<ProgramRange> leaves_;
-  int max_depth_ = 0;
 };
 
 }  // namespace graycube

@@ -2,32 +2,31 @@
 
 #include <utility>
 
-#include "subdivisions/halving.hpp"
-
 namespace graycube {
 
 static_assert(kMostHalvings < kMostNameDigits);
 
 OctreeCells::OctreeCells(const Model& model) : OctreeCells(model, CellContent{}) {}
 
-OctreeCells::OctreeCells(const Model& model, CellContent inside)
-    : space_(model, true, inside), max_depth_(halvings_for(inside.literal_count())) {
-  subdivide(kRootName, space_.box(), inside, 0);
+OctreeCells::OctreeCells(const Model& model, CellContent inside) : space_(model, true, inside) {
+  const int max_depth = halvings_for(inside.literal_count());
+  halve(
+      {kRootName, space_.box(), 0, std::move(inside)}, 8, max_depth,
+      [&](const HalvedCell& cell, auto&& add) { cut(cell, add); },
+      [&](const HalvedCell& cell) {
+        if (cell.content.items().empty()) return;
+        table_.add({cell.place, space_.add(cell.content), false});
+        ++leaf_count_;
+      });
 }
 
-void OctreeCells::subdivide(CellName name, const Aabb& cell, const CellContent& content,
-                            int depth) {
-  if (content.items().empty()) return;
-  const bool is_cut = depth < max_depth_ && content.literal_count() > kFewPrimitives;
-  if (!is_cut) {
-    table_.add({name, space_.add(content), false});
-    ++leaf_count_;
-    return;
-  }
-  table_.add({name, {}, true});
+template <typename Add>
+void OctreeCells::cut(const HalvedCell& cell, Add&& add) {
+  table_.add({cell.place, {}, true});
   for (unsigned part = 0; part < 8; ++part) {
-    const Aabb box = part_box(cell, part);
-    subdivide(part_of(name, part), box, restricted_to(content, model(), box), depth + 1);
+    const Aabb box = part_box(cell.box, part);
+    add(HalvedCell{part_of(cell.place, part), box, cell.depth + 1,
+                   restricted_to(cell.content, model(), box)});
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "subdivisions/bounded_space.hpp"
+#include "subdivisions/halving.hpp"
 #include "subdivisions/name_table.hpp"
 
 namespace graycube {
@@ -27,7 +28,8 @@ class OctreeCells {
 
  private:
   OctreeCells(const Model& model, CellContent inside);
-  void subdivide(CellName name, const Aabb& cell, const CellContent& content, int depth);
+  template <typename Add>
+  void cut(const HalvedCell& cell, Add&& add);
   static Aabb part_box(const Aabb& cell, unsigned part);
 
   /// The planes passed on the way down that the ray is still to cross bound its stay.
@@ -55,7 +57,6 @@ class OctreeCells {
   BoundedSpace space_;
   NameTable table_;
   std::size_t leaf_count_ = 0;
-  int max_depth_ = 0;
 };
 
 }  // namespace graycube

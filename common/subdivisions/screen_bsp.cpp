@@ -19,13 +19,20 @@ constexpr int kMostDepthCuts = 24;
 /// and rays that cross the view pass one after the other.
 constexpr double kScreenStepCost = 8;
 constexpr double kDepthStepCost = 0.6;
+/// How many primitives all leaf regions together hold at most: so many for each of the model's, and
+/// more. What is left then isn't cut further.
+constexpr std::size_t kMostCopies = 256;
+constexpr std::size_t kMoreCopies = std::size_t{1} << 16;
 /// Planes keep off the ends of bounds, which are grown already, by this share of the extent.
 constexpr double kGap = 1e-12;
 
 class Builder {
  public:
   Builder(const Model& model, const CameraSpace& space)
-      : model_(model), space_(space), assembly_(model) {
+      : model_(model),
+        space_(space),
+        assembly_(model),
+        most_copies_(kMostCopies * model.primitives.size() + kMoreCopies) {
     bounds_.reserve(model.primitives.size());
     for (const Primitive& p : model.primitives) {
       bounds_.push_back(space.bounds_of(p, model.delta));
@@ -104,14 +111,20 @@ class Builder {
     if (stage.end == kScreen.end && !content.items().empty()) {
       cut_around(node, cell, std::move(content), kDepth);
     } else {
-      assembly_.close(node, cell, content);
+      close(node, cell, content);
     }
+  }
+
+  void close(std::uint32_t node, const Aabb& cell, const CellContent& content) {
+    copies_ += content.literal_count();
+    assembly_.close(node, cell, content);
   }
 
   void cut(std::uint32_t node, const Aabb& cell, CellContent content, Stage stage, int depth) {
     const int most = stage.end == kScreen.end ? kMostScreenCuts : kMostDepthCuts;
-    const Split split =
-        content.items().empty() || depth >= most ? Split{} : plane_for(cell, content, stage);
+    const Split split = content.items().empty() || depth >= most || copies_ > most_copies_
+                            ? Split{}
+                            : plane_for(cell, content, stage);
     if (split.axis < 0) {
       go_on(node, cell, std::move(content), stage);
       return;
@@ -166,6 +179,8 @@ class Builder {
   const CameraSpace& space_;
   BspAssembly assembly_;
   std::vector<Aabb> bounds_;
+  std::size_t copies_ = 0;
+  std::size_t most_copies_;
 };
 
 }  // namespace

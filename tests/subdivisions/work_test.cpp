@@ -93,23 +93,36 @@ TEST_CASE("a primitive that reaches into many leaf regions is tested once a ray"
   }
 }
 
+TEST_CASE("surfaces that are close together everywhere don't fill the memory") {
+  // Spheres about one point: however small a cell is, many of them pass through it.
+  constexpr std::size_t kSpheres = 300;
+  std::vector<CsgNode> spheres;
+  for (std::size_t i = 0; i < kSpheres; ++i) {
+    spheres.push_back(node_of(SphereShape{{0, 0, 0}, 1 + 0.01 * static_cast<double>(i)}));
+  }
+  const Model model = compile_scene(scene_of(std::move(spheres)));
+  for (const NamedChoice& way : kAllSearches) {
+    INFO(way.name);
+    CHECK(make_search(model, way.choice)->memory_bytes() < 40'000 * kSpheres);
+  }
+}
+
 TEST_CASE("Roth's trees leave an operand out when those before it have decided") {
-  // A difference whose left operand the ray misses: what is taken away isn't asked for.
-  const auto counts_along = [](const Ray& ray, Operation operation_kind) {
-    std::vector<CsgNode> operands{node_of(SphereShape{{0, 0, 0}, 1}),
-                                  node_of(SphereShape{{0.5, 0, 0}, 1}),
-                                  node_of(SphereShape{{0, 0.5, 0}, 1})};
-    const Model model = compile_scene(scene_of({operation(operation_kind, std::move(operands))}));
+  // A rod from corner to corner, of which the ray meets the box and the sphere alone, and a ball,
+  // which it goes through.
+  const auto tests_along = [](const Ray& ray, Operation kind) {
+    const Model model = compile_scene(
+        scene_of({operation(kind, {node_of(CylinderShape{{-1, -1, -1}, {1, 1, 1}, 0.1}),
+                                   node_of(SphereShape{{0.8, -0.8, 0}, 0.5})})}));
     Mailbox mailbox;
     make_search(model, {Subdivision::kRoth})->first_crossing(ray, 0, kInf, mailbox);
-    return mailbox.counts;
+    return mailbox.counts.primitives_tested;
   };
-  // Within the box and the sphere of the whole, yet beside the first sphere.
-  const Ray beside{{0.95, 0.7, -5}, {0, 0, 1}};
-  const WalkCounts difference = counts_along(beside, Operation::kDifference);
-  CHECK(difference.primitives_tested == 0);
-  const Ray through{{0.2, 0.2, -5}, {0, 0, 1}};
-  CHECK(counts_along(through, Operation::kDifference).primitives_tested == 3);
-  CHECK(counts_along(through, Operation::kUnion).primitives_tested == 3);
-  CHECK(counts_along({{9, 9, -5}, {0, 0, 1}}, Operation::kUnion).spheres_tested == 1);
+  const Ray beside_rod{{0.8, -0.8, -5}, {0, 0, 1}};
+  CHECK(tests_along(beside_rod, Operation::kDifference) == 1);
+  CHECK(tests_along(beside_rod, Operation::kUnion) == 2);
+  const Ray through_rod{{0.7, -0.7, -5}, normalized(Vec3{-0.7, 0.7, 5})};
+  CHECK(tests_along(through_rod, Operation::kDifference) == 1);
+  // A ball that misses the ray is told by its sphere.
+  CHECK(tests_along({{9, 9, -5}, {0, 0, 1}}, Operation::kUnion) == 0);
 }
