@@ -1,5 +1,6 @@
 #include "bench/scene_arguments.hpp"
 
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -29,6 +30,26 @@ std::uint32_t parse_number(std::string_view option, std::string_view text, std::
   return value;
 }
 
+template <typename Value>
+struct Named {
+  std::string_view name;
+  Value value;
+};
+constexpr std::array kWays{
+    Named{"surfaces", Subdivision::kSurfaces}, Named{"roth", Subdivision::kRoth},
+    Named{"linked", Subdivision::kLinked},     Named{"arnaldi", Subdivision::kArnaldi},
+    Named{"octree", Subdivision::kOctree},     Named{"kaplan", Subdivision::kKaplan}};
+constexpr std::array kEntries{Named{"descent", Entry::kDescent},
+                              Named{"extremal", Entry::kExtremal}};
+
+template <typename Names>
+auto parse_name(std::string_view option, std::string_view text, const Names& names) {
+  for (const auto& known : names) {
+    if (known.name == text) return known.value;
+  }
+  throw UsageError(std::string(option) + ": unknown: " + std::string(text));
+}
+
 SceneArguments parse(std::span<char*> arguments) {
   SceneArguments parsed;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -43,6 +64,10 @@ SceneArguments parse(std::span<char*> arguments) {
       parsed.threads = parse_number(argument, value(), kMaxThreads);
     } else if (argument == "--exr") {
       parsed.exr = value();
+    } else if (argument == "--subdivision") {
+      parsed.subdivision.way = parse_name(argument, value(), kWays);
+    } else if (argument == "--entry") {
+      parsed.subdivision.entry = parse_name(argument, value(), kEntries);
     } else if (argument == "--build-only") {
       parsed.build_only = true;
     } else if (argument.starts_with("-") || !parsed.scene.empty()) {
@@ -74,9 +99,10 @@ int run_with_scene(const char* program, int argc, char** argv,
     run(parse(std::span(argv + 1, static_cast<std::size_t>(argc - 1))));
     return 0;
   } catch (const UsageError& e) {
-    std::fprintf(
-        stderr, "%s: %s\nusage: %s SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]\n",
-        program, e.what(), program);
+    std::fprintf(stderr,
+                 "%s: %s\nusage: %s SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only] "
+                 "[--subdivision WAY [--entry descent|extremal]]\n",
+                 program, e.what(), program);
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s: %s\n", program, e.what());

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/scene.hpp"
+#include "subdivisions/subdivision.hpp"
 
 namespace graycube::bench {
 
@@ -20,6 +21,8 @@ struct SceneArguments {
   std::optional<std::filesystem::path> exr;
   /// --build-only: don't trace.
   bool build_only = false;
+  /// --subdivision WAY, --entry descent|extremal
+  SubdivisionChoice subdivision;
 };
 
 /// Reads the scene, with the size asked for. Throws std::runtime_error with the reader's first

@@ -1,5 +1,6 @@
-// trace_time SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]: where a serial render's
-// time and memory go. Prints one JSON object; times are CPU seconds of all threads together.
+// trace_time SCENE [--size N] [--threads T] [--exr OUT.exr] [--build-only]
+// [--subdivision WAY [--entry descent|extremal]]: where a serial render's time and memory go.
+// Prints one JSON object; times are CPU seconds of all threads together.
 #include <cstdio>
 
 #include "bench/clocks.hpp"
@@ -25,9 +26,20 @@ void print_trace(const SerialResult& r) {
       r.busy_s, created(r, RayKind::kPrimary), created(r, RayKind::kShadow),
       created(r, RayKind::kReflection), created(r, RayKind::kRefraction),
       static_cast<unsigned long long>(r.rays.skipped_by_horizon));
-  std::printf(", \"cells_per_ray\": %.4f, \"primitives_per_ray\": %.4f",
-              static_cast<double>(r.walk.cells_visited) / rays,
-              static_cast<double>(r.walk.primitives_tested) / rays);
+  const auto per_ray = [&](const char* name, std::uint64_t WalkCounts::*count) {
+    std::printf(", \"%s_per_ray\": %.4f", name, static_cast<double>(r.walk.*count) / rays);
+  };
+  per_ray("cells", &WalkCounts::cells_visited);
+  per_ray("primitives", &WalkCounts::primitives_tested);
+  per_ray("quartics", &WalkCounts::quartics_solved);
+  per_ray("saved", &WalkCounts::tests_saved);
+  per_ray("boxes", &WalkCounts::boxes_tested);
+  per_ray("boxes_rejected", &WalkCounts::boxes_rejected);
+  per_ray("spheres", &WalkCounts::spheres_tested);
+  per_ray("spheres_rejected", &WalkCounts::spheres_rejected);
+  per_ray("nodes", &WalkCounts::nodes_descended);
+  per_ray("entry_links", &WalkCounts::entry_links);
+  std::printf(", \"not_shot\": %llu", static_cast<unsigned long long>(r.walk.rays_not_shot));
 }
 
 void run(const SceneArguments& arguments) {
@@ -36,14 +48,15 @@ void run(const SceneArguments& arguments) {
   Model model = compile_scene(load(arguments));
   const double load_s = clock.lap();
   const std::size_t primitives = model.primitives.size();
-  const Domain domain(std::move(model));
+  const Domain domain(std::move(model), arguments.subdivision);
   const double build_s = clock.lap();
   const std::uint64_t held = heap_bytes() - heap_before;
   std::printf(
       "{\"primitives\": %zu, \"load_s\": %.6f, \"build_s\": %.6f, \"held_bytes\": %llu, "
-      "\"bytes_per_primitive\": %.1f",
+      "\"bytes_per_primitive\": %.1f, \"cells\": %zu",
       primitives, load_s, build_s, static_cast<unsigned long long>(held),
-      static_cast<double>(held) / static_cast<double>(primitives > 0 ? primitives : 1));
+      static_cast<double>(held) / static_cast<double>(primitives > 0 ? primitives : 1),
+      domain.cell_count());
   if (!arguments.build_only) {
     const ImageSize& image = domain.settings().image;
     Film film(image.width, image.height, image.samples * image.samples);

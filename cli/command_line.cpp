@@ -208,6 +208,8 @@ class Parser {
     add_model_choice(options, compare.choice);
     add_nodes(options, compare.nodes);
     add_common_options(options, compare.options);
+    options.flag("--report", compare.is_report,
+                 "Every subdivision of space with each distribution, as the report would have it");
     add_table_options(options, compare.as_json, compare.is_quiet, compare.plot);
   }
 

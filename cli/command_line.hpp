@@ -83,6 +83,8 @@ struct CompareCommand {
   control::JobOptions options;
   std::uint32_t nodes = 1;
   std::filesystem::path plot;
+  /// Subdivisions with each distribution, instead of 1987's and today's means.
+  bool is_report = false;
   bool as_json = false, is_quiet = false;
 };
 struct SimulateCommand {

@@ -38,6 +38,9 @@ void check_sense(const control::JobOptions& o) {
     throw usage_failure(use.name, "is for --algorithm " + users + ", not for " +
                                       std::string(to_string(o.algorithm)));
   }
+  if (o.subdivision.entry != Entry::kUsual && !has_links(o.subdivision.way))
+    throw usage_failure("--entry", "is for --subdivision linked and arnaldi, not for " +
+                                       std::string(to_string(o.subdivision.way)));
   if (o.queue != usual.queue && o.flow != FlowMode::kBlocking)
     throw usage_failure("--queue", "is for --flow blocking, which is not asked for");
 }

@@ -144,6 +144,14 @@ SumsMode parse_sums(std::string_view option, std::string_view text) {
   return parse_choice<SumsMode>(option, text, kSumsChoices);
 }
 
+Subdivision parse_subdivision(std::string_view option, std::string_view text) {
+  return parse_choice<Subdivision>(option, text, kSubdivisionChoices);
+}
+
+Entry parse_entry(std::string_view option, std::string_view text) {
+  return parse_choice<Entry>(option, text, kEntryChoices);
+}
+
 Shell parse_shell(std::string_view option, std::string_view text) {
   return parse_choice<Shell>(option, text, kShellChoices);
 }

@@ -8,6 +8,7 @@
 
 #include "process/clocks.hpp"
 #include "proto/job_settings.hpp"
+#include "proto/messages/search_report.hpp"
 #include "proto/statistics.hpp"
 #include "trace/render_serial.hpp"
 #include "version.hpp"
@@ -51,6 +52,7 @@ control::NodeStats node_stats(const SerialResult& r, double threads, double rend
   n.skipped_by_horizon = r.rays.skipped_by_horizon;
   n.non_finite = r.rounding.non_finite;
   n.clamped = r.rounding.clamped;
+  report_search(r.walk, n);
   return n;
 }
 
@@ -63,6 +65,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.scene = scene.name;
   s.algorithm = Algorithm::kSerial;
   s.threads = threads;
+  s.subdivision = options.subdivision;
 
   const auto loading = Clock::now();
   apply_overrides(options, scene.scene.settings);
@@ -74,7 +77,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.load_s = seconds_since(loading);
 
   const auto building = Clock::now();
-  const Domain domain(std::move(model));
+  const Domain domain(std::move(model), options.subdivision);
   s.build_s = seconds_since(building);
 
   const auto rendering = Clock::now();
@@ -91,6 +94,7 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   s.per_node.push_back(node_stats(result, threads, s.render_s));
   s.per_node.front().primitives = s.primitives;
   s.per_node.front().memory_bytes = domain.memory_bytes();
+  s.per_node.front().cells = domain.cell_count();
   display.clear();
   return {film.develop(), statistics_json(s),
           "serial, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), 0};

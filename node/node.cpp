@@ -206,8 +206,12 @@ std::optional<Work> Node::take_work() {
 }
 
 BuildWork Node::build_work() {
-  BuildWork build{
-      *std::exchange(unbuilt_slice_, std::nullopt), load_.horizon_bytes, load_.is_replica, {}, {}};
+  BuildWork build{*std::exchange(unbuilt_slice_, std::nullopt),
+                  load_.horizon_bytes,
+                  load_.is_replica,
+                  load_.subdivision,
+                  {},
+                  {}};
   if (load_.algorithm == Algorithm::kMacro) {
     build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};
     build.share = membership_.seat().share();

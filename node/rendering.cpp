@@ -264,8 +264,9 @@ void Rendering::adopt(Copied& copied, Mail& mail) {
 
 void Rendering::absorb(Traced& traced, Mail& mail) {
   const Step& step = traced.step;
-  tally_.add(step);
-  helping_.has_traced(work_cost(step.rays.created, traced.walk), traced.tile.has_value());
+  tally_.add(step, traced.walk);
+  const double cost = work_cost(step.rays.created, traced.walk, here_.domain->subdivision().way);
+  helping_.has_traced(cost, traced.tile.has_value());
   let_leave(traced, mail);
   keep_set_aside(traced);
   light_.add(step.returns, traced.tile, here_.plan, mail);

@@ -7,13 +7,15 @@
 
 #include "node/work.hpp"
 #include "proto/messages.hpp"
+#include "proto/messages/search_report.hpp"
 
 namespace graycube {
 
 class Tally {
  public:
-  void add(const Step& step) {
+  void add(const Step& step, const WalkCounts& walk) {
     traced_.add(step.rays);
+    walk_.add(walk);
     non_finite_ += step.rounding.non_finite;
     clamped_ += step.rounding.clamped;
   }
@@ -31,6 +33,7 @@ class Tally {
     stats.skipped_by_horizon = traced_.skipped_by_horizon;
     stats.non_finite = non_finite_;
     stats.clamped = clamped_;
+    report_search(walk_, stats);
   }
 
  private:
@@ -39,6 +42,7 @@ class Tally {
   }
 
   RayCounts traced_;
+  WalkCounts walk_;
   std::uint64_t non_finite_ = 0, clamped_ = 0;
   std::uint64_t rays_in_ = 0, queue_peak_ = 0;
 };

@@ -74,9 +74,10 @@ Built build(BuildWork work) {
   if (work.edges) {
     const auto frame = CameraFrame::from(slice->model.settings.camera, slice->model.settings.image);
     MacroGrid grid(frame, std::move(work.edges->columns), std::move(work.edges->rows));
-    domain = std::make_shared<Domain>(std::move(grid), work.share, std::move(slice->model));
+    domain = std::make_shared<Domain>(std::move(grid), work.share, std::move(slice->model),
+                                      work.subdivision);
   } else {
-    domain = std::make_shared<Domain>(std::move(slice->model));
+    domain = std::make_shared<Domain>(std::move(slice->model), work.subdivision);
   }
   domain->set_horizons(std::move(horizons));
   slice->set_foreign(*domain);
@@ -85,10 +86,10 @@ Built build(BuildWork work) {
   return built;
 }
 
-Borrowed borrow(const BorrowWork& work) {
+Borrowed borrow(const BorrowWork& work, const Domain& own) {
   Borrowed borrowed{work.from, nullptr, {}};
   auto slice = decoded_slice(work.slice.bytes(), 0, borrowed.error);
-  if (slice) borrowed.model = Territory::of(std::move(slice->model));
+  if (slice) borrowed.model = Territory::of(std::move(slice->model), own.subdivision());
   return borrowed;
 }
 
@@ -135,7 +136,7 @@ WorkResult Workbench::run(Work work) {
   WorkResult result{work.job, work.epoch, 0, {}};
   std::visit(Overloaded{
                  [&](BuildWork& build_work) { result.what = build(std::move(build_work)); },
-                 [&](BorrowWork& borrow_work) { result.what = borrow(borrow_work); },
+                 [&](BorrowWork& borrow_work) { result.what = borrow(borrow_work, *work.domain); },
                  [&](CopyWork& copy_work) { result.what = copy(copy_work, *work.domain); },
                  [&](TileWork& tile) {
                    result.what = trace(work, &tile.rect, {});

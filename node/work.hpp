@@ -30,6 +30,7 @@ struct BuildWork {
   std::size_t horizon_bytes = 0;
   /// The model is the whole scene.
   bool is_replica = false;
+  SubdivisionChoice subdivision;
   /// Nothing in `roth`: all of space.
   std::optional<GridEdges> edges;
   RegionShare share;

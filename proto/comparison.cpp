@@ -27,6 +27,10 @@ Figures figures_of(const std::string& statistics) {
   }
   f.light_bytes = count("messages", "contribution_bytes");
   f.rounds = count("token", "rounds");
+  for (const char* kind : {"primary", "shadow", "reflection", "refraction"})
+    f.rays += count("rays", kind);
+  f.cells = count("subdivision", "cells");
+  f.tests = count("subdivision", "primitives_tested");
   for (const Json& n : j.at("per_node")) {
     f.largest_memory_bytes =
         std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());

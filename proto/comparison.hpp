@@ -20,6 +20,8 @@ struct Figures {
   /// Bytes of model and subdivision on the node that holds most.
   std::uint64_t largest_memory_bytes = 0;
   std::uint64_t rounds = 0, queue_peak = 0;
+  /// Rays of all kinds; leaf regions or items of all nodes; rays intersected with a primitive.
+  std::uint64_t rays = 0, cells = 0, tests = 0;
   std::vector<NodeTimes> nodes;
 };
 

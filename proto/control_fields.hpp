@@ -88,6 +88,17 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("tiles_taken_over", m.tiles_taken_over);
   visit("rays_taken_over", m.rays_taken_over);
   visit("endgame_s", m.endgame_s, kSeconds);
+  visit("cells", m.cells, kDefaulted);
+  visit("cells_visited", m.cells_visited, kDefaulted);
+  visit("primitives_tested", m.primitives_tested, kDefaulted);
+  visit("tests_saved", m.tests_saved, kDefaulted);
+  visit("boxes_tested", m.boxes_tested, kDefaulted);
+  visit("boxes_rejected", m.boxes_rejected, kDefaulted);
+  visit("spheres_tested", m.spheres_tested, kDefaulted);
+  visit("spheres_rejected", m.spheres_rejected, kDefaulted);
+  visit("nodes_descended", m.nodes_descended, kDefaulted);
+  visit("entry_links", m.entry_links, kDefaulted);
+  visit("rays_not_shot", m.rays_not_shot, kDefaulted);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
@@ -106,6 +117,8 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("max_depth", m.max_depth, {.max = kMaxDepth});
   visit("aov", m.aov, kAovText);
   visit("sums", m.sums, kDefaulted);
+  visit("subdivision", m.subdivision.way, kDefaulted);
+  visit("entry", m.subdivision.entry, kDefaulted);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -246,6 +259,8 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("is_replica", m.is_replica);
   visit("makes_copies", m.makes_copies);
   visit("sums", m.sums, kDefaulted);
+  visit("subdivision", m.subdivision.way, kDefaulted);
+  visit("entry", m.subdivision.entry, kDefaulted);
 }
 
 void each_field(auto& visit, IsAboutSlice auto& m) {

@@ -37,6 +37,15 @@ struct Names<SumsMode> {
   static constexpr std::array<std::string_view, 2> kAll{"direct", "tree"};
 };
 template <>
+struct Names<Subdivision> {
+  static constexpr std::array<std::string_view, 6> kAll{"surfaces", "roth",   "linked",
+                                                        "arnaldi",  "octree", "kaplan"};
+};
+template <>
+struct Names<Entry> {
+  static constexpr std::array<std::string_view, 3> kAll{"usual", "descent", "extremal"};
+};
+template <>
 struct Names<JobState> {
   static constexpr std::array<std::string_view, 7> kAll{
       "queued", "loading", "building", "rendering", "done", "failed", "cancelled"};

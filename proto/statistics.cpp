@@ -56,6 +56,24 @@ Json balance_json(const Statistics& s) {
           {"window_fraction", share(total(s.per_node, &NodeStats::window_s))}};
 }
 
+Json subdivision_json(const Statistics& s) {
+  const auto sum = [&](std::uint64_t NodeStats::*field) { return total(s.per_node, field); };
+  Json j{{"way", to_string(s.subdivision.way)}};
+  if (has_links(s.subdivision.way)) j["entry"] = to_string(entry_of(s.subdivision));
+  j["cells"] = sum(&NodeStats::cells);
+  j["cells_visited"] = sum(&NodeStats::cells_visited);
+  j["primitives_tested"] = sum(&NodeStats::primitives_tested);
+  j["tests_saved"] = sum(&NodeStats::tests_saved);
+  j["boxes_tested"] = sum(&NodeStats::boxes_tested);
+  j["boxes_rejected"] = sum(&NodeStats::boxes_rejected);
+  j["spheres_tested"] = sum(&NodeStats::spheres_tested);
+  j["spheres_rejected"] = sum(&NodeStats::spheres_rejected);
+  j["nodes_descended"] = sum(&NodeStats::nodes_descended);
+  j["entry_links"] = sum(&NodeStats::entry_links);
+  j["rays_not_shot"] = sum(&NodeStats::rays_not_shot);
+  return j;
+}
+
 }  // namespace
 
 std::string statistics_json(const Statistics& s) {
@@ -98,6 +116,7 @@ std::string statistics_json(const Statistics& s) {
                    {"contribution_bytes", sum(&NodeStats::contribution_bytes)},
                    {"sum_batches", sum(&NodeStats::sum_batches)},
                    {"sum_bytes", sum(&NodeStats::sum_bytes)}};
+  j["subdivision"] = subdivision_json(s);
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
   for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);

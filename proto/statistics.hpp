@@ -24,6 +24,7 @@ struct Statistics {
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
   SumsMode sums = SumsMode::kDirect;
+  SubdivisionChoice subdivision;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

@@ -283,8 +283,8 @@ double Farm::begin(Turn& turn) {
   if (const auto* traced = std::get_if<Traced>(&turn.result->what)) {
     for (const std::uint64_t n : traced->step.rays.created)
       doings[Unit::kRay] += static_cast<double>(n);
-    doings[Unit::kVisit] = static_cast<double>(traced->walk.cells_visited);
-    doings[Unit::kTest] = static_cast<double>(traced->walk.primitives_tested);
+    doings[Unit::kVisit] = traced->walk.visits();
+    doings[Unit::kTest] = traced->walk.tests();
   }
   if (observe) observe(doings, took_s);
   turn.seconds = take(turn.rank, doings);

@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/compare_ways.hpp"
 #include "cli/display/bars_svg.hpp"
 #include "cli/display/table.hpp"
 #include "cli/farm/frontal_process.hpp"
@@ -14,59 +15,6 @@
 
 namespace graycube {
 namespace {
-
-/// A way to render: its name, its arguments for `graycube render`, and its options.
-struct Way {
-  std::string name, arguments;
-  control::JobOptions options;
-};
-
-std::vector<Way> ways_of(const control::JobOptions& common) {
-  std::vector<Way> ways;
-  const auto add = [&](std::string name, std::string arguments, auto&& set) {
-    Way way{std::move(name), std::move(arguments), common};
-    set(way.options);
-    ways.push_back(std::move(way));
-  };
-  for (const Grain grain : {Grain::kPixel, Grain::kLine, Grain::kTile}) {
-    const std::string name(to_string(grain));
-    add("roth " + name, "--algorithm roth --grain " + name, [&](auto& o) {
-      o.algorithm = Algorithm::kRoth;
-      o.grain = grain;
-    });
-  }
-  struct Macro {
-    ShadowMode shadows = ShadowMode::kForward;
-    std::uint32_t scatter = 1;
-    PartitionMode partition = PartitionMode::kRegular;
-    /// Places of a blocking queue; 0 for flow by credit.
-    std::uint32_t queue = 0;
-  };
-  const auto macro = [&](std::string name, const Macro& m) {
-    std::string arguments = "--algorithm macro --shadows " + std::string(to_string(m.shadows)) +
-                            " --scatter " + std::to_string(m.scatter) + " --partition " +
-                            std::string(to_string(m.partition));
-    if (m.queue != 0) arguments += " --flow blocking --queue " + std::to_string(m.queue);
-    add(std::move(name), std::move(arguments), [&](auto& o) {
-      o.algorithm = Algorithm::kMacro;
-      o.shadows = m.shadows;
-      o.scatter = m.scatter;
-      o.partition = m.partition;
-      o.flow = m.queue != 0 ? FlowMode::kBlocking : FlowMode::kCredit;
-      if (m.queue != 0) o.queue = m.queue;
-    });
-  };
-  macro("macro as in 1987", {.queue = common.queue});
-  macro("  with endless queues", {.queue = kMaxQueue});
-  macro("macro, credits", {});
-  macro("macro, horizons", {.shadows = ShadowMode::kHorizon});
-  macro("macro, local shadows", {.shadows = ShadowMode::kLocal});
-  macro("macro, scatter 2", {.scatter = 2});
-  macro("macro, balance", {.partition = PartitionMode::kBalanced});
-  macro("macro, all", {.shadows = ShadowMode::kHorizon, .partition = PartitionMode::kAuto});
-  add("auto", "--algorithm auto", [](auto& o) { o.algorithm = Algorithm::kAuto; });
-  return ways;
-}
 
 ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
                      const Picture& reference, ProgressDisplay& display) {
@@ -86,11 +34,13 @@ ComparedRow compared(FarmClient& farm, const SceneInput& scene, const Way& way,
   return row;
 }
 
-std::string table_of(const std::vector<ComparedRow>& rows) {
+std::string table_of(const std::vector<ComparedRow>& rows, bool is_report) {
   const Figures serial = figures_of(rows.front().statistics);
   std::vector<std::vector<std::string>> cells{{"WAY", "WALL s", "CPU s", "CPU/SERIAL", "EFFICIENCY",
                                                "BLOCKED %", "RAYS FORWARDED", "MESSAGES", "MB",
-                                               "MEMORY %", "ROUNDS", "QUEUE PEAK", "PICTURE"}};
+                                               "MEMORY %", "ROUNDS", "QUEUE PEAK"}};
+  if (is_report) cells.front().insert(cells.front().end(), {"CELLS", "TESTS/RAY"});
+  cells.front().emplace_back("PICTURE");
   for (const ComparedRow& row : rows) {
     auto& line = cells.emplace_back(std::vector<std::string>{row.name});
     if (row.statistics.empty()) {
@@ -107,6 +57,12 @@ std::string table_of(const std::vector<ComparedRow>& rows) {
                    number_text("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
                    number_text("%.1f", whole > 0 ? 100 * memory / whole : 0),
                    std::to_string(f.rounds), std::to_string(f.queue_peak)});
+      if (is_report) {
+        line.insert(line.end(), {std::to_string(f.cells),
+                                 number_text("%.1f", f.rays > 0 ? static_cast<double>(f.tests) /
+                                                                      static_cast<double>(f.rays)
+                                                                : 0)});
+      }
     }
     line.push_back(to_string(row.outcome));
   }
@@ -122,14 +78,24 @@ struct TimedRender {
   double wall_s = 0, cpu_s = 0;
 };
 
-TimedRender render_serially(const CompareCommand& command, const SceneInput& scene,
+TimedRender render_serially(const control::JobOptions& options, const SceneInput& scene,
                             ProgressDisplay& display) {
   const auto started = std::chrono::steady_clock::now();
   const double cpu_before_s = process_cpu_seconds();
-  TimedRender timed{render_here(scene, command.options, 1, display)};
+  TimedRender timed{render_here(scene, options, 1, display)};
   timed.wall_s = seconds_since(started);
   timed.cpu_s = process_cpu_seconds() - cpu_before_s;
   return timed;
+}
+
+ComparedRow compared_here(const SceneInput& scene, const Way& way, const Picture& reference,
+                          ProgressDisplay& display) {
+  const TimedRender timed = render_serially(way.options, scene, display);
+  return {way.name,
+          way.arguments,
+          timed.rendered.picture == reference ? RowOutcome::kSame : RowOutcome::kDifferent,
+          {},
+          with_command_times(timed.rendered.stats, timed.wall_s, timed.cpu_s)};
 }
 
 /// Serial's row comes first, but it is rendered again at the end, and gets the mean of both times:
@@ -137,7 +103,7 @@ TimedRender render_serially(const CompareCommand& command, const SceneInput& sce
 std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneInput& scene,
                                      ProgressDisplay& display) {
   std::vector<ComparedRow> rows;
-  const TimedRender first = render_serially(command, scene, display);
+  const TimedRender first = render_serially(command.options, scene, display);
   rows.push_back({"serial", "--algorithm serial", RowOutcome::kReference, {}, {}});
   {
     const InterruptsHeld held;
@@ -147,12 +113,16 @@ std::vector<ComparedRow> compare_all(const CompareCommand& command, const SceneI
       throw_if_interrupted();
       frontal.check_running();
     });
-    for (const Way& way : ways_of(command.options)) {
-      rows.push_back(compared(farm, scene, way, first.rendered.picture, display));
+    const auto ways =
+        command.is_report ? ways_of_report(command.options) : ways_of_algorithms(command.options);
+    for (const Way& way : ways) {
+      rows.push_back(way.options.algorithm == Algorithm::kSerial
+                         ? compared_here(scene, way, first.rendered.picture, display)
+                         : compared(farm, scene, way, first.rendered.picture, display));
     }
     frontal.stop();
   }
-  const TimedRender last = render_serially(command, scene, display);
+  const TimedRender last = render_serially(command.options, scene, display);
   rows.front().statistics = with_command_times(
       first.rendered.stats, (first.wall_s + last.wall_s) / 2, (first.cpu_s + last.cpu_s) / 2);
   return rows;
@@ -171,8 +141,8 @@ ExitStatus run(const CompareCommand& command) {
   ProgressDisplay display(stderr, command.is_quiet);
   const std::vector<ComparedRow> rows = compare_all(command, scene, display);
   display.clear();
-  const std::string text =
-      command.as_json ? comparison_json(scene.name, command.nodes, rows) + "\n" : table_of(rows);
+  const std::string text = command.as_json ? comparison_json(scene.name, command.nodes, rows) + "\n"
+                                           : table_of(rows, command.is_report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!command.plot.empty()) {
     write_text_file(command.plot, bars_svg(scene.name + " on " + std::to_string(command.nodes) +

@@ -115,6 +115,7 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.partition = command.options.partition;
   s.flow = command.options.flow;
   s.sums = command.options.sums;
+  s.subdivision = command.options.subdivision;
   s.image = settings.image;
   s.render_s = outcome.render_s;
   s.token_rounds = outcome.rounds;

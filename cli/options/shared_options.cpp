@@ -166,6 +166,15 @@ void add_how(Declaring& options, control::JobOptions& o) {
   add_named(
       options, "--sums", "direct (default), or tree: nodes add up each other's light on its way",
       names_of(kSumsChoices), [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
+  add_named(options, "--subdivision",
+            "surfaces (default), or a way of 1987: roth, linked, arnaldi, octree, kaplan",
+            names_of(kSubdivisionChoices), [&o](const auto& text) {
+              o.subdivision.way = parse_subdivision("--subdivision", text);
+            });
+  add_named(options, "--entry",
+            "descent or extremal: where rays begin in linked cells (default: what is usual)",
+            names_of(kEntryChoices),
+            [&o](const auto& text) { o.subdivision.entry = parse_entry("--entry", text); });
 }
 
 }  // namespace

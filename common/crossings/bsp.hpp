@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "crossings/cell_programs.hpp"
 #include "csg/model.hpp"
 
 namespace graycube {
@@ -23,20 +23,6 @@ struct BspNode {
   std::uint8_t axis = kLeafAxis;
 };
 
-/// An object restricted to a leaf region.
-struct CellProgram {
-  enum class Shape : std::uint8_t { kSingle, kAllOf, kAnyOf, kGeneral };
-
-  /// Index into Model::objects.
-  std::uint32_t object = 0;
-  /// Range in Bsp::program_nodes; one node for kSingle, only the literals for kAllOf and kAnyOf.
-  std::uint32_t first_node = 0;
-  std::uint32_t node_count = 0;
-  /// Number of leaves among the nodes.
-  std::uint32_t literals = 0;
-  Shape shape = Shape::kSingle;
-};
-
 struct BspLeaf {
   Aabb cell;
   /// For each face (axis · 2 + upper), the root node of the smallest subtree that touches the whole
@@ -44,6 +30,8 @@ struct BspLeaf {
   std::array<std::uint32_t, 6> neighbour{};
   std::uint32_t first_program = 0;
   std::uint32_t program_count = 0;
+
+  ProgramRange programs() const { return {first_program, program_count}; }
 };
 inline constexpr std::uint32_t kNoNeighbour = 0xFFFFFFFFu;
 
@@ -62,21 +50,22 @@ class Bsp {
   static Bsp build_for_object(const Model& model, std::uint32_t object,
                               const BspOptions& options = {});
 
-  const Model& model() const { return *model_; }
+  const Model& model() const { return store_.model(); }
   const std::vector<BspNode>& nodes() const { return nodes_; }
   const std::vector<BspLeaf>& leaves() const { return leaves_; }
-  const std::vector<CellProgram>& programs() const { return programs_; }
-  const std::vector<TreeNode>& program_nodes() const { return program_nodes_; }
+  const CellPrograms& cell_programs() const { return store_; }
+  const std::vector<CellProgram>& programs() const { return store_.programs(); }
+  const std::vector<TreeNode>& program_nodes() const { return store_.nodes(); }
   /// Bytes of nodes, leaf regions and programs.
   std::size_t memory_bytes() const;
 
  private:
-  friend class BspBuilder;
-  const Model* model_ = nullptr;
+  friend class BspAssembly;
+  explicit Bsp(const Model& model) : store_(model) {}
+
   std::vector<BspNode> nodes_;
   std::vector<BspLeaf> leaves_;
-  std::vector<CellProgram> programs_;
-  std::vector<TreeNode> program_nodes_;
+  CellPrograms store_;
 };
 
 }  // namespace graycube

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "crossings/bsp.hpp"
+#include "crossings/cell_programs.hpp"
 #include "crossings/mailbox.hpp"
 
 namespace graycube {
@@ -65,8 +65,8 @@ inline std::uint32_t changed_primitive(std::span<const TreeNode> tree,
 /// The program seen as a tree of one kind.
 class ProgramView {
  public:
-  ProgramView(const Bsp& bsp, const CellProgram& program)
-      : nodes_(bsp.program_nodes().data() + program.first_node, program.node_count),
+  ProgramView(const CellPrograms& store, const CellProgram& program)
+      : nodes_(store.nodes().data() + program.first_node, program.node_count),
         shape_(program.shape) {}
 
   std::span<const TreeNode> nodes() const { return nodes_; }
@@ -166,15 +166,15 @@ bool single(const TreeNode& node, std::uint32_t object, const Spans& spans, doub
 /// Calls `visit(Crossing)` for every crossing of the program's object with t0 ≤ t < t1, in order of
 /// t, until it returns false; returns false then. Intersections come from the mailbox.
 template <typename Visit>
-bool for_each_crossing(const Bsp& bsp, const CellProgram& program, const Ray& ray, double t0,
-                       double t1, Mailbox& mailbox, Visit&& visit) {
-  const Model& model = bsp.model();
+bool for_each_crossing(const CellPrograms& store, const CellProgram& program, const Ray& ray,
+                       double t0, double t1, Mailbox& mailbox, Visit&& visit) {
+  const Model& model = store.model();
   if (program.shape == CellProgram::Shape::kSingle) {
-    const TreeNode& node = bsp.program_nodes()[program.first_node];
+    const TreeNode& node = store.nodes()[program.first_node];
     return crossings::single(node, program.object, mailbox.spans(model, node.primitive, ray), t0,
                              t1, visit);
   }
-  const crossings::ProgramView view(bsp, program);
+  const crossings::ProgramView view(store, program);
   auto& events = mailbox.events;
   auto& before = mailbox.flags_before;
   events.clear();

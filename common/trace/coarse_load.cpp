@@ -143,7 +143,7 @@ class CoarseTrace {
     const WalkCounts walk = evaluator.walk_counts().since(before);
     const auto& created = step_.rays.created;
     for (std::size_t k = 0; k < created.size(); ++k) created_[k] += created[k];
-    add_cost(at, beside + work_cost(created, walk));
+    add_cost(at, beside + work_cost(created, walk, domain_.subdivision().way));
     for (RayTask& ray : step_.leaving) take_leaving(ray, at);
     waiting_count_ += step_.leaving.size();
     step_.clear();

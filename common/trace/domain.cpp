@@ -19,13 +19,14 @@ std::size_t mesh_bytes(const Model& model) {
 }  // namespace
 
 std::shared_ptr<const Territory> Territory::of(std::shared_ptr<const Model> model,
-                                               Subdivision subdivision) {
+                                               const SubdivisionChoice& subdivision) {
   auto territory = std::make_shared<Territory>();
   territory->model = std::move(model);
-  if (subdivision == Subdivision::kSurfaceTree) {
+  territory->subdivision = subdivision;
+  if (subdivision.way == Subdivision::kSurfaces) {
     territory->tree = SurfaceTree::build(*territory->model);
   } else {
-    territory->bsp = Bsp::build(*territory->model);
+    territory->search = make_search(*territory->model, subdivision);
   }
   return territory;
 }
@@ -33,7 +34,7 @@ std::shared_ptr<const Territory> Territory::of(std::shared_ptr<const Model> mode
 std::size_t Territory::memory_bytes() const {
   return bytes_of(model->primitives) + bytes_of(model->planes) + bytes_of(model->nodes) +
          bytes_of(model->objects) + mesh_bytes(*model) + bytes_of(model->materials) +
-         (tree ? tree->memory_bytes() : bsp->memory_bytes());
+         (tree ? tree->memory_bytes() : search->memory_bytes());
 }
 
 Domain::Domain(std::shared_ptr<const Territory> territory)
@@ -41,7 +42,7 @@ Domain::Domain(std::shared_ptr<const Territory> territory)
           CameraFrame::from(territory->model->settings.camera, territory->model->settings.image)),
       territory_(std::move(territory)) {}
 
-Domain::Domain(MacroGrid grid, RegionShare share, Model model, Subdivision subdivision)
+Domain::Domain(MacroGrid grid, RegionShare share, Model model, const SubdivisionChoice& subdivision)
     : frame_(CameraFrame::from(model.settings.camera, model.settings.image)),
       grid_(std::move(grid)),
       share_(share),
@@ -73,7 +74,7 @@ RayPacket::Mask Domain::pass_lights(const RayPacket& packet, CrossingScratch& sc
 }
 
 std::size_t Domain::cell_count() const {
-  return territory_->tree ? territory_->tree->item_count() : territory_->bsp->leaves().size();
+  return territory_->tree ? territory_->tree->item_count() : territory_->search->cell_count();
 }
 
 std::size_t Domain::memory_bytes() const {
@@ -86,7 +87,6 @@ std::size_t Domain::memory_bytes() const {
 std::shared_ptr<const Domain> Domain::with_borrowed(
     std::uint32_t column, std::uint32_t row, std::shared_ptr<const Territory> territory) const {
   GRAYCUBE_CHECK(column < share_.columns && row < share_.rows, "place %u, %u", column, row);
-  GRAYCUBE_CHECK(territory->tree.has_value(), "only surface trees are borrowed");
   auto wider = std::make_shared<Domain>(*this);
   wider->borrowed_.resize(std::size_t{share_.columns} * share_.rows);
   wider->borrowed_[row * share_.columns + column] = std::move(territory);
@@ -107,7 +107,7 @@ std::shared_ptr<Domain> Domain::of_neighbour(const RegionShare& share, Model mod
   GRAYCUBE_CHECK(grid_.has_value(), "without boundaries there are no neighbours");
   auto theirs = std::make_shared<Domain>(*this);
   theirs->share_ = share;
-  theirs->territory_ = Territory::of(std::move(model));
+  theirs->territory_ = Territory::of(std::move(model), territory_->subdivision);
   theirs->foreign_horizons_ = nullptr;
   theirs->foreign_bounds_ = nullptr;
   return theirs;
@@ -121,8 +121,10 @@ std::optional<bool> Domain::pass_light_borrowed(RegionIndex region, const Ray& r
   const std::size_t place =
       region.row % share_.rows * std::size_t{share_.columns} + region.column % share_.columns;
   if (!borrowed_[place]) return std::nullopt;
+  const Territory& lent = *borrowed_[place];
+  if (lent.search) return lent.search->pass_light(ray, t0, t1, scratch.mailbox, light);
   scratch.borrowed.resize(borrowed_.size());
-  return borrowed_[place]->tree->pass_light(ray, t0, t1, scratch.borrowed[place], light);
+  return lent.tree->pass_light(ray, t0, t1, scratch.borrowed[place], light);
 }
 
 }  // namespace graycube

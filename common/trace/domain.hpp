@@ -9,36 +9,32 @@
 #include <utility>
 #include <vector>
 
-#include "crossings/bsp.hpp"
 #include "crossings/ray_packet.hpp"
 #include "crossings/surface_tree.hpp"
-#include "crossings/walk.hpp"
 #include "csg/model.hpp"
 #include "regions/camera.hpp"
 #include "regions/macro_grid.hpp"
+#include "subdivisions/crossing_search.hpp"
 #include "trace/ray_task.hpp"
 #include "visibility/foreign_bounds.hpp"
 #include "visibility/light_horizons.hpp"
 
 namespace graycube {
 
-/// How a process finds crossings. Both ways find the same crossings, bit for bit.
-enum class Subdivision : std::uint8_t {
-  kSurfaceTree,  ///< a bounding volume hierarchy over the surfaces: the fast one
-  kLinkedCells,  ///< the report's: a BSP whose leaf regions are linked to their neighbours
-};
-
 /// A model and its subdivision.
 struct Territory {
   std::shared_ptr<const Model> model;
+  SubdivisionChoice subdivision;
+  /// Only with the subdivision kSurfaces.
   std::optional<SurfaceTree> tree;
-  std::optional<Bsp> bsp;
+  /// With all others.
+  std::unique_ptr<const CrossingSearch> search;
 
   /// The subdivision points at the model.
   static std::shared_ptr<const Territory> of(std::shared_ptr<const Model> model,
-                                             Subdivision subdivision = Subdivision::kSurfaceTree);
+                                             const SubdivisionChoice& subdivision = {});
   static std::shared_ptr<const Territory> of(Model model,
-                                             Subdivision subdivision = Subdivision::kSurfaceTree) {
+                                             const SubdivisionChoice& subdivision = {}) {
     return of(std::make_shared<const Model>(std::move(model)), subdivision);
   }
   /// Bytes of the model and of its subdivision.
@@ -66,21 +62,20 @@ struct CrossingScratch {
 class Domain {
  public:
   /// All of space, without boundaries.
-  explicit Domain(Model model, Subdivision subdivision = Subdivision::kSurfaceTree)
+  explicit Domain(Model model, const SubdivisionChoice& subdivision = {})
       : Domain(std::make_shared<const Model>(std::move(model)), subdivision) {}
-  explicit Domain(std::shared_ptr<const Model> model,
-                  Subdivision subdivision = Subdivision::kSurfaceTree)
+  explicit Domain(std::shared_ptr<const Model> model, const SubdivisionChoice& subdivision = {})
       : Domain(Territory::of(std::move(model), subdivision)) {}
   explicit Domain(std::shared_ptr<const Territory> territory);
   /// A node's macro-regions; the model is restricted to them. One model for all of them: a
   /// primitive that reaches into several is held once.
-  Domain(MacroGrid grid, RegionShare share, Model model,
-         Subdivision subdivision = Subdivision::kSurfaceTree);
+  Domain(MacroGrid grid, RegionShare share, Model model, const SubdivisionChoice& subdivision = {});
 
   const RenderSettings& settings() const { return territory_->model->settings; }
   const CameraFrame& frame() const { return frame_; }
   const Model& model() const { return *territory_->model; }
-  /// The number of leaf regions (linked cells), or of items (surface tree).
+  const SubdivisionChoice& subdivision() const { return territory_->subdivision; }
+  /// The number of leaf regions; of items, where a surface tree stands for them.
   std::size_t cell_count() const;
   /// Bytes of models and subdivisions, borrowed ones included.
   std::size_t memory_bytes() const;
@@ -147,16 +142,14 @@ class Domain {
   std::optional<Crossing> first_crossing(const Ray& ray, double t0, double t1,
                                          CrossingScratch& scratch) const {
     if (territory_->tree) return territory_->tree->first_crossing(ray, t0, t1, scratch.tree);
-    scratch.mailbox.begin_ray();
-    return graycube::first_crossing(*territory_->bsp, ray, t0, t1, scratch.mailbox);
+    return territory_->search->first_crossing(ray, t0, t1, scratch.mailbox);
   }
   /// Lets light through the surfaces crossed in [t0, t1): multiplies it by each transparent one's
   /// transmit, in order of t, then of the objects. False when an opaque one ends it.
   bool pass_light(const Ray& ray, double t0, double t1, CrossingScratch& scratch,
                   Rgb& light) const {
     if (territory_->tree) return territory_->tree->pass_light(ray, t0, t1, scratch.tree, light);
-    scratch.mailbox.begin_ray();
-    return graycube::pass_light(*territory_->bsp, ray, t0, t1, scratch.mailbox, light);
+    return territory_->search->pass_light(ray, t0, t1, scratch.mailbox, light);
   }
   /// Like pass_light(), for a region of this or another node; nothing when the region is neither
   /// held nor borrowed.

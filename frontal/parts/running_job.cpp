@@ -234,6 +234,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.partition = scene.partition;
   s.flow = scene.flow;
   s.sums = render_->sums();
+  s.subdivision = scene.subdivision;
   s.image = scene.settings.image;
   s.primitives = scene.primitives;
   s.objects = scene.objects;

@@ -197,8 +197,11 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
 }  // namespace
 
 std::string choices_text(const PreparedScene& scene) {
+  std::string subdivision;
+  if (scene.subdivision.way != Subdivision::kSurfaces)
+    subdivision = ", " + std::string(to_string(scene.subdivision.way)) + " subdivision";
   if (scene.algorithm != Algorithm::kMacro) {
-    return "grain " + std::string(to_string(scene.grain));
+    return "grain " + std::string(to_string(scene.grain)) + subdivision;
   }
   std::string text = "scatter " + std::to_string(scene.grid.scatter) + ", " +
                      std::string(to_string(scene.shadows)) + " shadows, " +
@@ -207,7 +210,7 @@ std::string choices_text(const PreparedScene& scene) {
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);
   }
-  return text;
+  return text + subdivision;
 }
 
 namespace {
@@ -231,6 +234,7 @@ void prepare_into(PreparationResult& result, const PreparationWork& work,
   scene.algorithm = chosen(work.options.algorithm, model);
   scene.grain = scene.algorithm == Algorithm::kRoth ? work.options.grain : Grain::kTile;
   scene.settings = model.settings;
+  scene.subdivision = work.options.subdivision;
   scene.primitives = model.primitives.size();
   scene.objects = model.objects.size();
   if (scene.algorithm == Algorithm::kRoth) {

@@ -39,6 +39,7 @@ struct PreparedScene {
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
+  SubdivisionChoice subdivision;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
   std::optional<TilePlan> plan;

@@ -61,6 +61,7 @@ std::uint64_t Holding::own_tiles() const {
 void Holding::report(control::NodeStats& stats) const {
   stats.primitives = domain->model().primitives.size();
   stats.memory_bytes = domain->memory_bytes();
+  stats.cells = domain->cell_count();
 }
 
 }  // namespace graycube

@@ -56,6 +56,8 @@ struct Load {
   /// Nodes tell their neighbours when they have nothing to do, and may get copies of their slices.
   bool makes_copies = false;
   SumsMode sums = SumsMode::kDirect;
+  /// How nodes find the crossings of rays.
+  SubdivisionChoice subdivision{};
   friend bool operator==(const Load&, const Load&) = default;
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regions/macro_grid.hpp"
+#include "subdivisions/subdivision.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {
@@ -73,6 +74,8 @@ std::string_view to_string(ShadowMode value);
 std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
 std::string_view to_string(SumsMode value);
+std::string_view to_string(Subdivision value);
+std::string_view to_string(Entry value);
 std::string_view to_string(JobState value);
 std::string_view to_string(NodeState value);
 std::string_view to_string(FailureCode value);
@@ -110,6 +113,12 @@ struct NodeStats {
   std::uint64_t models_borrowed = 0;
   /// Other nodes' tiles, and rays that other nodes had received, that were traced here.
   std::uint64_t tiles_taken_over = 0, rays_taken_over = 0;
+  /// Leaf regions, or items of a surface tree, of the node's own part of the scene.
+  std::uint64_t cells = 0;
+  /// What the search for crossings did, as WalkCounts says.
+  std::uint64_t cells_visited = 0, primitives_tested = 0, tests_saved = 0;
+  std::uint64_t boxes_tested = 0, boxes_rejected = 0, spheres_tested = 0, spheres_rejected = 0;
+  std::uint64_t nodes_descended = 0, entry_links = 0, rays_not_shot = 0;
   /// Seconds from the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -135,6 +144,7 @@ struct JobOptions {
   /// Names of AOVs as parse_aovs reads them.
   std::string aov{};
   SumsMode sums = SumsMode::kDirect;
+  SubdivisionChoice subdivision{};
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
 

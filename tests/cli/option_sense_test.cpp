@@ -37,5 +37,14 @@ TEST_CASE("a queue's length is for blocking flow only") {
   CHECK_NOTHROW(check_sense(o));
 }
 
+TEST_CASE("an entry can be chosen only where leaf regions are linked") {
+  control::JobOptions o;
+  o.subdivision = {Subdivision::kOctree, Entry::kDescent};
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --entry: is for --subdivision linked and arnaldi, not for octree");
+  o.subdivision.way = Subdivision::kArnaldi;
+  CHECK_NOTHROW(check_sense(o));
+}
+
 }  // namespace
 }  // namespace graycube

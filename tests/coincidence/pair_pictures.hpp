@@ -51,7 +51,7 @@ inline void set_up_picture(FlushPair& pair, std::uint32_t side) {
   }
 }
 
-inline Picture picture_of(const Scene& scene, Subdivision subdivision = Subdivision::kSurfaceTree) {
+inline Picture picture_of(const Scene& scene, const SubdivisionChoice& subdivision = {}) {
   const ImageSize& image = scene.settings.image;
   const Domain domain(compile_scene(scene), subdivision);
   Film film(image.width, image.height, image.samples * image.samples, scene.settings.aovs);

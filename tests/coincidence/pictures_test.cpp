@@ -59,7 +59,7 @@ TEST_CASE("each instruction set and each subdivision renders touching surfaces t
     const FlushPair pair = pair_in_picture(seed, kSide / 2);
     INFO(pair.text());
     const Picture expected = picture_of(pair.flush);
-    CHECK(picture_of(pair.flush, Subdivision::kLinkedCells) == expected);
+    CHECK(picture_of(pair.flush, {Subdivision::kLinked}) == expected);
     for (const std::string& name : simd_names()) {
       INFO(name);
       REQUIRE(choose_simd(name));

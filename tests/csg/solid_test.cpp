@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "crossings/walk.hpp"
 #include "csg/one_primitive.hpp"
 #include "csg/random_rays.hpp"
 #include "csg/whole_tree.hpp"
+#include "subdivisions/linked_cells.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -17,15 +17,15 @@ namespace {
 /// The solids of a scene, asked through the walk.
 class Solids {
  public:
-  explicit Solids(const Scene& scene) : model_(compile_scene(scene)), bsp_(Bsp::build(model_)) {}
+  explicit Solids(const Scene& scene)
+      : model_(compile_scene(scene)), search_(LinkedCells(model_)) {}
   explicit Solids(CsgNode node) : Solids(scene_of({std::move(node)})) {}
   Solids(const Solids&) = delete;
   Solids& operator=(const Solids&) = delete;
 
   const Model& model() const { return model_; }
   std::optional<Crossing> first(const Ray& ray, double t0 = 0) {
-    mailbox_.begin_ray();
-    return first_crossing(bsp_, ray, t0, kInf, mailbox_);
+    return search_.first_crossing(ray, t0, kInf, mailbox_);
   }
   /// All crossings with t ≥ t0, one after another.
   std::vector<WholeCrossing> all(const Ray& ray, double t0 = 0) {
@@ -39,7 +39,7 @@ class Solids {
 
  private:
   Model model_;
-  Bsp bsp_;
+  WalkingSearch<LinkedCells> search_;
   Mailbox mailbox_;
 };
 

@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kSize = "96x64";
 /// For pictures whose pixels take many rays.
 constexpr const char* kSmallSize = "64x48";
+constexpr const char* kSubdivisions[] = {"surfaces", "roth",   "linked",
+                                         "arnaldi",  "octree", "kaplan"};
 
 /// The bytes of the EXR that a render of the scene writes.
 std::string picture(Sandbox& sandbox, const std::string& scene, const char* size,
@@ -97,6 +99,22 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
       "{\"scene\":\"mirrors.json\",\"nodes\":2,\"rows\":[{\"name\":\"serial\""));
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("compare --report renders a scene with every subdivision and distribution") {
+  Sandbox sandbox;
+  const Outcome o = sandbox.run({"compare", scene_file("first.json").string(), "-n", "4", "--size",
+                                 kSmallSize, "--report", "-q"});
+  INFO(o.out << o.err);
+  REQUIRE(o.status == 0);
+  for (const char* distribution : {"serial, ", "roth, ", "macro, forward, ", "macro, "}) {
+    for (const char* subdivision : kSubdivisions) {
+      CHECK(o.out.find(std::string(distribution) + subdivision + " ") != std::string::npos);
+    }
+  }
+  CHECK(o.out.find("TESTS/RAY") != std::string::npos);
+  CHECK(lines_of(o.out).size() == 2 + 4 * std::size(kSubdivisions));
+  CHECK(o.out.find("DIFFERENT") == std::string::npos);
 }
 
 TEST_CASE("a deadlock's report, row and bars show what the nodes did until then") {
@@ -191,6 +209,35 @@ TEST_CASE("simulate forwards the very rays of a real render, and finds the same 
   CHECK(table.status == 0);
   CHECK(table.out.starts_with("NODES  TIME s"));
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a picture does not show which subdivision found its crossings, statistics do") {
+  const Arguments algorithms[] = {{"--algorithm", "serial"},
+                                  {"--algorithm", "roth", "-n", "4"},
+                                  {"--algorithm", "macro", "-n", "8"}};
+  for (const char* scene :
+       {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json"}) {
+    std::vector<Arguments> ways;
+    for (const Arguments& algorithm : algorithms) {
+      for (const char* subdivision : kSubdivisions) {
+        ways.push_back(algorithm);
+        ways.back().insert(ways.back().end(), {"--subdivision", subdivision});
+      }
+    }
+    check_ways(scene, ways, kSmallSize, {});
+  }
+  Sandbox sandbox;
+  for (const Arguments& algorithm : algorithms) {
+    for (const char* subdivision : kSubdivisions) {
+      Arguments options = algorithm;
+      options.insert(options.end(), {"--subdivision", subdivision, "--stats", "stats.json"});
+      picture(sandbox, "mirrors.json", kSmallSize, options);
+      const auto found = sandbox.json("stats.json")["subdivision"];
+      INFO(algorithm[1] << ' ' << subdivision);
+      CHECK(found["way"] == subdivision);
+      CHECK(found["primitives_tested"] > 1000);
+    }
+  }
 }
 
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }

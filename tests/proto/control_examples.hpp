@@ -31,6 +31,17 @@ inline control::NodeStats example_stats() {
   s.malformed_drops = 1;
   s.outbox_peak = 12345;
   s.memory_bytes = 1ull << 33;
+  s.cells = 70000;
+  s.cells_visited = 1ull << 34;
+  s.primitives_tested = 1ull << 35;
+  s.tests_saved = 11;
+  s.boxes_tested = 12;
+  s.boxes_rejected = 13;
+  s.spheres_tested = 14;
+  s.spheres_rejected = 15;
+  s.nodes_descended = 16;
+  s.entry_links = 17;
+  s.rays_not_shot = 18;
   s.models_borrowed = 3;
   s.endgame_s = 0.125;
   return s;
@@ -53,6 +64,7 @@ inline control::JobOptions example_options() {
   o.max_depth = 0;
   o.aov = "depth,object";
   o.sums = SumsMode::kTree;
+  o.subdivision = {Subdivision::kArnaldi, Entry::kDescent};
   return o;
 }
 
@@ -114,7 +126,8 @@ inline std::vector<ControlMessage> example_messages() {
            1 << 28,
            true,
            true,
-           SumsMode::kTree},
+           SumsMode::kTree,
+           {Subdivision::kOctree, Entry::kExtremal}},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       Relieved{9, 1, 12},

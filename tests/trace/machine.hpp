@@ -42,8 +42,7 @@ struct Harvest {
   }
 };
 
-inline Harvest trace_whole(const Model& model,
-                           Subdivision subdivision = Subdivision::kSurfaceTree) {
+inline Harvest trace_whole(const Model& model, const SubdivisionChoice& subdivision = {}) {
   const ImageSize& image = model.settings.image;
   Harvest harvest(image);
   const Domain domain(model, subdivision);
@@ -59,12 +58,11 @@ inline Harvest trace_whole(const Model& model,
 class Machine {
  public:
   /// A node for each region.
-  Machine(const Model& model, const MacroGrid& grid,
-          Subdivision subdivision = Subdivision::kSurfaceTree)
+  Machine(const Model& model, const MacroGrid& grid, const SubdivisionChoice& subdivision = {})
       : Machine(model, grid, grid.columns(), grid.rows(), subdivision) {}
   /// Columns × rows of nodes, regions scattered over them.
   Machine(const Model& model, const MacroGrid& grid, std::uint32_t columns, std::uint32_t rows,
-          Subdivision subdivision = Subdivision::kSurfaceTree,
+          const SubdivisionChoice& subdivision = {},
           std::shared_ptr<const LightHorizons> horizons = nullptr)
       : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
     for (std::uint32_t row = 0; row < rows; ++row) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "subdivisions/searches.hpp"
 #include "trace/machine.hpp"
 #include "trace/render_serial.hpp"
 #include "visibility/light_depths.hpp"
@@ -80,10 +81,10 @@ TEST_CASE(
     const Harvest forward = Machine(model, grid, columns, rows).trace(dice);
     check_equal(whole, forward, model.settings.image);
     const Harvest horizon =
-        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, horizons).trace(dice);
+        Machine(model, grid, columns, rows, {Subdivision::kSurfaces}, horizons).trace(dice);
     check_equal(whole, horizon, model.settings.image);
     const Harvest deep =
-        Machine(model, grid, columns, rows, Subdivision::kSurfaceTree, depths).trace(dice);
+        Machine(model, grid, columns, rows, {Subdivision::kSurfaces}, depths).trace(dice);
     check_equal(whole, deep, model.settings.image);
     without += forward.handed_over;
     with += horizon.handed_over;
@@ -160,17 +161,18 @@ TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {
   CHECK(lacking > 1000);
 }
 
-TEST_CASE("both subdivisions give the same picture, of the whole and of macro-regions") {
-  for (std::uint64_t seed = 1000; seed < 1080; ++seed) {
-    INFO("seed " << seed);
+TEST_CASE("every subdivision gives the same picture, of the whole and of macro-regions") {
+  for (std::uint64_t seed = 1000; seed < 1040; ++seed) {
     const Model model = compile_scene(RandomModel(seed).scene());
     const Harvest whole = trace_whole(model);
-    check_equal(whole, trace_whole(model, Subdivision::kLinkedCells), model.settings.image);
     const MacroGrid grid =
         MacroGrid::regular(CameraFrame::from(model.settings.camera, model.settings.image), 4, 2);
-    Dice dice(seed);
-    check_equal(whole, Machine(model, grid, Subdivision::kLinkedCells).trace(dice),
-                model.settings.image);
+    for (const NamedChoice& way : kAllSearches) {
+      INFO("seed " << seed << ", " << way.name);
+      check_equal(whole, trace_whole(model, way.choice), model.settings.image);
+      Dice dice(seed);
+      check_equal(whole, Machine(model, grid, way.choice).trace(dice), model.settings.image);
+    }
   }
 }
 

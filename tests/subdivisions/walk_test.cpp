@@ -1,12 +1,13 @@
 // The walk through the leaf regions against the whole trees: bit for bit.
-#include "crossings/walk.hpp"
+#include "subdivisions/linked_walk.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "against_whole_trees.hpp"
 #include "catch.hpp"
+#include "crossings/against_whole_trees.hpp"
+#include "subdivisions/linked_cells.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -14,17 +15,16 @@ using namespace graycube::testing;
 namespace {
 
 /// All crossings that the walk meets, region by region.
-std::vector<WholeCrossing> walked(const Bsp& bsp, const RayCase& c, Mailbox& mailbox) {
+std::vector<WholeCrossing> walked(const LinkedCells& cells, const RayCase& c, Mailbox& mailbox) {
   std::vector<WholeCrossing> all;
   mailbox.begin_ray();
-  walk(bsp, c.ray, c.t0, c.t1, mailbox, [&](const BspLeaf& leaf, double from, double to) {
+  cells.walk(c.ray, c.t0, c.t1, mailbox, [&](const CellPiece& piece, double from, double to) {
     const std::size_t first = all.size();
-    for (std::uint32_t i = 0; i < leaf.program_count; ++i) {
-      for_each_crossing(bsp, bsp.programs()[leaf.first_program + i], c.ray, from, to, mailbox,
-                        [&](const Crossing& x) {
-                          all.push_back(plain(x));
-                          return true;
-                        });
+    for (std::uint32_t i = 0; i < piece.count(); ++i) {
+      piece.for_each_crossing(i, from, to, [&](const Crossing& x) {
+        all.push_back(plain(x));
+        return true;
+      });
     }
     std::stable_sort(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
                      [](const auto& a, const auto& b) { return a.t < b.t; });
@@ -41,33 +41,29 @@ const std::vector<BspOptions> kOptions{{},
 }  // namespace
 
 TEST_CASE("the walk gives bit for bit the crossings of the whole trees") {
-  std::vector<Bsp> bsps;
+  std::vector<WalkingSearch<LinkedCells>> searches;
   Mailbox mailbox;
   const auto prepare = [&](const Model& model) {
-    bsps.clear();
+    searches.clear();
     std::vector<SplitPlane> planes;
     for (const BspOptions& o : kOptions) {
-      bsps.push_back(Bsp::build(model, o));
-      add_planes(bsps.back(), planes);
+      searches.emplace_back(LinkedCells(model, Entry::kDescent, o));
+      add_planes(searches.back().cells().bsp(), planes);
     }
     return planes;
   };
   compare_families(1000, prepare, [&](const Model& model, const RayCase& c, const auto& expected) {
-    return std::all_of(bsps.begin(), bsps.end(), [&](const Bsp& bsp) {
-      const auto all = walked(bsp, c, mailbox);
+    return std::all_of(searches.begin(), searches.end(), [&](const auto& search) {
+      const auto all = walked(search.cells(), c, mailbox);
       if (all != expected) {
         UNSCOPED_INFO("crossings expected:" << describe(expected) << "\nwalked:" << describe(all));
         return false;
       }
       return agrees(
           model, c, expected,
-          [&](double t0, double t1) {
-            mailbox.begin_ray();
-            return first_crossing(bsp, c.ray, t0, t1, mailbox);
-          },
+          [&](double t0, double t1) { return search.first_crossing(c.ray, t0, t1, mailbox); },
           [&](double t0, double t1, Rgb& light) {
-            mailbox.begin_ray();
-            return pass_light(bsp, c.ray, t0, t1, mailbox, light);
+            return search.pass_light(c.ray, t0, t1, mailbox, light);
           });
     });
   });
@@ -99,7 +95,8 @@ TEST_CASE(
     const Scene scene = scene_with(lo);
     const Model model = compile_scene(scene);
     const WholeTrees trees(model, scene);
-    const Bsp bsp = Bsp::build(model);
+    const LinkedCells cells(model);
+    const Bsp& bsp = cells.bsp();
     const bool has_plane = std::any_of(
         bsp.nodes().begin(), bsp.nodes().end(),
         [&](const BspNode& n) { return n.axis == 0 && std::fabs(n.split - plane) < 4 * bit; });
@@ -123,7 +120,7 @@ TEST_CASE(
       const RayCase c{"almost in the plane", {o, d}};
       const auto expected = trees.crossings_between(c.ray, c.t0, c.t1);
       crossed += expected.empty() ? 0 : 1;
-      if (walked(bsp, c, mailbox) != expected) FAIL(describe(seed, c));
+      if (walked(cells, c, mailbox) != expected) FAIL(describe(seed, c));
     }
   }
   CHECK(scenes > 20);
