@@ -132,7 +132,10 @@ std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& argument
     if (convex.problem.empty() && convex.planes.size() <= kMaxPolyhedronFaces)
       return solid_of(std::move(convex), mesh);
   }
-  auto closed = closed_mesh(polygons_of(mesh), kOpenscadGrid);
+  PolygonMesh polygons = polygons_of(mesh);
+  // Its faces turn clockwise as seen from outside.
+  polygons.side = FaceSide::kInner;
+  auto closed = closed_mesh(polygons, kOpenscadGrid);
   if (const auto* fault = std::get_if<MeshFault>(&closed)) {
     arguments.leave_out("not closed", "its faces enclose no solid: " + fault->why);
     return std::nullopt;
