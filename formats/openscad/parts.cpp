@@ -162,10 +162,9 @@ class Importer {
   }
 
   void add_colored(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    const std::optional<ScadColor> color = openscad_color(module, report_);
-    if (!color) return;
+    const ScadColor color = openscad_color(module, report_);
     Surroundings inner = around;
-    if (!around.color.is_valid() && !around.is_one_solid) inner.color = *color;
+    if (!around.color.is_valid() && !around.is_one_solid) inner.color = color;
     add_all(module.children, inner, parts);
   }
 
@@ -236,8 +235,7 @@ class Importer {
       children.push_back(std::move(part.node));
     }
     if (result.levels > kMaxPartLevels) {
-      report_.error(module.line,
-                    "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      leave_out_deep(module);
       return;
     }
     result.node = operation(kind, std::move(children));
@@ -302,7 +300,7 @@ class Importer {
     if (mesh.faces.empty()) {
       const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
       if (std::any_of(corners.begin(), corners.end(), is_far)) {
-        return report_.error(module.line, "hull() reaches beyond the largest coordinate, 1e30");
+        return leave_out_far(module);
       }
       return report_.warning(module.line, "hull() is left out: its corners lie in a plane");
     }
@@ -335,8 +333,7 @@ class Importer {
     }
     const Aabb box = reach.box();
     if (!(std::max(max_abs(box.lo), max_abs(box.hi)) <= kMaxOpenscadCoordinate)) {
-      report_.error(module.line, module.name + "() reaches beyond the largest coordinate, 1e30");
-      return;
+      return leave_out_far(module);
     }
     const Vec3 extent = box.hi - box.lo;
     if (std::min(extent.x, std::min(extent.y, extent.z)) < 1 / kMaxOpenscadCoordinate) {
@@ -345,12 +342,23 @@ class Importer {
     }
     const std::uint32_t levels = levels_of(solid);
     if (levels > kMaxPartLevels) {
-      return report_.error(module.line,
-                           "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      return leave_out_deep(module);
     }
     solid = placed(std::move(solid), around.to_rest);
     solid.material = palette_.index_of(around.color, around.face);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
+  }
+
+  void leave_out(const ScadModule& module, const std::string& why) {
+    report_.leave_out(module.name + "() " + why, module.line,
+                      module.name + "() is left out: " + why);
+  }
+  void leave_out_far(const ScadModule& module) {
+    leave_out(module, "it reaches beyond the largest coordinate, 1e30");
+  }
+  void leave_out_deep(const ScadModule& module) {
+    leave_out(module,
+              "it has more than " + std::to_string(kMaxPartLevels) + " levels of operations");
   }
 
   static constexpr std::size_t kMaxQuotedName = 40;

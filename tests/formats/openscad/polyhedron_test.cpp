@@ -130,11 +130,11 @@ TEST_CASE("repeated and strange corners, faces of two and points of two numbers 
   CHECK(warnings_of(strange) ==
         std::vector<std::string>{
             "line 1: polyhedron(): face 0 names a point that isn't there, which is ignored"});
-  for (const char* faces : {"3", "[0, 1, \"2\"]", "[0, 1, [2]]"}) {
+  for (const char* faces : {"[0, 1, \"2\"]", "[0, 1, [2]]"}) {
     CHECK(is_left_out(with_faces(faces)));
     CHECK(errors_of("cube(1);\n" + with_faces(faces)).empty());
   }
-  CHECK(is_left_out("polyhedron(points = [[0, 0, \"a\"]], faces = []);"));
+  CHECK(is_left_out("polyhedron(points = [[0, 0, \"a\"]], faces = [[0, 0, 0]]);"));
 }
 
 TEST_CASE("of a matrix's fourth row only the last entry counts") {
