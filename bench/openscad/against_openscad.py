@@ -57,6 +57,12 @@ def exported(model, stl, seconds):
     return status == 0 and stl.exists() and stl.stat().st_size > STL_BYTES_WITHOUT_FACETS, text
 
 
+def why_nothing(said):
+    """What OpenSCAD says of a model that it doesn't export."""
+    telling = [line for line in said.splitlines() if "ERROR" in line or "top level object" in line]
+    return "OpenSCAD: " + (telling[0] if telling else "not in time")
+
+
 def extruded(model, work, seconds):
     """A model of the flat model, one unit thick; None where OpenSCAD doesn't read it."""
     tree = work / "flat.csg"
@@ -135,7 +141,7 @@ def outcome_of(model, arguments):
         if status not in (0, 2, None):
             return "failed", f"{took}; status {status}: {trouble}"
         if not is_exported:
-            return "nothing", f"{took}; {trouble}"
+            return "nothing", f"{took}; {trouble or why_nothing(said)}"
         if status is None:
             return "slow", took
         if status == 2:
@@ -152,7 +158,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=150, help="that Graycube may take for a model")
     parser.add_argument("--openscad-seconds", type=float, default=300)
     parser.add_argument("--grid", type=int, default=200, help="rays along a side, for each axis")
-    parser.add_argument("--every", type=int, default=1, help="only every so manieth model")
+    parser.add_argument("--every", type=int, default=1, help="only one model in so many")
     parser.add_argument("--jobs", type=int, default=1)
     arguments = parser.parse_args()
     arguments.bin = arguments.bin.resolve()

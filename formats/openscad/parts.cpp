@@ -16,6 +16,7 @@
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/program/by_program.hpp"
 #include "formats/openscad/rounds.hpp"
+#include "formats/openscad/surroundings.hpp"
 #include "formats/openscad/sweep.hpp"
 #include "formats/view/palette.hpp"
 #include "scene/limits.hpp"
@@ -34,19 +35,6 @@ Affine lifted(const FlatMap& map) {
   const auto& m = map.m;
   return {{{{m[0][0], m[0][1], 0, m[0][2]}, {m[1][0], m[1][1], 0, m[1][2]}, {0, 0, 1, 0}}}};
 }
-
-struct Surroundings {
-  Affine to_world;
-  /// What of it isn't around all parts.
-  Affine to_rest;
-  ScadColor color;
-  /// What tools cut is green where no colour says otherwise; what is cut from a tool isn't.
-  ScadFace face = ScadFace::kOuter;
-  /// Within a render() all is one solid, in the colour around it.
-  bool is_one_solid = false;
-  /// Nothing of the file stands beside what is in here.
-  bool is_around_all = false;
-};
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   return {OperationNode{kind, std::move(children)}, std::nullopt, kInheritMaterial};
@@ -88,7 +76,7 @@ class Importer {
 
  private:
   void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    if (module.left_out) return;
+    if (module.left_out || solid_count_ > kMaxOpenscadSolids) return;
     const std::string& name = module.name;
     if (around.is_around_all && !is_gathering(name)) {
       Surroundings inner = around;
@@ -168,12 +156,6 @@ class Importer {
     add_all(module.children, inner, parts);
   }
 
-  static Surroundings as_tool(Surroundings around) {
-    if (!around.is_one_solid)
-      around.face = around.face == ScadFace::kOuter ? ScadFace::kCut : ScadFace::kOuter;
-    return around;
-  }
-
   /// Operands are gathered at the end of `parts`. If the difference subtracts nothing, its operands
   /// are in place there already: dissolving it costs nothing, however deep such operations nest.
   void add_difference(const ScadModule& module, const Surroundings& around,
@@ -183,7 +165,7 @@ class Importer {
     bool is_first = true;
     for (const ScadModule& child : module.children) {
       if (child.left_out || !fits(child, 3)) continue;
-      add(child, is_first ? around : as_tool(around), parts);
+      add(child, is_first ? around : around.of_tool(), parts);
       if (std::exchange(is_first, false)) rest = parts.size();
     }
     if (rest == first) taken_from(parts, first);
@@ -340,6 +322,7 @@ class Importer {
       report_.warning(module.line, module.name + "() is left out: it is too thin to be seen");
       return;
     }
+    if (!counts(module)) return;
     const std::uint32_t levels = levels_of(solid);
     if (levels > kMaxPartLevels) {
       return leave_out_deep(module);
@@ -347,6 +330,16 @@ class Importer {
     solid = placed(std::move(solid), around.to_rest);
     solid.material = palette_.index_of(around.color, around.face);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
+  }
+
+  /// Whether the model may have one more solid; the first one too many is an error.
+  bool counts(const ScadModule& module) {
+    if (++solid_count_ <= kMaxOpenscadSolids) return true;
+    if (solid_count_ == kMaxOpenscadSolids + 1) {
+      report_.error(module.line,
+                    "more than " + std::to_string(kMaxOpenscadSolids) + " solids in a model");
+    }
+    return false;
   }
 
   void leave_out(const ScadModule& module, const std::string& why) {
@@ -369,6 +362,7 @@ class Importer {
   const ExactForms& forms_;
   const FacetedRounds& faceted_;
   bool keeps_apart_;
+  std::size_t solid_count_ = 0;
   Palette palette_;
   std::optional<Affine> around_all_;
 };

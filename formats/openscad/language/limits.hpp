@@ -9,6 +9,8 @@ namespace graycube {
 /// Limits of one file. Past them there is an error naming the line, before memory is taken.
 inline constexpr std::size_t kMaxOpenscadBytes = std::size_t{64} << 20;
 inline constexpr std::size_t kMaxOpenscadModules = std::size_t{1} << 20;
+/// Solids of a model, each primitive and each extrusion or hull that `for` makes: 2.4 kB each.
+inline constexpr std::size_t kMaxOpenscadSolids = std::size_t{1} << 19;
 /// Numbers, strings and lists in all arguments of the file: 40 bytes each.
 inline constexpr std::size_t kMaxOpenscadValues = std::size_t{1} << 23;
 /// Levels of modules inside modules, and of lists inside lists.

@@ -227,6 +227,13 @@ TEST_CASE("operations may nest as deep as the renderer's trees, and no deeper") 
             "line 1: difference() is left out: it has more than 255 levels of operations"});
 }
 
+TEST_CASE("more solids than a model may have are an error that names the limit") {
+  std::string text;
+  for (std::size_t i = 0; i < kMaxOpenscadSolids; ++i) text += "cube();";
+  text += "\ncube();\ncube();";
+  CHECK(errors_of(text) == std::vector<std::string>{"2: more than 524288 solids in a model"});
+}
+
 TEST_CASE("an empty file is an empty scene with a warning") {
   for (const char* text : {"", "\n", "// nothing", ";;", "group();"}) {
     CHECK(is_empty(text));
