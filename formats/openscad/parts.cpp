@@ -27,8 +27,8 @@ namespace {
 /// The most levels of a part: its object may have one more, a union around all parts.
 constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
 
-/// Half the thickness of a flat shape.
-constexpr double kHalfSlab = 0.5;
+/// Half the thickness of a flat shape, and what that of its tools has more.
+constexpr double kHalfSlab = 0.5, kToolSlab = 0.25;
 
 /// A map of the plane that leaves heights alone.
 Affine lifted(const FlatMap& map) {
@@ -86,7 +86,7 @@ class Importer {
     // No shape is in it, unless there is a module that isn't known.
     if (is_empty_without_shapes(name) && module.dimension == 0)
       return add_all(module.children, around, parts);
-    if (module.dimension == 2 && !is_gathering(name)) {
+    if (module.dimension == 2 && !is_gathering(name) && !is_colored_operation(module)) {
       add_slab(module, around, parts);
     } else if (name == "group" || name == "union") {
       add_all(module.children, around, parts);
@@ -164,7 +164,7 @@ class Importer {
     std::size_t rest = first;
     bool is_first = true;
     for (const ScadModule& child : module.children) {
-      if (child.left_out || !fits(child, 3)) continue;
+      if (child.left_out || !fits(child, module.dimension)) continue;
       add(child, is_first ? around : around.of_tool(), parts);
       if (std::exchange(is_first, false)) rest = parts.size();
     }
@@ -190,7 +190,7 @@ class Importer {
       if (child.left_out) continue;
       const std::size_t first = parts.size();
       // What doesn't fit is nothing, and so is what it is intersected with.
-      if (fits(child, 3)) add(child, around, parts);
+      if (fits(child, module.dimension)) add(child, around, parts);
       if (parts.size() == first) {
         has_empty = true;
       } else {
@@ -253,7 +253,8 @@ class Importer {
     auto shape = flat_shape(module, {}, import_);
     if (!shape) return;
     shape = faceted_.with_facets(*std::move(shape), around.to_world, import_, module.line);
-    auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
+    const double half = kHalfSlab + kToolSlab * around.cuts;
+    auto solid = extruded(*shape, -half, half, import_, module.line);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 

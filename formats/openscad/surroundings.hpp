@@ -18,9 +18,13 @@ struct Surroundings {
   /// Nothing of the file stands beside what is in here.
   bool is_around_all = false;
 
+  /// How many differences subtract it: flat tools are thicker than what they cut.
+  int cuts = 0;
+
   /// Those of what is subtracted from the solid here.
   Surroundings of_tool() const {
     Surroundings inner = *this;
+    ++inner.cuts;
     if (!is_one_solid) inner.face = face == ScadFace::kOuter ? ScadFace::kCut : ScadFace::kOuter;
     return inner;
   }
