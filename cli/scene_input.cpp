@@ -280,7 +280,7 @@ std::string brlcad_tops_text(const fs::path& path) {
   std::string text;
   for (const BrlcadTop& top : read.tops) {
     text += top.name + ": " + std::to_string(top.primitives) +
-            (top.primitives == 1 ? " primitive\n" : " primitives\n");
+            (top.primitives == 1 ? " solid\n" : " solids\n");
   }
   return text;
 }

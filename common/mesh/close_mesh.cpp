@@ -175,7 +175,7 @@ TriangleMesh welded_and_cut(const PolygonMesh& polygons) {
       if (face.empty() || face.back() != corners[i]) face.push_back(corners[i]);
     }
     while (face.size() > 1 && face.back() == face.front()) face.pop_back();
-    if (face.size() >= 3) cut_face(mesh.points, face, mesh.triangles);
+    if (face.size() >= 3) cut_face(mesh.points, face, polygons.side, mesh.triangles);
     begin = end;
   }
   return mesh;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "mesh/cut_face.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 namespace graycube {
@@ -20,6 +21,8 @@ struct PolygonMesh {
   std::vector<std::uint32_t> face_ends;
   /// Significant decimal digits that the points were written with; 0: all that a double has.
   std::uint32_t digits = 0;
+  /// Where the faces are bent, the surface may depend on it (mesh/cut_face.hpp).
+  FaceSide side = FaceSide::kOuter;
 
   void add_face(std::span<const std::uint32_t> face) {
     corners.insert(corners.end(), face.begin(), face.end());

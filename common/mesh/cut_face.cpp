@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "mesh/delaunay_flips.hpp"
+#include "mesh/monotone_cut.hpp"
 
 namespace graycube {
 namespace {
@@ -31,13 +33,18 @@ Vec3 newell_normal(std::span<const Vec3> points, std::span<const std::uint32_t> 
   return normal;
 }
 
+int longest_axis(const Vec3& v) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (std::fabs(v[a]) > std::fabs(v[axis])) axis = a;
+  }
+  return axis;
+}
+
 /// The face's corners, seen along an axis from the side from which it turns counterclockwise.
 std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face,
                             const Vec3& normal) {
-  int axis = 0;
-  for (int a = 1; a < 3; ++a) {
-    if (std::fabs(normal[a]) > std::fabs(normal[axis])) axis = a;
-  }
+  const int axis = longest_axis(normal);
   const bool is_above = normal[axis] >= 0;
   const int u = (axis + (is_above ? 1 : 2)) % 3, v = (axis + (is_above ? 2 : 1)) % 3;
   std::vector<Flat> flat;
@@ -64,16 +71,17 @@ bool is_bent(std::span<const Vec3> points, std::span<const std::uint32_t> face,
 }
 
 /// The direction along which OpenSCAD looks at a bent face to cut it: across the longest of the
-/// face's three extents and the corner that is furthest from it.
-Vec3 widest_normal(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
+/// face's three extents and the corner that is furthest from it. Of equal ones the last counts, as
+/// libtess2 has its corners in that order.
+Vec3 widest_normal(std::span<const Vec3> corners) {
   std::array<Vec3, 3> low, high;
-  low.fill(points[face.front()]);
+  low.fill(corners.back());
   high = low;
-  for (const std::uint32_t i : face) {
+  for (auto p = corners.rbegin(); p != corners.rend(); ++p) {
     for (int a = 0; a < 3; ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (points[i][a] < low[k][a]) low[k] = points[i];
-      if (points[i][a] > high[k][a]) high[k] = points[i];
+      if ((*p)[a] < low[k][a]) low[k] = *p;
+      if ((*p)[a] > high[k][a]) high[k] = *p;
     }
   }
   std::size_t longest = 0;
@@ -86,21 +94,35 @@ Vec3 widest_normal(std::span<const Vec3> points, std::span<const std::uint32_t> 
   }
   Vec3 widest;
   const Vec3 line = low[longest] - high[longest];
-  for (const std::uint32_t i : face) {
-    const Vec3 normal = cross(line, points[i] - high[longest]);
+  for (auto p = corners.rbegin(); p != corners.rend(); ++p) {
+    const Vec3 normal = cross(line, *p - high[longest]);
     if (dot(normal, normal) > dot(widest, widest)) widest = normal;
   }
   return widest;
 }
 
-/// The same as flattened(), for a bent face.
+/// The corner with single precision, in which OpenSCAD cuts faces, unless it is out of its range.
+Vec3 rounded(Vec3 p) {
+  for (int a = 0; a < 3; ++a) {
+    const auto single = static_cast<float>(p[a]);
+    if (std::isfinite(single)) p[a] = single;
+  }
+  return p;
+}
+
+/// A bent face's corners along the two axes across the longest one of its normal, in their order;
+/// turned over, if need be, so that it turns counterclockwise.
 std::vector<Flat> flattened_bent(std::span<const Vec3> points,
                                  std::span<const std::uint32_t> face) {
-  std::vector<Flat> flat = flattened(points, face, widest_normal(points, face));
+  std::vector<Vec3> corners;
+  for (const std::uint32_t i : face) corners.push_back(rounded(points[i]));
+  const int axis = longest_axis(widest_normal(corners));
+  std::vector<Flat> flat;
+  for (const Vec3& p : corners) flat.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
   double area = 0;
   for (std::size_t i = 2; i < flat.size(); ++i) area += turn(flat[0], flat[i - 1], flat[i]);
   if (area < 0) {
-    for (Flat& p : flat) p.x = -p.x;
+    for (Flat& p : flat) p.y = -p.y;
   }
   return flat;
 }
@@ -170,12 +192,15 @@ class EarCutter {
 };
 
 /// What the surface is depends on where a bent face is cut.
-void cut_bent(std::span<const std::uint32_t> face, const std::vector<Flat>& flat,
+void cut_bent(std::span<const Vec3> points, std::span<const std::uint32_t> face,
               std::vector<Triangle>& triangles) {
+  const std::vector<Flat> flat = flattened_bent(points, face);
   const std::size_t first = triangles.size();
-  EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    triangles.push_back({a, b, c});
-  });
+  if (!cut_monotone(flat, triangles)) {
+    EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      triangles.push_back({a, b, c});
+    });
+  }
   const std::span<Triangle> own = std::span(triangles).subspan(first);
   flip_to_delaunay(flat, own);
   for (Triangle& t : own) {
@@ -185,14 +210,21 @@ void cut_bent(std::span<const std::uint32_t> face, const std::vector<Flat>& flat
 
 }  // namespace
 
-void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
+void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face, FaceSide side,
               std::vector<Triangle>& triangles) {
   if (face.size() == 3) {
     triangles.push_back({face[0], face[1], face[2]});
     return;
   }
   const Vec3 normal = newell_normal(points, face);
-  if (is_bent(points, face, normal)) return cut_bent(face, flattened_bent(points, face), triangles);
+  if (is_bent(points, face, normal)) {
+    if (side == FaceSide::kOuter) return cut_bent(points, face, triangles);
+    const std::size_t first = triangles.size();
+    cut_bent(points, std::vector<std::uint32_t>(face.rbegin(), face.rend()), triangles);
+    for (std::size_t i = first; i < triangles.size(); ++i)
+      std::swap(triangles[i][1], triangles[i][2]);
+    return;
+  }
   const std::vector<Flat> flat = flattened(points, face, normal);
   if (is_convex(flat)) {
     for (std::size_t i = 2; i < face.size(); ++i)

@@ -8,22 +8,26 @@
 namespace graycube {
 namespace {
 
-/// The part of its terms' sum below which a determinant may be rounding.
-constexpr double kRounding = 1e-12;
+/// The cosine and sine of the angle, 0.01, by which the two angles that face a side may be more
+/// than 180° together: libtess2, by which OpenSCAD cuts faces, lets the side stay as long (geom.c).
+constexpr double kCosine = 0.99995000041666528, kSine = 0.0099998333341666646;
 
 double turn(const FacePoint& a, const FacePoint& b, const FacePoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Whether d lies within the circle through a, b, c, by more than rounding.
+/// The cosine and sine, times some length, of the angle at p between a and b.
+FacePoint angle_at(const FacePoint& p, const FacePoint& a, const FacePoint& b) {
+  return {(a.x - p.x) * (b.x - p.x) + (a.y - p.y) * (b.y - p.y), std::fabs(turn(p, a, b))};
+}
+
+/// Whether d lies within the circle through a, b, c, clearly: the angles at c and d over the side
+/// from a to b are then more than 180° together.
 bool is_in_circle(const FacePoint& a, const FacePoint& b, const FacePoint& c, const FacePoint& d) {
-  const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y;
-  const double cx = c.x - d.x, cy = c.y - d.y;
-  const double terms[3] = {(ax * ax + ay * ay) * (bx * cy - by * cx),
-                           (bx * bx + by * by) * (cx * ay - cy * ax),
-                           (cx * cx + cy * cy) * (ax * by - ay * bx)};
-  const double size = std::fabs(terms[0]) + std::fabs(terms[1]) + std::fabs(terms[2]);
-  return terms[0] + terms[1] + terms[2] > kRounding * size;
+  const FacePoint g = angle_at(c, a, b), h = angle_at(d, a, b);
+  if (g.x >= 0 && h.x >= 0) return false;
+  const FacePoint both{g.x * h.x - g.y * h.y, g.x * h.y + g.y * h.x};
+  return both.y * kCosine - both.x * kSine <= 0;
 }
 
 class Flips {

@@ -16,7 +16,7 @@ struct FacePoint {
 
 /// Flips diagonals until the circle through each triangle holds no corner beyond its sides (Lawson
 /// 1977). `triangles` hold indices of `corners`, counter-clockwise, and cut a polygon with these
-/// corners and no others. Of four corners on a circle, to within rounding, the diagonal stays.
+/// corners and no others. Of four corners nearly on a circle the diagonal stays.
 void flip_to_delaunay(std::span<const FacePoint> corners, std::span<Triangle> triangles);
 
 }  // namespace graycube

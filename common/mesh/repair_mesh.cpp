@@ -133,7 +133,7 @@ std::optional<MeshFault> fill_holes(TriangleMesh& mesh, double tolerance, MeshRe
       left.push_back(&hole);
       continue;
     }
-    cut_face(mesh.points, hole, mesh.triangles);
+    cut_face(mesh.points, hole, FaceSide::kOuter, mesh.triangles);
     ++repairs.filled_holes;
     repairs.most_filled_edges = std::max(repairs.most_filled_edges, hole.size());
   }

@@ -138,8 +138,8 @@ std::optional<ScadSolid> solid_hull(const ScadModule& module, const std::vector<
   if (mesh.faces.empty()) {
     const auto is_far = [](const Vec3& p) { return !(max_abs(p) <= kMaxOpenscadCoordinate); };
     if (std::any_of(corners.begin(), corners.end(), is_far)) {
-      import.report.error(module.line,
-                          module.name + "() reaches beyond the largest coordinate, 1e30");
+      import.report.leave_out(module.name + "() " + kBeyondReach, module.line,
+                              module.name + "() is left out: " + kBeyondReach);
     } else {
       import.report.warning(module.line,
                             module.name + "() is left out: its corners lie in a plane");

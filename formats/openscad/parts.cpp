@@ -15,6 +15,7 @@
 #include "formats/openscad/primitives.hpp"
 #include "formats/openscad/program/by_program.hpp"
 #include "formats/openscad/rounds.hpp"
+#include "formats/openscad/surroundings.hpp"
 #include "formats/openscad/sweep.hpp"
 #include "formats/view/palette.hpp"
 #include "scene/limits.hpp"
@@ -25,27 +26,14 @@ namespace {
 /// The most levels of a part: its object may have one more, a union around all parts.
 constexpr std::uint32_t kMaxPartLevels = kMaxTreeDepth - 1;
 
-/// Half the thickness of a flat shape.
-constexpr double kHalfSlab = 0.5;
+/// Half the thickness of a flat shape, and what that of its tools has more.
+constexpr double kHalfSlab = 0.5, kToolSlab = 0.25;
 
 /// A map of the plane that leaves heights alone.
 Affine lifted(const FlatMap& map) {
   const auto& m = map.m;
   return {{{{m[0][0], m[0][1], 0, m[0][2]}, {m[1][0], m[1][1], 0, m[1][2]}, {0, 0, 1, 0}}}};
 }
-
-struct Surroundings {
-  Affine to_world;
-  /// What of it isn't around all parts.
-  Affine to_rest;
-  ScadColor color;
-  /// What tools cut is green where no colour says otherwise; what is cut from a tool isn't.
-  ScadFace face = ScadFace::kOuter;
-  /// Within a render() all is one solid, in the colour around it.
-  bool is_one_solid = false;
-  /// Nothing of the file stands beside what is in here.
-  bool is_around_all = false;
-};
 
 CsgNode operation(Operation kind, std::vector<CsgNode> children) {
   return {OperationNode{kind, std::move(children)}, std::nullopt, kInheritMaterial};
@@ -87,7 +75,7 @@ class Importer {
 
  private:
   void add(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    if (module.left_out) return;
+    if (module.left_out || solid_count_ > kMaxOpenscadSolids) return;
     const std::string& name = module.name;
     if (around.is_around_all && !is_gathering(name)) {
       Surroundings inner = around;
@@ -97,7 +85,7 @@ class Importer {
     // No shape is in it, unless there is a module that isn't known.
     if (is_empty_without_shapes(name) && module.dimension == 0)
       return add_all(module.children, around, parts);
-    if (module.dimension == 2 && !is_gathering(name)) {
+    if (module.dimension == 2 && !is_gathering(name) && !is_colored_operation(module)) {
       add_slab(module, around, parts);
     } else if (name == "group" || name == "union") {
       add_all(module.children, around, parts);
@@ -160,17 +148,10 @@ class Importer {
   }
 
   void add_colored(const ScadModule& module, const Surroundings& around, std::vector<Part>& parts) {
-    const std::optional<ScadColor> color = openscad_color(module, report_);
-    if (!color) return;
+    const ScadColor color = openscad_color(module, report_);
     Surroundings inner = around;
-    if (!around.color.is_valid() && !around.is_one_solid) inner.color = *color;
+    if (!around.color.is_valid() && !around.is_one_solid) inner.color = color;
     add_all(module.children, inner, parts);
-  }
-
-  static Surroundings as_tool(Surroundings around) {
-    if (!around.is_one_solid)
-      around.face = around.face == ScadFace::kOuter ? ScadFace::kCut : ScadFace::kOuter;
-    return around;
   }
 
   /// Operands are gathered at the end of `parts`. If the difference subtracts nothing, its operands
@@ -181,8 +162,8 @@ class Importer {
     std::size_t rest = first;
     bool is_first = true;
     for (const ScadModule& child : module.children) {
-      if (child.left_out || !fits(child, 3)) continue;
-      add(child, is_first ? around : as_tool(around), parts);
+      if (child.left_out || !fits(child, module.dimension)) continue;
+      add(child, is_first ? around : around.of_tool(), parts);
       if (std::exchange(is_first, false)) rest = parts.size();
     }
     if (rest == first) taken_from(parts, first);
@@ -207,7 +188,7 @@ class Importer {
       if (child.left_out) continue;
       const std::size_t first = parts.size();
       // What doesn't fit is nothing, and so is what it is intersected with.
-      if (fits(child, 3)) add(child, around, parts);
+      if (fits(child, module.dimension)) add(child, around, parts);
       if (parts.size() == first) {
         has_empty = true;
       } else {
@@ -234,8 +215,7 @@ class Importer {
       children.push_back(std::move(part.node));
     }
     if (result.levels > kMaxPartLevels) {
-      report_.error(module.line,
-                    "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      leave_out_deep(module);
       return;
     }
     result.node = operation(kind, std::move(children));
@@ -271,7 +251,8 @@ class Importer {
     auto shape = flat_shape(module, {}, import_);
     if (!shape) return;
     shape = faceted_.with_facets(*std::move(shape), around.to_world, import_, module.line);
-    auto solid = extruded(*shape, -kHalfSlab, kHalfSlab, import_, module.line);
+    const double half = kHalfSlab + kToolSlab * around.cuts;
+    auto solid = extruded(*shape, -half, half, import_, module.line);
     if (solid) add_solid(std::move(*solid), {}, module, around, parts);
   }
 
@@ -336,22 +317,41 @@ class Importer {
     }
     const Aabb box = reach.box();
     if (!(std::max(max_abs(box.lo), max_abs(box.hi)) <= kMaxOpenscadCoordinate)) {
-      report_.error(module.line, module.name + "() reaches beyond the largest coordinate, 1e30");
-      return;
+      return leave_out_far(module);
     }
     const Vec3 extent = box.hi - box.lo;
     if (std::min(extent.x, std::min(extent.y, extent.z)) < 1 / kMaxOpenscadCoordinate) {
       report_.warning(module.line, module.name + "() is left out: it is too thin to be seen");
       return;
     }
+    if (!counts(module)) return;
     const std::uint32_t levels = levels_of(solid);
     if (levels > kMaxPartLevels) {
-      return report_.error(module.line,
-                           "more than " + std::to_string(kMaxPartLevels) + " levels of operations");
+      return leave_out_deep(module);
     }
     solid = placed(std::move(solid), around.to_rest);
     solid.material = palette_.index_of(around.color, around.face);
     parts.push_back({std::move(solid), reach, levels, module.line, module.name});
+  }
+
+  /// Whether the model may have one more solid; the first one too many is an error.
+  bool counts(const ScadModule& module) {
+    if (++solid_count_ <= kMaxOpenscadSolids) return true;
+    if (solid_count_ == kMaxOpenscadSolids + 1) {
+      report_.error(module.line,
+                    "more than " + std::to_string(kMaxOpenscadSolids) + " solids in a model");
+    }
+    return false;
+  }
+
+  void leave_out(const ScadModule& module, const std::string& why) {
+    report_.leave_out(module.name + "() " + why, module.line,
+                      module.name + "() is left out: " + why);
+  }
+  void leave_out_far(const ScadModule& module) { leave_out(module, kBeyondReach); }
+  void leave_out_deep(const ScadModule& module) {
+    leave_out(module,
+              "it has more than " + std::to_string(kMaxPartLevels) + " levels of operations");
   }
 
   static constexpr std::size_t kMaxQuotedName = 40;
@@ -362,6 +362,7 @@ class Importer {
   const ExactForms& forms_;
   const FacetedRounds& faceted_;
   bool keeps_apart_;
+  std::size_t solid_count_ = 0;
   Palette palette_;
   std::optional<Affine> around_all_;
 };

@@ -14,60 +14,78 @@ namespace {
 /// Meshes of more faces are not tested for being convex.
 constexpr std::size_t kMaxTestedFaces = 4 * kMaxPolyhedronFaces;
 
-bool read_points(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
+/// The points of a polyhedron(), and which of them are no points: only faces that use them suffer.
+struct ReadPoints {
+  std::vector<Vec3> points;
+  std::vector<bool> is_bad;
+};
+
+std::optional<Vec3> point_of(const ScadValue& value) {
+  std::optional<Vec3> point = ScadArguments::vector(value);
+  // Points of two numbers lie at z = 0.
+  if (const auto pair = ScadArguments::pair(value)) point = Vec3{pair->x, pair->y, 0};
+  if (!point || !is_finite(*point) || max_abs(*point) > kMaxOpenscadCoordinate) return std::nullopt;
+  return point;
+}
+
+std::optional<ReadPoints> read_points(const ScadList& list, ScadArguments& arguments) {
   if (list.size() > kMaxOpenscadPoints) {
-    arguments.fail("more than " + std::to_string(kMaxOpenscadPoints) + " points");
-    return false;
+    arguments.leave_out("points", "more than " + std::to_string(kMaxOpenscadPoints) + " points");
+    return std::nullopt;
   }
+  ReadPoints read;
   for (const ScadValue& value : list) {
-    std::optional<Vec3> point = ScadArguments::vector(value);
-    // Points of two numbers lie at z = 0.
-    if (const auto pair = ScadArguments::pair(value)) point = Vec3{pair->x, pair->y, 0};
-    if (!point || !(max_abs(*point) <= kMaxOpenscadCoordinate) || !is_finite(*point)) {
-      arguments.leave_out("point", "point " + std::to_string(mesh.points.size()) +
+    const auto point = point_of(value);
+    read.points.push_back(point.value_or(Vec3{}));
+    read.is_bad.push_back(!point);
+  }
+  return read;
+}
+
+/// The numbers in a face that are those of points. False, and the polyhedron is left out, if
+/// something in it is no number or no point; numbers of points that aren't there are passed over.
+bool read_face(const ScadList& corners, std::size_t number, const ReadPoints& points,
+               ScadArguments& arguments, std::vector<std::uint32_t>& face) {
+  const std::string name = "face " + std::to_string(number);
+  bool has_strangers = false;
+  for (const ScadValue& corner : corners) {
+    const double* index = corner.number();
+    if (index == nullptr) {
+      arguments.leave_out("face", name + " is not a list of numbers of points");
+      return false;
+    }
+    if (!(*index >= 0 && *index < static_cast<double>(points.points.size()))) {
+      has_strangers = true;
+      continue;
+    }
+    face.push_back(static_cast<std::uint32_t>(*index));
+    if (points.is_bad[face.back()]) {
+      arguments.leave_out("point", "point " + std::to_string(face.back()) +
                                        " is not three numbers of sensible size");
       return false;
     }
-    mesh.points.push_back(*point);
+  }
+  if (has_strangers) {
+    arguments.ignore("strange point", name + " names a point that isn't there, which is ignored");
   }
   return true;
 }
 
-/// The numbers in a face that are those of points; false if something in it is no number.
-bool read_face(const ScadList& corners, std::size_t points, std::vector<std::uint32_t>& face,
-               bool& has_strangers) {
-  for (const ScadValue& corner : corners) {
-    const double* index = corner.number();
-    if (index == nullptr) return false;
-    if (*index >= 0 && *index < static_cast<double>(points)) {
-      face.push_back(static_cast<std::uint32_t>(*index));
-    } else {
-      has_strangers = true;
-    }
-  }
-  return true;
-}
-
-/// Faces of fewer than three corners are passed over, and so are numbers of points that aren't
-/// there, as OpenSCAD does.
-bool read_faces(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) {
+/// Faces of fewer than three corners, and what is no list, are passed over, as OpenSCAD does.
+bool read_faces(const ScadList& list, const ReadPoints& points, ScadArguments& arguments,
+                ScadMesh& mesh) {
   if (list.size() > kMaxOpenscadFaces) {
-    arguments.fail("more than " + std::to_string(kMaxOpenscadFaces) + " faces");
+    arguments.leave_out("faces", "more than " + std::to_string(kMaxOpenscadFaces) + " faces");
     return false;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const ScadList* corners = list[i].list();
+    if (corners == nullptr) {
+      arguments.pass_over("face " + std::to_string(i), "must be a list of numbers of points");
+      continue;
+    }
     std::vector<std::uint32_t> face;
-    bool has_strangers = false;
-    if (corners == nullptr || !read_face(*corners, mesh.points.size(), face, has_strangers)) {
-      arguments.leave_out("face",
-                          "face " + std::to_string(i) + " is not a list of numbers of points");
-      return false;
-    }
-    if (has_strangers) {
-      arguments.ignore("strange point", "face " + std::to_string(i) +
-                                            " names a point that isn't there, which is ignored");
-    }
+    if (!read_face(*corners, i, points, arguments, face)) return false;
     if (face.size() >= 3) mesh.faces.push_back(std::move(face));
   }
   return true;
@@ -76,11 +94,11 @@ bool read_faces(const ScadList& list, ScadMesh& mesh, ScadArguments& arguments) 
 std::optional<ScadMesh> read_polyhedron(ScadArguments& arguments) {
   const ScadList* points = arguments.list("points", 0);
   const ScadList* faces = arguments.list("faces", 1);
+  if (points == nullptr || faces == nullptr) return std::nullopt;
+  auto read = read_points(*points, arguments);
   ScadMesh mesh;
-  if (points == nullptr || faces == nullptr || !read_points(*points, mesh, arguments) ||
-      !read_faces(*faces, mesh, arguments)) {
-    return std::nullopt;
-  }
+  if (!read || !read_faces(*faces, *read, arguments, mesh)) return std::nullopt;
+  mesh.points = std::move(read->points);
   return mesh;
 }
 
@@ -132,7 +150,10 @@ std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& argument
     if (convex.problem.empty() && convex.planes.size() <= kMaxPolyhedronFaces)
       return solid_of(std::move(convex), mesh);
   }
-  auto closed = closed_mesh(polygons_of(mesh), kOpenscadGrid);
+  PolygonMesh polygons = polygons_of(mesh);
+  // Its faces turn clockwise as seen from outside.
+  polygons.side = FaceSide::kInner;
+  auto closed = closed_mesh(polygons, kOpenscadGrid);
   if (const auto* fault = std::get_if<MeshFault>(&closed)) {
     arguments.leave_out("not closed", "its faces enclose no solid: " + fault->why);
     return std::nullopt;

@@ -31,7 +31,8 @@ std::optional<ScadSolid> cube(const ScadModule& module, ScadArguments& arguments
     const std::optional<Vec3> vector = ScadArguments::vector(*value);
     if (edge != nullptr) size = {*edge, *edge, *edge};
     if (vector) size = *vector;
-    if (edge == nullptr && !vector) arguments.fail("size must be a number or three numbers");
+    if (edge == nullptr && !vector)
+      arguments.pass_over("size", "must be a number or three numbers");
   }
   const bool center = arguments.boolean("center", 1);
   if (arguments.empty_unless(positive(size.x) && positive(size.y) && positive(size.z),
@@ -45,12 +46,12 @@ std::optional<ScadSolid> cube(const ScadModule& module, ScadArguments& arguments
 }
 
 std::optional<ScadSolid> sphere(ScadArguments& arguments, bool facets) {
-  const double r =
-      arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
+  const double r = arguments.radius("d", "r", 0, 1);
   const int sides = sides_of(arguments, r, facets);
   if (arguments.empty_unless(positive(r), "its radius is not positive")) return std::nullopt;
   if (std::size_t(sides) * std::size_t(sides) / 2 > kMaxOpenscadFacets) {
-    arguments.fail("more than " + std::to_string(kMaxOpenscadFacets) + " facets");
+    arguments.leave_out("facets",
+                        "it has more than " + std::to_string(kMaxOpenscadFacets) + " facets");
     return std::nullopt;
   }
   if (sides > 0) return polyhedral_solid(faceted_sphere(r, sides), arguments);
@@ -59,10 +60,8 @@ std::optional<ScadSolid> sphere(ScadArguments& arguments, bool facets) {
 
 std::optional<ScadSolid> cylinder(ScadArguments& arguments, bool facets) {
   const double h = arguments.number("h", 0, 1);
-  double r1 = arguments.number("r", -1, 0.5 * arguments.number("d", -1, 2));
-  double r2 = r1;
-  r1 = arguments.number("r1", 1, arguments.has("d1") ? 0.5 * arguments.number("d1", -1, 2) : r1);
-  r2 = arguments.number("r2", 2, arguments.has("d2") ? 0.5 * arguments.number("d2", -1, 2) : r2);
+  const double r = arguments.radius("d", "r", -1, 1);
+  const double r1 = arguments.radius("d1", "r1", 1, r), r2 = arguments.radius("d2", "r2", 2, r);
   const bool center = arguments.boolean("center", 3);
   const int sides = sides_of(arguments, std::max(r1, r2), facets);
   if (arguments.empty_unless(positive(h), "its height is not positive")) return std::nullopt;
@@ -110,25 +109,25 @@ std::optional<ScadRound> openscad_round(const ScadModule& module) {
   return round;
 }
 
-std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report) {
+ScadColor openscad_color(const ScadModule& module, OpenscadReport& report) {
   ScadArguments arguments(module, report);
   ScadColor color;
   if (const ScadValue* value = module.argument("c", 0)) {
     const ScadList* list = value->list();
-    if (list == nullptr || list->size() < 3 || list->size() > 4) {
-      arguments.fail("the colour must be three or four numbers");
-      return std::nullopt;
+    const auto is_number = [](const ScadValue& v) { return v.number() != nullptr; };
+    if (list == nullptr || list->size() < 3 || list->size() > 4 ||
+        !std::all_of(list->begin(), list->end(), is_number)) {
+      arguments.pass_over("c", "must be three or four numbers");
+      return color;
     }
     color.rgba[3] = 1;
     for (std::size_t i = 0; i < list->size(); ++i) {
-      const double* component = (*list)[i].number();
-      if (component == nullptr) arguments.fail("the colour must be three or four numbers");
+      const double component = *(*list)[i].number();
       // Negated so that a NaN leaves the component open.
-      if (component != nullptr) color.rgba[i] = !(*component >= 0) ? -1 : std::min(*component, 1.0);
+      color.rgba[i] = !(component >= 0) ? -1 : std::min(component, 1.0);
     }
   }
   color.rgba[3] = std::min(arguments.number("alpha", 1, color.rgba[3]), 1.0);
-  if (!arguments.ok()) return std::nullopt;
   return color;
 }
 

@@ -32,7 +32,7 @@ inline constexpr double kOpenscadGrid = 0.00000095367431640625;
 bool is_openscad_primitive(const ScadModule& module);
 
 /// The primitive's solid. Nothing, with a warning, when OpenSCAD would leave it out (size 0, a
-/// negative radius, not finite); nothing, with an error, when the arguments make no sense here.
+/// negative radius, not finite) or it would have too many facets.
 /// `digits` are those of the file's numbers.
 std::optional<ScadSolid> openscad_primitive(const ScadModule& module, OpenscadReport& report,
                                             bool facets = false,
@@ -54,7 +54,7 @@ struct ScadRound {
 /// The module as a round solid; nothing, unreported, for any other module.
 std::optional<ScadRound> openscad_round(const ScadModule& module);
 
-/// The colour of a color(); components are clamped to at most 1. Nothing after an error.
-std::optional<ScadColor> openscad_color(const ScadModule& module, OpenscadReport& report);
+/// The colour of a color(); components are clamped to at most 1.
+ScadColor openscad_color(const ScadModule& module, OpenscadReport& report);
 
 }  // namespace graycube

@@ -95,7 +95,8 @@ std::optional<CsgNode> extruded_polygon(const FlatLoops& loops, double low, doub
     std::size_t corners = 0;
     for (const FlatLoop& loop : part) corners += loop.size();
     if (!crossings_are_few(std::span(&part, 1))) {
-      import.report.error(line, "the outline crosses itself too often");
+      import.leave_out_once("outline", line,
+                            "a figure is left out: its outline crosses itself too often");
       return std::nullopt;
     }
     if (corners > kMaxPrismPoints) {
@@ -216,8 +217,9 @@ bool is_mesh_small(const FlatLoops& loops, int rings, const ScadModule& module,
   std::size_t corners = 0;
   for (const FlatLoop& loop : loops) corners += loop.size();
   if (2 * corners * static_cast<std::size_t>(rings + 2) <= kMaxOpenscadFacets) return true;
-  import.report.error(
-      module.line, module.name + "(): more than " + std::to_string(kMaxOpenscadFacets) + " facets");
+  import.leave_out_once(module.name + "() facets", module.line,
+                        module.name + "() is left out: it has more than " +
+                            std::to_string(kMaxOpenscadFacets) + " facets");
   return false;
 }
 

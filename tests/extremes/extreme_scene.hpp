@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
 
 #include "csg/random_model.hpp"
+#include "extremes/extreme_numbers.hpp"
 #include "formats/graycube/write_scene.hpp"
 
 namespace graycube::testing {
@@ -34,13 +34,6 @@ class ExtremeScene {
   }
 
  private:
-  /// Most exponents lie where pictures are still possible.
-  double power() {
-    constexpr std::array kReaches{20.0, 20.0, 62.0, 300.0};
-    const double reach = kReaches[dice_.below(kReaches.size())];
-    return std::pow(10.0, dice_.between(-reach, reach));
-  }
-
   /// A polygon with a hole, whose pieces a difference holds.
   CsgNode prism() {
     PrismShape shape;
@@ -53,36 +46,13 @@ class ExtremeScene {
   void choose_changes() {
     constexpr std::array kShares{0.0, 0.004, 0.02, 0.2};
     share_ = kShares[dice_.below(kShares.size())];
-    factor_ = dice_.one_in(3) ? power() : 1;
+    factor_ = dice_.one_in(3) ? extreme_power(dice_) : 1;
     map_share_ = dice_.one_in(2) ? 0.3 : 0;
-  }
-
-  double extreme(double was) {
-    constexpr std::array kSpecial{0.0,     5e-324,
-                                  1e-310,  2.2250738585072014e-308,
-                                  1e-160,  1e-10,
-                                  1e15,    1e16,
-                                  1e30,    9007199254740993.0,
-                                  1e154,   1e300,
-                                  1.7e308, 1e-15,
-                                  1e20,    3.4e38};
-    switch (dice_.below(5)) {
-      case 0: return dice_.sign() * kSpecial[dice_.below(kSpecial.size())];
-      case 1: return was * (1 + dice_.sign() * std::pow(10.0, dice_.between(-17, -8)));
-      case 2: return was * power();
-      default: return dice_.sign() * power();
-    }
-  }
-
-  std::string written(double v) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), v).ptr;
-    return {digits.data(), end};
   }
 
   double changed(double was, const std::string& key) {
     double v = keeps_scale(key) ? was : was * factor_;
-    if (dice_.unit() < share_) v = extreme(v);
+    if (dice_.unit() < share_) v = extreme_number(dice_, v);
     return std::isfinite(v) ? v : 0;
   }
 
@@ -134,8 +104,8 @@ class ExtremeScene {
     switch (dice_.below(5)) {
       case 0: return "{\"scale\":" + vector(thin, 1, 1) + "}";
       case 1: return "{\"scale\":" + vector(1, 1 / thin, 1) + "}";
-      case 2: return "{\"scale\":" + written(power()) + "}";
-      case 3: return "{\"translate\":" + vector(dice_.sign() * power(), 0, 1) + "}";
+      case 2: return "{\"scale\":" + written(extreme_power(dice_)) + "}";
+      case 3: return "{\"translate\":" + vector(dice_.sign() * extreme_power(dice_), 0, 1) + "}";
       default: {
         const Vec3 axis = dice_.unit_vector();
         return "{\"rotate\":{\"axis\":" + vector(axis.x, axis.y, axis.z) +

@@ -1,6 +1,7 @@
 // Turns polygons into closed meshes.
 #include "mesh/close_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -25,7 +26,7 @@ std::vector<double> cut_areas(const std::vector<Vec3>& corners) {
   std::vector<std::uint32_t> face(corners.size());
   for (std::uint32_t i = 0; i < face.size(); ++i) face[i] = i;
   std::vector<Triangle> triangles;
-  cut_face(corners, face, triangles);
+  cut_face(corners, face, FaceSide::kOuter, triangles);
   std::vector<double> areas;
   for (const auto& [a, b, c] : triangles) {
     areas.push_back(0.5 * cross(corners[b] - corners[a], corners[c] - corners[a]).z);
@@ -195,13 +196,46 @@ TEST_CASE("bent faces are cut along the Delaunay diagonal of the face as seen al
     std::vector<std::uint32_t> face;
     for (std::uint32_t i = 0; i < 4; ++i) face.push_back((turn + i) % 4);
     std::vector<Triangle> triangles;
-    cut_face(kite, face, triangles);
+    cut_face(kite, face, FaceSide::kOuter, triangles);
     REQUIRE(triangles.size() == 2);
     for (const Triangle& t : triangles) {
       const std::set<std::uint32_t> corners(t.begin(), t.end());
       CHECK(corners.count(1) + corners.count(3) == 2);
     }
   }
+}
+
+/// Where a bent face of four corners is cut, by all numberings of its corners.
+std::set<std::set<std::uint32_t>> diagonals(const std::vector<Vec3>& corners, FaceSide side) {
+  std::set<std::set<std::uint32_t>> found;
+  for (std::uint32_t turn = 0; turn < 4; ++turn) {
+    std::vector<std::uint32_t> face;
+    for (std::uint32_t i = 0; i < 4; ++i) face.push_back((turn + i) % 4);
+    std::vector<Triangle> triangles;
+    cut_face(corners, face, side, triangles);
+    REQUIRE(triangles.size() == 2);
+    std::set<std::uint32_t> both;
+    for (const std::uint32_t i : triangles[0]) {
+      if (std::count(triangles[1].begin(), triangles[1].end(), i) > 0) both.insert(i);
+    }
+    found.insert(both);
+  }
+  return found;
+}
+
+TEST_CASE("bent faces with their corners on a circle are cut where OpenSCAD cuts them") {
+  using Diagonals = std::set<std::set<std::uint32_t>>;
+  const std::vector<Vec3> square{{0, 0, 0.2}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  CHECK(diagonals(square, FaceSide::kOuter) == Diagonals{{1, 3}});
+  CHECK(diagonals(square, FaceSide::kInner) == Diagonals{{0, 2}});
+  const std::vector<Vec3> trapezoid{{-2, 0, 0}, {2, 0, 0}, {1, 1, 0.2}, {-1, 1, 0}};
+  CHECK(diagonals(trapezoid, FaceSide::kOuter) == Diagonals{{1, 3}});
+  CHECK(diagonals(trapezoid, FaceSide::kInner) == Diagonals{{1, 3}});
+  // The angles at the corners 0 and 2 are 180.3 degrees together.
+  const std::vector<Vec3> nearly{{0, 0, 0.2}, {1, 0, 0}, {0.9975, 0.9975, 0}, {0, 1, 0}};
+  CHECK(diagonals(nearly, FaceSide::kOuter) == Diagonals{{1, 3}});
+  const std::vector<Vec3> clearly{{0, 0, 0.2}, {1, 0, 0}, {0.9, 0.9, 0}, {0, 1, 0}};
+  CHECK(diagonals(clearly, FaceSide::kOuter) == Diagonals{{0, 2}});
 }
 
 TEST_CASE("a bent fan of many corners has no corner within the circle of a triangle") {
@@ -214,7 +248,7 @@ TEST_CASE("a bent fan of many corners has no corner within the circle of a trian
     face.push_back(i);
   }
   std::vector<Triangle> triangles;
-  cut_face(rim, face, triangles);
+  cut_face(rim, face, FaceSide::kOuter, triangles);
   REQUIRE(triangles.size() == 14);
   for (const auto& [a, b, c] : triangles) {
     for (std::uint32_t d = 0; d < 16; ++d) {

@@ -16,7 +16,7 @@ double upward_of(const ScadModule& module, ScadArguments& arguments, double heig
   if (value == nullptr) return height;
   const auto along = ScadArguments::vector(*value);
   if (!along || !(max_abs(*along) <= kMaxOpenscadCoordinate) || !is_finite(*along)) {
-    arguments.fail("v must be three numbers");
+    arguments.pass_over("v", "must be three numbers of sensible size");
     return height;
   }
   const double size = length(*along);
@@ -30,28 +30,29 @@ double upward_of(const ScadModule& module, ScadArguments& arguments, double heig
 std::optional<LinearSweep> linear_sweep(const ScadModule& module, ScadImport& import) {
   ScadArguments arguments(module, import.report);
   LinearSweep sweep;
-  const double height = arguments.number("height", 0, 100);
+  const double height = arguments.finite_number("height", 0, 100);
   const bool center = arguments.boolean("center", -1);
-  sweep.twist = arguments.number("twist", -1, 0);
-  if (arguments.has("slices")) {
-    sweep.slices = static_cast<int>(
-        std::clamp(arguments.number("slices", -1, 1), 1.0, double{kMaxOpenscadSides}));
-  }
+  sweep.twist = arguments.finite_number("twist", -1, 0);
+  // 0 and less stand for as many as the twist needs.
+  sweep.slices = static_cast<int>(
+      std::clamp(arguments.finite_number("slices", -1, 0), 0.0, double{kMaxOpenscadSides}));
   sweep.fineness = fineness_of(arguments);
   if (const ScadValue* value = module.argument("scale")) {
     const double* both = value->number();
-    const auto pair = ScadArguments::pair(*value);
-    if (both != nullptr) sweep.scale = {*both, *both};
-    if (pair) sweep.scale = *pair;
-    if (both == nullptr && !pair) arguments.fail("scale must be a number or two numbers");
+    auto pair = ScadArguments::pair(*value);
+    if (both != nullptr) pair = FlatPoint{*both, *both};
+    if (pair && std::isfinite(pair->x) && std::isfinite(pair->y)) {
+      sweep.scale = *pair;
+    } else {
+      arguments.pass_over("scale", "must be a finite number or two of them");
+    }
   }
   sweep.scale = {std::max(sweep.scale.x, 0.0), std::max(sweep.scale.y, 0.0)};
   const double biggest = std::max({std::fabs(sweep.twist), sweep.scale.x, sweep.scale.y});
-  if (arguments.ok() && !(biggest <= kMaxOpenscadCoordinate))
-    arguments.fail("twist and scale must be finite");
-  const double upward = arguments.ok() ? upward_of(module, arguments, height, sweep) : height;
-  if (arguments.empty_unless(std::isfinite(upward) && upward > 0, "its height is not positive"))
-    return std::nullopt;
+  if (!(biggest <= kMaxOpenscadCoordinate))
+    arguments.leave_out("twist or scale", "its twist or scale is not of sensible size");
+  const double upward = upward_of(module, arguments, height, sweep);
+  if (arguments.empty_unless(upward > 0, "its height is not positive")) return std::nullopt;
   sweep.low = center ? -0.5 * upward : 0;
   sweep.high = center ? 0.5 * upward : upward;
   return sweep;
@@ -61,13 +62,13 @@ std::optional<TurnSweep> turn_sweep(const ScadModule& module, ScadImport& import
                                     const FlatLoops& loops) {
   ScadArguments arguments(module, import.report);
   TurnSweep sweep;
-  sweep.angle = arguments.number("angle", -1, 360);
+  sweep.angle = arguments.finite_number("angle", -1, 360);
   sweep.fineness = fineness_of(arguments);
   if (!(sweep.angle > -360 && sweep.angle <= 360)) sweep.angle = 360;
   // OpenSCAD 2021.01, which writes no start, begins whole turns on the negative side.
-  sweep.start = arguments.number("start", -1, sweep.angle == 360 ? 180 : 0);
-  if (arguments.ok() && !(std::fabs(sweep.start) <= kMaxOpenscadCoordinate))
-    arguments.fail("start must be finite");
+  sweep.start = arguments.finite_number("start", -1, sweep.angle == 360 ? 180 : 0);
+  if (!(std::fabs(sweep.start) <= kMaxOpenscadCoordinate))
+    arguments.leave_out("start", "its start is not of sensible size");
   const auto [lo, hi] = flat_bounds(loops);
   const bool one_side =
       !(hi.x > 0 && lo.x < 0) || std::min(hi.x, -lo.x) <= 1e-9 * std::max(hi.x, -lo.x);

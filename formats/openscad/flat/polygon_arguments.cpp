@@ -37,27 +37,24 @@ bool read_path(const ScadList& corners, const FlatLoop& points, FlatLoop& loop,
   return true;
 }
 
-bool read_paths(const ScadValue& value, const FlatLoop& points, ScadArguments& arguments,
+/// Paths that are no lists are passed over, as OpenSCAD does; false, and the polygon is left out,
+/// if something in a path is no number.
+bool read_paths(const ScadList& paths, const FlatLoop& points, ScadArguments& arguments,
                 FlatLoops& loops) {
-  const ScadList* paths = value.list();
-  const ScadList alone{value};
-  // A single path may stand without a list around it.
-  if (paths != nullptr && !paths->empty() && paths->front().number() != nullptr) paths = &alone;
-  if (paths == nullptr) {
-    arguments.leave_out("paths", "paths must be lists of numbers of points");
-    return false;
-  }
-  for (std::size_t i = 0; i < paths->size(); ++i) {
-    const ScadList* corners = (*paths)[i].list();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string name = "path " + std::to_string(i);
+    const ScadList* corners = paths[i].list();
+    if (corners == nullptr) {
+      arguments.pass_over(name, "must be a list of numbers of points");
+      continue;
+    }
     bool has_strangers = false;
-    if (corners == nullptr || !read_path(*corners, points, loops.emplace_back(), has_strangers)) {
-      arguments.leave_out("path",
-                          "path " + std::to_string(i) + " is not a list of numbers of points");
+    if (!read_path(*corners, points, loops.emplace_back(), has_strangers)) {
+      arguments.leave_out("path", name + " is not a list of numbers of points");
       return false;
     }
     if (has_strangers) {
-      arguments.ignore("strange point", "path " + std::to_string(i) +
-                                            " names a point that isn't there, which is ignored");
+      arguments.ignore("strange point", name + " names a point that isn't there, which is ignored");
     }
   }
   return true;
@@ -71,8 +68,15 @@ bool read_polygon(const ScadModule& module, ScadArguments& arguments, FlatLoops&
   const ScadList* list = arguments.list("points", 0);
   FlatLoop points;
   if (list == nullptr || !read_points(*list, arguments, points)) return false;
-  if (const ScadValue* paths = module.argument("paths", 1))
-    return read_paths(*paths, points, arguments, loops);
+  const ScadValue* paths = module.argument("paths", 1);
+  if (paths != nullptr && paths->list() == nullptr) {
+    arguments.pass_over("paths", "must be a list of paths");
+  } else if (paths != nullptr && !paths->list()->empty()) {
+    const ScadList alone{*paths};
+    // A single path may stand without a list around it.
+    const bool is_alone = paths->list()->front().number() != nullptr;
+    return read_paths(is_alone ? alone : *paths->list(), points, arguments, loops);
+  }
   loops.push_back(std::move(points));
   return true;
 }

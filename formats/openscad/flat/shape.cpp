@@ -98,7 +98,7 @@ class FlatReader {
     return FlatShape{kind, {}, {}, 0, std::move(parts)};
   }
 
-  /// The outlines; nothing when the result is empty or, with an error, has too many corners.
+  /// The outlines; nothing when the result is empty or, with a warning, has too many corners.
   std::optional<FlatLoops> combined_loops(FlatOperation operation,
                                           std::span<const FlatLoops> operands, int line) {
     std::size_t corners = 0;
@@ -106,8 +106,9 @@ class FlatReader {
       for (const FlatLoop& loop : loops) corners += loop.size();
     }
     if (corners > kMaxOpenscadCorners || !crossings_are_few(operands)) {
-      import_.report.error(line,
-                           "the outlines have too many corners, or cross one another too often");
+      import_.leave_out_once("outlines", line,
+                             "a figure is left out: its outlines have too many corners, or cross "
+                             "one another too often");
       return std::nullopt;
     }
     FlatLoops loops =
@@ -165,7 +166,7 @@ class FlatReader {
       const auto both = ScadArguments::pair(*value);
       if (edge != nullptr) size = {*edge, *edge};
       if (both) size = *both;
-      if (edge == nullptr && !both) arguments.fail("size must be a number or two numbers");
+      if (edge == nullptr && !both) arguments.pass_over("size", "must be a number or two numbers");
     }
     const bool center = arguments.boolean("center", 1);
     const bool good = std::isfinite(size.x) && std::isfinite(size.y) && size.x > 0 && size.y > 0;
@@ -176,8 +177,7 @@ class FlatReader {
   }
 
   std::optional<FlatShape> circle(ScadArguments& arguments, const FlatMap& map) {
-    const double r =
-        arguments.has("d") ? 0.5 * arguments.number("d", -1, 2) : arguments.number("r", 0, 1);
+    const double r = arguments.radius("d", "r", 0, 1);
     const ScadFineness fineness = fineness_of(arguments);
     if (arguments.empty_unless(std::isfinite(r) && r > 0, "its radius is not positive"))
       return std::nullopt;
@@ -200,14 +200,13 @@ class FlatReader {
 
   std::optional<FlatShape> offset_of(const ScadModule& module, ScadArguments& arguments,
                                      const FlatMap& map) {
-    const bool is_round = arguments.has("r") || !arguments.has("delta");
-    const double distance =
-        is_round ? arguments.number("r", 0, 1) : arguments.number("delta", -1, 1);
+    const auto radius = arguments.number("r", 0), delta = arguments.number("delta", -1);
+    const bool is_round = radius || !delta;
+    const double distance = radius ? *radius : delta.value_or(1);
     const bool chamfer = arguments.boolean("chamfer", -1);
     const ScadFineness fineness = fineness_of(arguments);
-    if (!arguments.ok()) return std::nullopt;
     if (!(std::fabs(distance) <= kMaxOpenscadCoordinate)) {
-      arguments.fail("the distance is not a number of sensible size");
+      arguments.leave_out("distance", "its distance is not a number of sensible size");
       return std::nullopt;
     }
     const auto inner = united(module.children, {}, module.line);

@@ -1,6 +1,7 @@
 // The arguments of one module, as numbers, truth values, vectors and lists.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -10,21 +11,37 @@
 
 namespace graycube {
 
-/// Reads one module's arguments. Errors are reported at once; `ok` tells if there were any.
+/// Reads one module's arguments. What is wrong with them is reported at once: an argument of a
+/// wrong type counts as not given, as in OpenSCAD 2021.01, with a warning that --strict makes an
+/// error; where nothing takes its place the part is left out, and `ok` is false from then on.
 class ScadArguments {
  public:
   ScadArguments(const ScadModule& module, OpenscadReport& report)
       : module_(module), report_(report) {}
 
   bool ok() const { return ok_; }
-  bool has(const char* name) const { return module_.argument(name) != nullptr; }
 
-  double number(const char* name, int position, double otherwise) {
+  std::optional<double> number(const char* name, int position) {
     const ScadValue* value = module_.argument(name, position);
-    if (value == nullptr) return otherwise;
+    if (value == nullptr) return std::nullopt;
     if (const double* n = value->number()) return *n;
-    fail(std::string(name) + " must be a number");
+    pass_over(name, "must be a number");
+    return std::nullopt;
+  }
+  double number(const char* name, int position, double otherwise) {
+    return number(name, position).value_or(otherwise);
+  }
+  /// For arguments that count as not given, too, if they are infinite or not a number.
+  double finite_number(const char* name, int position, double otherwise) {
+    const double n = number(name, position, otherwise);
+    if (std::isfinite(n)) return n;
+    pass_over(name, "must be finite");
     return otherwise;
+  }
+  /// Half of the diameter if that is given, else the radius.
+  double radius(const char* diameter, const char* radius, int position, double otherwise) {
+    const auto d = number(diameter, -1);
+    return d ? 0.5 * *d : number(radius, position, otherwise);
   }
   /// The value as two numbers; nothing, unreported, for anything else.
   static std::optional<FlatPoint> pair(const ScadValue& value) {
@@ -38,7 +55,7 @@ class ScadArguments {
     const ScadValue* value = module_.argument(name, position);
     if (value == nullptr) return false;
     if (const bool* b = value->boolean()) return *b;
-    fail(std::string(name) + " must be true or false");
+    pass_over(name, "must be true or false");
     return false;
   }
   /// The value as three numbers; nothing, unreported, for anything else.
@@ -61,9 +78,11 @@ class ScadArguments {
     return nullptr;
   }
 
-  void fail(const std::string& why) {
-    report_.error(module_.line, module_.name + "(): " + why);
-    ok_ = false;
+  /// The argument counts as not given because of this.
+  void pass_over(const std::string& name, const std::string& why) {
+    report_.leave_out(
+        module_.name + "() " + name, module_.line,
+        module_.name + "(): " + name + " " + why + "; as in OpenSCAD it counts as not given");
   }
   /// The part is missing because of this; `kind` is what parts that are missing for the same reason
   /// have in common.
@@ -76,7 +95,7 @@ class ScadArguments {
   void ignore(const std::string& kind, const std::string& what) {
     report_.warning(module_.name + "() " + kind, module_.line, module_.name + "(): " + what);
   }
-  /// True, with a warning, if OpenSCAD makes nothing of this; true also after an error.
+  /// True, with a warning, if OpenSCAD makes nothing of this; true also if it is left out already.
   bool empty_unless(bool solid, const char* why) {
     if (ok_ && !solid) report_.warning(module_.line, module_.name + "() is left out: " + why);
     return !ok_ || !solid;

@@ -15,20 +15,20 @@ std::optional<Affine> written_matrix(const ScadModule& module, ScadArguments& ar
   std::array<std::array<double, 4>, 4> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   if (const ScadValue* value = module.argument("m", 0)) {
     const ScadList* rows = value->list();
-    if (rows == nullptr) arguments.fail("m must be a list of rows");
+    if (rows == nullptr) arguments.pass_over("m", "must be a list of rows");
     for (std::size_t i = 0; rows != nullptr && i < std::min<std::size_t>(rows->size(), 4); ++i) {
       const ScadList* row = (*rows)[i].list();
-      if (row == nullptr) arguments.fail("m must be a list of rows");
+      if (row == nullptr) arguments.pass_over("a row of m", "must be a list of numbers");
       for (std::size_t j = 0; row != nullptr && j < std::min<std::size_t>(row->size(), 4); ++j) {
         if (const double* entry = (*row)[j].number()) {
           m[i][j] = *entry;
         } else if (!(*row)[j].is_undef()) {
-          arguments.fail("the entries of m must be numbers");
+          arguments.pass_over("an entry of m", "must be a number");
         }
       }
     }
   }
-  if (arguments.ok() && (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0)) {
+  if (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0) {
     arguments.ignore("fourth row", "the first three entries of a matrix's fourth row are ignored");
   }
   Affine map;

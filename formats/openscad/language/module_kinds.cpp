@@ -1,6 +1,16 @@
 #include "formats/openscad/language/module_kinds.hpp"
 
+#include <algorithm>
+
 namespace graycube {
+namespace {
+
+bool has_color(const ScadModule& module) {
+  return module.name == "color" ||
+         std::any_of(module.children.begin(), module.children.end(), has_color);
+}
+
+}  // namespace
 
 bool is_gathering(const std::string& name) {
   return name == "group" || name == "union" || name == "render" || name == "multmatrix" ||
@@ -22,6 +32,10 @@ bool is_empty_without_shapes(const std::string& name) {
   return is_gathering(name) || is_for_program(name) || name == "difference" ||
          name == "intersection" || name == "hull" || name == "minkowski" || name == "offset" ||
          name == "fill" || name == "projection";
+}
+
+bool is_colored_operation(const ScadModule& module) {
+  return (module.name == "difference" || module.name == "intersection") && has_color(module);
 }
 
 int dimension_of(const std::vector<ScadModule>& modules) {

@@ -19,6 +19,10 @@ bool is_newer_than_2021(const std::string& name);
 /// Whether it is a module of .csg files that is empty when no shape is in it.
 bool is_empty_without_shapes(const std::string& name);
 
+/// Whether it is a difference or an intersection of which OpenSCAD shows parts in colours of their
+/// own.
+bool is_colored_operation(const ScadModule& module);
+
 /// The dimension, 2 or 3, of the first module that has one; 0 if none has.
 int dimension_of(const std::vector<ScadModule>& modules);
 

@@ -6,6 +6,7 @@
 #include "formats/openscad/fixture.hpp"
 #include "formats/openscad/openscad.hpp"
 #include "formats/openscad/reading.hpp"
+#include "formats/pov/scene_membership.hpp"
 
 namespace graycube {
 namespace {
@@ -47,6 +48,39 @@ TEST_CASE("a file with a transparent part is one object, so that no inner surfac
 TEST_CASE("a colour that is cut away altogether doesn't make the file transparent") {
   CHECK(scene_of("cube(1); sphere(1); difference() { group(); color([0, 0, 1, 0.25]) cube(2); }")
             .objects.size() == 2);
+}
+
+TEST_CASE("flat parts of a difference keep their colours, and its tools cut all through") {
+  const std::string text =
+      "difference() { color([1, 0, 0]) square(4); difference() { color([0, 0, 1]) "
+      "multmatrix([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 0]]) square(2); square(1.5); } }";
+  const Scene scene = scene_of(text);
+  REQUIRE(scene.objects.size() == 1);
+  const auto& root = std::get<OperationNode>(scene.objects[0].csg.value);
+  REQUIRE(root.children.size() == 2);
+  const Material& red = scene.materials.at(root.children[0].material).material;
+  CHECK((red.color.r == 1 && red.color.b == 0));
+  const auto& tool = std::get<OperationNode>(root.children[1].value);
+  const Material& blue = scene.materials.at(tool.children.at(0).material).material;
+  CHECK((blue.color.r == 0 && blue.color.b == 1));
+  // The tool is the square from 1 to 3, less its corner up to 1.5; at every height.
+  for (const double z : {-0.49, 0.0, 0.49}) {
+    CHECK(any_object_holds(scene, {0.5, 0.5, z}));
+    CHECK(any_object_holds(scene, {1.25, 1.25, z}));
+    CHECK_FALSE(any_object_holds(scene, {2.5, 2.5, z}));
+  }
+  CHECK_FALSE(any_object_holds(scene, {0.5, 0.5, 0.51}));
+  CHECK_FALSE(any_object_holds(scene, {1.25, 1.25, 0.51}));
+}
+
+TEST_CASE("flat parts of an intersection keep their colours") {
+  const Scene scene =
+      scene_of("intersection() { color([1, 0, 0]) square(2); color([0, 0, 1]) circle(2); }");
+  REQUIRE(scene.objects.size() == 1);
+  CHECK(std::get<OperationNode>(scene.objects[0].csg.value).children.size() == 2);
+  CHECK(any_object_holds(scene, {1.4, 1.4, 0}));
+  CHECK_FALSE(any_object_holds(scene, {1.5, 1.5, 0}));
+  CHECK_FALSE(any_object_holds(scene, {-0.1, 1, 0}));
 }
 
 TEST_CASE("colours are sRGB in the file and linear in the scene") {
