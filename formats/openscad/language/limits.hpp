@@ -23,8 +23,8 @@ inline constexpr std::size_t kMaxOpenscadErrors = 100;
 inline constexpr std::size_t kMaxOpenscadWarnings = 100;
 /// Significant digits of the numbers in a .csg file: those of OpenSCAD's `%g`.
 inline constexpr std::uint32_t kOpenscadDigits = 6;
-/// A part with coordinates beyond this is left out, for this reason; solids thinner than its inverse
-/// count as empty.
+/// Parts with coordinates beyond this are left out, for this reason. Solids thinner than its
+/// inverse count as empty.
 inline constexpr double kMaxOpenscadCoordinate = 1e30;
 inline constexpr const char* kBeyondReach = "it reaches beyond the largest coordinate, 1e30";
 

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "catch.hpp"
-#include "convex_oracle.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
+#include "formats/openscad/convex_oracle.hpp"
 #include "formats/openscad/hulls/round_solid.hpp"
 #include "formats/pov/scene_membership.hpp"
 
