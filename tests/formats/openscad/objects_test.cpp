@@ -77,7 +77,9 @@ TEST_CASE("flat parts of an intersection keep their colours") {
   const Scene scene =
       scene_of("intersection() { color([1, 0, 0]) square(2); color([0, 0, 1]) circle(2); }");
   REQUIRE(scene.objects.size() == 1);
-  CHECK(std::get<OperationNode>(scene.objects[0].csg.value).children.size() == 2);
+  const auto& parts = std::get<OperationNode>(scene.objects[0].csg.value).children;
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].material != parts[1].material);
   CHECK(any_object_holds(scene, {1.4, 1.4, 0}));
   CHECK_FALSE(any_object_holds(scene, {1.5, 1.5, 0}));
   CHECK_FALSE(any_object_holds(scene, {-0.1, 1, 0}));
