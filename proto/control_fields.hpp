@@ -23,6 +23,9 @@ struct FieldLimits {
   std::size_t length = kMaxNameBytes;
   /// Whether the field may be missing; the member then keeps its default.
   bool has_default = false;
+  /// Whether the field is written only if it isn't 0 or the first of its names, its default: most
+  /// jobs don't use what it is about.
+  bool is_rare = false;
 };
 
 /// The member's type is `T`, const for the writer and not for the reader.
@@ -48,6 +51,7 @@ inline constexpr FieldLimits kFraction{.min = 0, .max = 1};
 inline constexpr FieldLimits kPlaneRange{.max = kAovPlanes, .has_default = true};
 inline constexpr FieldLimits kAovText{.has_default = true};
 inline constexpr FieldLimits kDefaulted{.has_default = true};
+inline constexpr FieldLimits kRare{.has_default = true, .is_rare = true};
 
 constexpr FieldLimits at_least_one() { return {.min = 1}; }
 
@@ -91,6 +95,11 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("cells", m.cells, kDefaulted);
   visit("cells_visited", m.cells_visited, kDefaulted);
   visit("primitives_tested", m.primitives_tested, kDefaulted);
+  visit("open_peak", m.open_peak, kRare);
+  visit("open_bytes_peak", m.open_bytes_peak, kRare);
+  visit("answers", m.answers, kRare);
+  visit("answer_batches", m.answer_batches, kRare);
+  visit("answer_bytes", m.answer_bytes, kRare);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
@@ -111,6 +120,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("sums", m.sums, kDefaulted);
   visit("subdivision", m.subdivision.way, kDefaulted);
   visit("entry", m.subdivision.entry, kDefaulted);
+  visit("returns", m.returns, kRare);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -253,6 +263,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("sums", m.sums, kDefaulted);
   visit("subdivision", m.subdivision.way, kDefaulted);
   visit("entry", m.subdivision.entry, kDefaulted);
+  visit("returns", m.returns, kRare);
 }
 
 void each_field(auto& visit, IsAboutSlice auto& m) {
