@@ -8,13 +8,24 @@
 
 namespace graycube {
 
+namespace {
+
+/// Null unless light goes back along the rays' ways.
+std::unique_ptr<LightBack> back_of(const Holding& here) {
+  if (!here.limits.are_rays_numbered) return nullptr;
+  return std::make_unique<LightBack>(here.seat.links(), here.plan.pixel_count());
+}
+
+}  // namespace
+
 Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
     : here_(std::move(holding)),
       flow_(make_flow(load.flow, FlowRules::of(load, here_))),
       queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
       helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
       borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
-      light_(here_.seat, load.sums) {
+      light_(here_.seat, load.sums, back_of(here_)) {
+  flow_->number_by(light_.back());
   if (load.algorithm == Algorithm::kMacro)
     ending_.emplace(here_.seat, flow_->pace().token_never_rests);
 }
@@ -71,7 +82,7 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
   }
   if (flow_->is_full()) return std::nullopt;
   auto piece =
-      queue_.take(pace, flow_->may_start_tiles(), here_.plan,
+      queue_.take(pace, may_start_tiles(), here_.plan,
                   [this](std::uint32_t bit, std::size_t rays) { flow_->taken(bit, rays); });
   if (!piece) return std::nullopt;
   for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit)
@@ -226,6 +237,10 @@ void Rendering::pass_token(Mail& mail, std::optional<std::uint64_t> ping) {
   if (has_begun_ && ending_) ending_->pass(is_passive, ping, mail);
 }
 
+bool Rendering::may_start_tiles() const {
+  return flow_->may_start_tiles() && (light_.back() == nullptr || light_.back()->may_start_tiles());
+}
+
 bool Rendering::has_unfinished() const {
   return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty();
 }
@@ -236,8 +251,7 @@ WaitReason Rendering::wait_reason() const {
   if (queue_.has_rays() || flow_->held() > 0) {
     return flow_->is_full() ? WaitReason::kBlocked : WaitReason::kReady;
   }
-  if (queue_.has_tiles())
-    return flow_->may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
+  if (queue_.has_tiles()) return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return queue_.unassigned() > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

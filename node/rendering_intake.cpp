@@ -61,9 +61,17 @@ void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
 
 // ---- from neighbours
 
+/// Where light goes back along the rays' ways, remembers whence these rays came. False when too
+/// many are remembered: the job has failed then.
+bool Rendering::open(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) {
+  if (light_.back() == nullptr || light_.back()->came(bit, rays)) return true;
+  mail.fail(LightBack::kTooManyOpen);
+  return false;
+}
+
 /// The rays are in this node's regions; or in the sender's own, for whom this node is to trace
 /// them; or in a neighbour's: rays that left a copy of another neighbour's regions come this way.
-void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
+void Rendering::on_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) {
   const Rank sender = mail.peer(bit);
   const bool is_help = !rays.empty() && here_.seat.owner_of(rays.front().region) == sender;
   const bool are_due = is_help ? helping_.copy_of(bit) && here_.seat.owns_all(sender, rays)
@@ -72,14 +80,16 @@ void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& 
     mail.drop("rays", "for another macro-region");
     return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
   }
+  if (!open(bit, rays, mail)) return;
   if (ending_) ending_->work_came();
   tally_.rays_came(rays.size());
   if (is_help) return on_rays_to_help(bit, rays);
   bool go_on = false;
-  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
-    if (here_.holds(region)) return queue_.add_received(run, bit);
-    go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
-  });
+  for_each_region(std::span<const RayTask>(rays),
+                  [&](RegionIndex region, std::span<const RayTask> run) {
+                    if (here_.holds(region)) return queue_.add_received(run, bit);
+                    go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
+                  });
   tally_.note_queue(held());
   share_work(mail);
   if (!go_on) return;
@@ -95,8 +105,10 @@ void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays
   tally_.note_queue(held());
 }
 
-void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
-  if (!here_.are_due(rays, helping_.is_on()) || !flow_->add_class_rays(bit, rays)) {
+void Rendering::on_class_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) {
+  const bool are_due = here_.are_due(rays, helping_.is_on());
+  if (are_due && !open(bit, rays, mail)) return;
+  if (!are_due || !flow_->add_class_rays(bit, rays)) {
     mail.drop("class rays", "for another macro-region, or without credit");
     return mail.fail("a broken batch of class rays came from node " +
                      std::to_string(mail.peer(bit).value));
@@ -137,6 +149,10 @@ void Rendering::on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Ma
 
 void Rendering::on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
   if (light_.on_sums(bit, batch, limits(), mail) && ending_) ending_->work_came();
+}
+
+void Rendering::on_answers(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
+  if (light_.on_answers(bit, batch, limits(), here_.plan, mail) && ending_) ending_->work_came();
 }
 
 void Rendering::on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type,
