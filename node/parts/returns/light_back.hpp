@@ -15,8 +15,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "node/parts/returns/awaited_answers.hpp"
 #include "node/parts/mail.hpp"
+#include "node/parts/returns/awaited_answers.hpp"
 #include "node/parts/returns/slot_table.hpp"
 #include "trace/step.hpp"
 
