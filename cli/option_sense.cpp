@@ -19,13 +19,14 @@ struct Use {
 
 void check_sense(const control::JobOptions& o) {
   const control::JobOptions usual;
-  const std::array<Use, 6> uses{{
+  const std::array<Use, 7> uses{{
       {"--grain", o.grain != usual.grain, true, false},
       {"--shadows", o.shadows != usual.shadows, false, true},
       {"--partition", o.partition != usual.partition, false, true},
       {"--scatter", o.scatter != usual.scatter, false, true},
       {"--flow", o.flow != usual.flow, true, true},
       {"--sums", o.sums != usual.sums, true, true},
+      {"--returns", o.returns != usual.returns, false, true},
   }};
   const bool is_auto = o.algorithm == Algorithm::kAuto;
   for (const Use& use : uses) {

@@ -144,6 +144,10 @@ SumsMode parse_sums(std::string_view option, std::string_view text) {
   return parse_choice<SumsMode>(option, text, kSumsChoices);
 }
 
+ReturnsMode parse_returns(std::string_view option, std::string_view text) {
+  return parse_choice<ReturnsMode>(option, text, kReturnsChoices);
+}
+
 Subdivision parse_subdivision(std::string_view option, std::string_view text) {
   return parse_choice<Subdivision>(option, text, kSubdivisionChoices);
 }

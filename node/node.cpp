@@ -167,6 +167,7 @@ void Node::on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte
     case BatchType::kClassRays: return on_rays(bit, type, batch);
     case BatchType::kAssignment: return rendering_->on_tiles(bit, batch, mail_);
     case BatchType::kContributions: return rendering_->on_sums(bit, batch, mail_);
+    case BatchType::kAnswers: return rendering_->on_answers(bit, batch, mail_);
     case BatchType::kToken: return rendering_->on_token(batch, mail_);
     case BatchType::kIdle:
     case BatchType::kIdleWithCopy: return rendering_->on_offer(bit, batch, type, mail_);

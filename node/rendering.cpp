@@ -1,7 +1,5 @@
 #include "node/rendering.hpp"
 
-#include <algorithm>
-#include <string>
 #include <utility>
 
 #include "check.hpp"
@@ -10,13 +8,24 @@
 
 namespace graycube {
 
+namespace {
+
+/// Null unless light goes back along the rays' ways.
+std::unique_ptr<LightBack> back_of(const Holding& here) {
+  if (!here.limits.are_rays_numbered) return nullptr;
+  return std::make_unique<LightBack>(here.seat.links(), here.plan.pixel_count());
+}
+
+}  // namespace
+
 Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
     : here_(std::move(holding)),
       flow_(make_flow(load.flow, FlowRules::of(load, here_))),
       queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
       helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
       borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
-      light_(here_.seat, load.sums) {
+      light_(here_.seat, load.sums, back_of(here_)) {
+  flow_->number_by(light_.back());
   if (load.algorithm == Algorithm::kMacro)
     ending_.emplace(here_.seat, flow_->pace().token_never_rests);
 }
@@ -30,148 +39,6 @@ void Rendering::reset() {
   if (ending_) ending_->reset();
   has_begun_ = false;
   working_ = 0;
-}
-
-// ---- from the frontal
-
-void Rendering::on_assigned(std::span<const std::uint32_t> tiles, Mail& mail) {
-  queue_.add_tiles(tiles);
-  for (const std::uint32_t tile : tiles) {
-    if (here_.is_own_tile(tile)) {
-      queue_.expect_less(1);
-    } else if (!domain_of(tile)) {
-      return mail.fail("a tile of another macro-region was assigned");
-    } else {
-      helping_.took_over(1, 0);
-    }
-  }
-  share_work(mail);
-}
-
-void Rendering::on_relieved(std::uint64_t tiles, Mail& mail) {
-  queue_.expect_less(tiles);
-  if (ending_) ending_->work_was_taken();
-  pass_token(mail);
-}
-
-void Rendering::on_all_whole(Mail& mail) {
-  if (ending_) ending_->all_are_whole();
-  pass_token(mail);
-}
-
-void Rendering::on_lend(Rank owner, const SharedBytes& slice, Mail& mail) {
-  if (!borrowing_.is_asked(owner)) return mail.drop("lend", "not asked for");
-  if (!slice.empty()) return queue_.add_model(BorrowWork{owner, slice});
-  const std::vector<RayTask> refused = borrowing_.was_refused(owner);
-  flow_->release(refused.size());
-  const Seat& seat = here_.seat;
-  for (const RayTask& ray : refused)
-    flow_->leave(seat.bit_of(seat.owner_of(ray.region)), {&ray, 1});
-  // No evaluator may come by to send what is left.
-  send(true, mail);
-  pass_token(mail);
-}
-
-void Rendering::on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes,
-                        Mail& mail) {
-  const bool is_neighbours = here_.seat.bit_of(owner) < here_.seat.links();
-  if (!is_neighbours || here_.domain->grid() == nullptr)
-    return mail.drop("copy", "not a neighbour's");
-  queue_.add_model(CopyWork{owner, share_of(here_.seat.cube, owner), slice, horizon_bytes});
-}
-
-void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
-  pass_token(mail, ping);
-  if (has_begun_) flow_->answer_ping(ping, mail);
-}
-
-// ---- from neighbours
-
-/// The rays are in this node's regions; or in the sender's own, for whom this node is to trace
-/// them; or in a neighbour's: rays that left a copy of another neighbour's regions come this way.
-void Rendering::on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
-  const Rank sender = mail.peer(bit);
-  const bool is_help = !rays.empty() && here_.seat.owner_of(rays.front().region) == sender;
-  const bool are_due = is_help ? helping_.copy_of(bit) && here_.seat.owns_all(sender, rays)
-                               : here_.are_due(rays, helping_.is_on());
-  if (!are_due) {
-    mail.drop("rays", "for another macro-region");
-    return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
-  }
-  if (ending_) ending_->work_came();
-  tally_.rays_came(rays.size());
-  if (is_help) return on_rays_to_help(bit, rays);
-  bool go_on = false;
-  for_each_region(rays, [&](RegionIndex region, std::span<const RayTask> run) {
-    if (here_.holds(region)) return queue_.add_received(run, bit);
-    go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
-  });
-  tally_.note_queue(held());
-  share_work(mail);
-  if (!go_on) return;
-  if (all_evaluators_wait()) return flush_on_idle(mail);
-  flow_->send(false, mail);
-  flow_->grant(bit, mail);
-}
-
-void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays) {
-  helping_.took_over(0, rays.size());
-  helping_.has_given(bit);
-  queue_.add_helped(here_.seat.peer(bit), bit, rays);
-  tally_.note_queue(held());
-}
-
-void Rendering::on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
-  if (!here_.are_due(rays, helping_.is_on()) || !flow_->add_class_rays(bit, rays)) {
-    mail.drop("class rays", "for another macro-region, or without credit");
-    return mail.fail("a broken batch of class rays came from node " +
-                     std::to_string(mail.peer(bit).value));
-  }
-  if (ending_) ending_->work_came();
-  tally_.rays_came(rays.size());
-  tally_.note_queue(held());
-}
-
-/// When all evaluators wait, none will come by to send the rest, so part of a batch is sent, too.
-void Rendering::on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  flow_->on_class_credit(bit, batch, limits(), all_evaluators_wait(), mail);
-}
-
-void Rendering::on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  const bool is_free = flow_->on_link_credit(bit, batch, limits(), all_evaluators_wait(), mail);
-  if (is_free && all_evaluators_wait()) flush_on_idle(mail);
-}
-
-/// Tiles of a neighbour, to be traced here in the copy of its regions.
-void Rendering::on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  std::vector<std::uint32_t> tiles;
-  const auto result = decode_assignment(batch, limits(), tiles);
-  const auto* error = std::get_if<BatchError>(&result);
-  const Rank sender = mail.peer(bit);
-  const auto is_senders = [&](std::uint32_t tile) { return here_.owner_of_tile(tile) == sender; };
-  if (error != nullptr || !helping_.is_on() || !helping_.copy_of(bit) ||
-      !std::ranges::all_of(tiles, is_senders)) {
-    mail.drop("tiles", error != nullptr ? to_string(*error) : "of regions that are not held here");
-    return mail.fail("node " + std::to_string(sender.value) +
-                     " sent tiles that can't be traced here");
-  }
-  if (ending_) ending_->work_came();
-  helping_.has_given(bit);
-  helping_.took_over(tiles.size(), 0);
-  queue_.add_tiles(tiles);
-}
-
-void Rendering::on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail) {
-  if (light_.on_sums(bit, batch, limits(), mail) && ending_) ending_->work_came();
-}
-
-void Rendering::on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type,
-                         Mail& mail) {
-  if (helping_.on_offer(bit, batch, type, limits(), mail)) share_work(mail);
-}
-
-void Rendering::on_token(std::span<const std::byte> batch, Mail& mail) {
-  if (ending_ && ending_->on_token(batch, limits(), mail)) pass_token(mail);
 }
 
 // ---- work
@@ -215,7 +82,7 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
   }
   if (flow_->is_full()) return std::nullopt;
   auto piece =
-      queue_.take(pace, flow_->may_start_tiles(), here_.plan,
+      queue_.take(pace, may_start_tiles(), here_.plan,
                   [this](std::uint32_t bit, std::size_t rays) { flow_->taken(bit, rays); });
   if (!piece) return std::nullopt;
   for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit)
@@ -371,6 +238,10 @@ void Rendering::pass_token(Mail& mail, std::optional<std::uint64_t> ping) {
   if (has_begun_ && ending_) ending_->pass(is_passive, ping, mail);
 }
 
+bool Rendering::may_start_tiles() const {
+  return flow_->may_start_tiles() && (light_.back() == nullptr || light_.back()->may_start_tiles());
+}
+
 bool Rendering::has_unfinished() const {
   return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty();
 }
@@ -381,8 +252,7 @@ WaitReason Rendering::wait_reason() const {
   if (queue_.has_rays() || flow_->held() > 0) {
     return flow_->is_full() ? WaitReason::kBlocked : WaitReason::kReady;
   }
-  if (queue_.has_tiles())
-    return flow_->may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
+  if (queue_.has_tiles()) return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return queue_.unassigned() > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
 

@@ -53,12 +53,13 @@ class Rendering {
   void on_ping(std::uint64_t ping, Mail& mail);
 
   // From the neighbour across a link
-  void on_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
-  void on_class_rays(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
+  void on_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail);
+  void on_class_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail);
   void on_class_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_link_credit(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_tiles(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_sums(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
+  void on_answers(std::uint32_t bit, std::span<const std::byte> batch, Mail& mail);
   void on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type, Mail& mail);
   void on_token(std::span<const std::byte> batch, Mail& mail);
 
@@ -74,6 +75,7 @@ class Rendering {
   void report(control::NodeStats& stats) const;
 
  private:
+  [[nodiscard]] bool open(std::uint32_t bit, std::span<RayTask> rays, Mail& mail);
   void on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays);
   std::shared_ptr<const Domain> domain_of(std::uint32_t tile) const;
   std::optional<Work> choose_work(Mail& mail);
@@ -86,6 +88,7 @@ class Rendering {
   void keep_set_aside(Traced& traced);
   void share_work(Mail& mail);
   void give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail);
+  bool may_start_tiles() const;
   std::size_t held() const { return queue_.held() + flow_->held(); }
   bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
   void send(bool partial, Mail& mail);

@@ -31,6 +31,8 @@ inline constexpr std::size_t kTileCreditBytes = 44;
 /// Bytes that a pixel's light takes at most: alone in its run, and very bright.
 inline constexpr std::size_t kMostPixelBytes = 30;
 inline constexpr std::size_t kTokenBytes = 25;
+/// Bytes of an answer without light, and of one with the brightest.
+inline constexpr std::size_t kLeastAnswerBytes = 5, kMostAnswerBytes = 29;
 
 /// Bytes of the largest message, header included: of contributions, and of every other type.
 inline constexpr std::size_t kMaxContributionBatchBytes = std::size_t{8} << 20;
@@ -38,6 +40,8 @@ inline constexpr std::size_t kMaxBatchBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxRaysPerBatch = (kMaxBatchBytes - kBatchHeaderBytes) / kRayBytes;
 inline constexpr std::size_t kMaxTilesPerAssignment = (kMaxBatchBytes - kBatchHeaderBytes) / 4;
 inline constexpr std::size_t kMaxClassesPerGrant = (kMaxBatchBytes - kBatchHeaderBytes) / 2;
+inline constexpr std::size_t kMaxAnswersPerBatch =
+    (kMaxBatchBytes - kBatchHeaderBytes) / kMostAnswerBytes;
 /// Most bytes that one link-credit grant may give back.
 inline constexpr std::uint64_t kMaxLinkCreditBytes = std::uint64_t{1} << 32;
 /// Largest |direction · direction − 1| of a ray.
@@ -60,6 +64,8 @@ enum class BatchType : std::uint8_t {
   /// Rays on the credit of their classes, and such credit given back (docs/design/flow.md).
   kClassRays = 12,
   kClassCredit = 13,
+  /// Light that goes back along the rays' ways (docs/design/returns.md).
+  kAnswers = 14,
 };
 
 /// The sender of a batch, and what the batch belongs to.
@@ -79,8 +85,8 @@ struct BatchStamp {
 struct BatchHeader {
   BatchStamp stamp;
   BatchType type = BatchType::kRays;
-  /// Number of records: rays, tile credits, assigned tiles or classes; 1 for a grant or a token, 0
-  /// for greetings and goodbyes.
+  /// Number of records: rays, tile credits, assigned tiles, classes or answers; 1 for a grant or a
+  /// token, 0 for greetings and goodbyes.
   std::uint32_t count = 0;
   /// Number of pixels in a batch of contributions; 0 in any other.
   std::uint32_t second_count = 0;
@@ -117,6 +123,20 @@ struct BatchLimits {
   std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;
   /// A sender's rank must be below this, unless it is the frontal.
   std::uint32_t nodes = 0;
+  /// Rays other than primary ones carry a number of their sender's in place of the pixel.
+  bool are_rays_numbered = false;
+};
+
+/// What comes back for a ray that crossed a link, from whoever got it.
+struct RayAnswer {
+  /// The number that the ray carried.
+  std::uint32_t number = 0;
+  /// No more comes back for that ray: its light and credit are complete.
+  bool is_last = true;
+  /// Light of the ray and of all that descend from it, 0 to kMaxMergedLight in each component.
+  FixedRgb light;
+
+  friend bool operator==(const RayAnswer&, const RayAnswer&) = default;
 };
 
 /// Takes at most kMaxRaysPerBatch rays; the type is kRays or kClassRays.
@@ -125,6 +145,8 @@ std::vector<std::byte> encode_rays(const BatchStamp& stamp, std::span<const RayT
 /// Takes at most kMaxClassesPerGrant classes.
 std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
                                            std::span<const std::uint16_t> classes);
+/// Takes at most kMaxAnswersPerBatch answers; those that aren't the last must have light.
+std::vector<std::byte> encode_answers(const BatchStamp& stamp, std::span<const RayAnswer> answers);
 /// The batch may have at most kMaxContributionBatchBytes, see most_contribution_bytes.
 std::vector<std::byte> encode_contributions(const BatchStamp& stamp,
                                             std::span<const TileCredit> credits,
@@ -175,6 +197,9 @@ bool looks_like_batch(std::span<const std::byte> message);
 [[nodiscard]] BatchResult decode_class_credit(std::span<const std::byte> message,
                                               const BatchLimits& limits,
                                               std::vector<std::uint16_t>& classes);
+[[nodiscard]] BatchResult decode_answers(std::span<const std::byte> message,
+                                         const BatchLimits& limits,
+                                         std::vector<RayAnswer>& answers);
 [[nodiscard]] BatchResult decode_token(std::span<const std::byte> message,
                                        const BatchLimits& limits, Token& token);
 [[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,

@@ -14,7 +14,7 @@ using namespace batch_layout;
 /// A tile's credit never exceeds its number of primary rays, and so not that of any picture.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 
-bool is_known(std::uint8_t type) { return type >= 1 && type <= 13; }
+bool is_known(std::uint8_t type) { return type >= 1 && type <= 14; }
 
 /// Checks the framing, the sender and the type; `payload` becomes the bytes behind the header.
 BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,
@@ -34,6 +34,11 @@ Vec3 load_vec(const std::byte* at) {
 }
 
 bool is_weight(double v) { return std::isfinite(v) && v >= 0; }
+
+bool is_pixel_or_number(const RayTask& task, const BatchLimits& limits) {
+  const bool is_number = limits.are_rays_numbered && task.kind != RayKind::kPrimary;
+  return is_number || task.pixel < limits.pixel_count;
+}
 
 bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.ray = {load_vec(at), load_vec(at + 24)};
@@ -56,7 +61,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   // Written so that NaN fails every comparison.
   return is_finite(task.ray.origin) && std::fabs(dot(d, d) - 1) <= kDirectionTolerance &&
          std::isfinite(task.t) && task.t >= 0 && task.t_max >= 0 && is_weight(weight.x) &&
-         is_weight(weight.y) && is_weight(weight.z) && task.pixel < limits.pixel_count &&
+         is_weight(weight.y) && is_weight(weight.z) && is_pixel_or_number(task, limits) &&
          task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
          task.light < limits.lights && task.hops <= limits.max_hops &&
          task.region.column < limits.columns && task.region.row < limits.rows;
@@ -134,6 +139,25 @@ bool load_all(const std::byte* at, std::size_t count, std::size_t size, const Ba
     at += size;
   }
   return true;
+}
+
+/// Reads an answer, of whatever length. False unless it is there, its components take no more bytes
+/// than they need, and it either brings light or is the last.
+bool load_answer(ByteReader& r, RayAnswer& answer) {
+  answer.number = r.get<std::uint32_t>();
+  const auto width_and_more = r.get<std::uint8_t>();
+  answer.is_last = (width_and_more & kMoreFlag) == 0;
+  const std::size_t width = width_and_more & ~std::size_t{kMoreFlag};
+  if (width == 0) return r.ok() && answer.is_last;
+  if (width > sizeof(std::uint64_t)) return false;
+  const std::byte* at = r.take(3 * width);
+  if (at == nullptr) return false;
+  Contribution c;
+  bool is_sound = false;
+  with_component_bytes(width,
+                       [&](auto kBytes) { is_sound = load_run<kBytes>(at, 0, std::span(&c, 1)); });
+  answer.light = c.light;
+  return is_sound && bits_of(answer.light) != 0;
 }
 
 bool load_class(const std::byte* at, const BatchLimits& limits, std::uint16_t& hops) {
@@ -235,6 +259,25 @@ BatchResult decode_class_credit(std::span<const std::byte> message, const BatchL
   if (h == nullptr) return result;
   if (!load_all(at, h->count, 2, limits, load_class, classes)) return BatchError::kBadValue;
   return result;
+}
+
+BatchResult decode_answers(std::span<const std::byte> message, const BatchLimits& limits,
+                           std::vector<RayAnswer>& answers) {
+  answers.clear();
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kAnswers, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  ByteReader r({at, h->payload_bytes});
+  answers.reserve(h->count);
+  while (answers.size() < h->count) {
+    if (load_answer(r, answers.emplace_back())) continue;
+    answers.clear();
+    return BatchError::kBadValue;
+  }
+  if (r.remaining() == 0) return result;
+  answers.clear();
+  return BatchError::kBadValue;
 }
 
 BatchResult decode_token(std::span<const std::byte> message, const BatchLimits& limits,

@@ -70,8 +70,18 @@ struct LightRun {
   std::size_t bytes() const { return kRunHeaderBytes + 3 * component_bytes * pixels.size(); }
 };
 
-std::uint64_t bits_of(const FixedRgb& light) {
-  return static_cast<std::uint64_t>(light.r | light.g | light.b);
+/// Bytes of each component of an answer's light: none where there is no light.
+std::size_t answer_component_bytes(const FixedRgb& light) {
+  return bits_of(light) == 0 ? 0 : component_bytes(bits_of(light));
+}
+
+template <std::size_t kBytes>
+std::byte* store_light(std::byte* at, const FixedRgb& light) {
+  for (const std::int64_t component : {light.r, light.g, light.b}) {
+    store_low_bytes<kBytes>(at, static_cast<std::uint64_t>(component));
+    at += kBytes;
+  }
+  return at;
 }
 
 /// Splits light into the longest runs possible, in order.
@@ -95,12 +105,7 @@ void store_run(std::byte* at, const LightRun& run) {
   store_little(at + 5, static_cast<std::uint8_t>(run.component_bytes));
   at += kRunHeaderBytes;
   with_component_bytes(run.component_bytes, [&](auto bytes) {
-    for (const Contribution& c : run.pixels) {
-      for (const std::int64_t component : {c.light.r, c.light.g, c.light.b}) {
-        store_low_bytes<bytes>(at, static_cast<std::uint64_t>(component));
-        at += bytes;
-      }
-    }
+    for (const Contribution& c : run.pixels) at = store_light<bytes>(at, c.light);
   });
 }
 
@@ -155,6 +160,21 @@ std::vector<std::byte> encode_class_credit(const BatchStamp& stamp,
   return std::move(w).take();
 }
 
+std::vector<std::byte> encode_answers(const BatchStamp& stamp, std::span<const RayAnswer> answers) {
+  std::size_t light_bytes = 0;
+  for (const RayAnswer& a : answers) light_bytes += 3 * answer_component_bytes(a.light);
+  ByteWriter w = begin(stamp, BatchType::kAnswers, answers.size(), 0, light_bytes);
+  for (const RayAnswer& a : answers) {
+    const std::size_t width = answer_component_bytes(a.light);
+    w.put(a.number);
+    w.put(static_cast<std::uint8_t>(width | (a.is_last ? 0 : kMoreFlag)));
+    std::byte* at = w.room(3 * width);
+    if (width == 0) continue;
+    with_component_bytes(width, [&](auto bytes) { store_light<bytes>(at, a.light); });
+  }
+  return std::move(w).take();
+}
+
 std::vector<std::byte> encode_token(const BatchStamp& stamp, const Token& token) {
   ByteWriter w = begin(stamp, BatchType::kToken, 1, 0);
   w.put(static_cast<std::uint8_t>(token.black ? 1 : 0));
@@ -205,6 +225,7 @@ std::string_view to_string(BatchType type) {
     case BatchType::kIdleWithCopy: return "idle_with_copy";
     case BatchType::kClassRays: return "class_rays";
     case BatchType::kClassCredit: return "class_credit";
+    case BatchType::kAnswers: return "answers";
   }
   return "unknown";
 }

@@ -31,6 +31,10 @@ constexpr std::size_t component_bytes(std::uint64_t bits) {
   return std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(bits)) + 7) / 8);
 }
 
+constexpr std::uint64_t bits_of(const FixedRgb& light) {
+  return static_cast<std::uint64_t>(light.r | light.g | light.b);
+}
+
 /// Calls visit with `bytes`, which is 1 to 8, as a constant.
 template <class Visit>
 void with_component_bytes(std::size_t bytes, Visit&& visit) {
@@ -59,6 +63,8 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
     case BatchType::kToken: return {single && count == 1, kTokenBytes};
     case BatchType::kAssignment: return {single, count * 4};
     case BatchType::kClassCredit: return {single, count * 2};
+    case BatchType::kAnswers:
+      return {single, count * kLeastAnswerBytes, count * (kMostAnswerBytes - kLeastAnswerBytes)};
     case BatchType::kGreeting:
     case BatchType::kGreetingAck:
     case BatchType::kGoodbye:
@@ -71,6 +77,8 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
 
 /// A bit beside the ray's kind that says RayTask::ends_at_horizon.
 inline constexpr std::uint8_t kHorizonFlag = 4;
+/// A bit beside the bytes of a component that says that more answers to the same ray follow.
+inline constexpr std::uint8_t kMoreFlag = 16;
 
 constexpr std::size_t max_message_bytes(BatchType type) {
   return type == BatchType::kContributions ? kMaxContributionBatchBytes : kMaxBatchBytes;

@@ -4,26 +4,14 @@
 #pragma once
 
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#include "film/aov.hpp"
-#include "geometry/infinity.hpp"
 #include "proto/messages.hpp"
+#include "proto/messages/field_limits.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
-
-struct FieldLimits {
-  /// The range of numbers, also inside arrays; integers must fit their type as well.
-  double min = -kInf;
-  double max = kInf;
-  /// Most bytes of a string, or elements of an array.
-  std::size_t length = kMaxNameBytes;
-  /// Whether the field may be missing; the member then keeps its default.
-  bool has_default = false;
-};
 
 /// The member's type is `T`, const for the writer and not for the reader.
 template <class Member, class T>
@@ -38,18 +26,6 @@ concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
 /// Messages that have no field but job and epoch.
 template <class M>
 concept IsAboutEpoch = Is<M, Prepare> || Is<M, AllWhole>;
-
-inline constexpr FieldLimits kText{.length = kMaxTextBytes};
-inline constexpr FieldLimits kSeconds{.min = 0};
-inline constexpr FieldLimits kRankRange{.max = kMaxNodes - 1};
-inline constexpr FieldLimits kThreadRange{.min = 1, .max = kMaxThreads};
-inline constexpr FieldLimits kFraction{.min = 0, .max = 1};
-
-inline constexpr FieldLimits kPlaneRange{.max = kAovPlanes, .has_default = true};
-inline constexpr FieldLimits kAovText{.has_default = true};
-inline constexpr FieldLimits kDefaulted{.has_default = true};
-
-constexpr FieldLimits at_least_one() { return {.min = 1}; }
 
 void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("rank", m.rank, kRankRange);
@@ -91,14 +67,19 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("cells", m.cells, kDefaulted);
   visit("cells_visited", m.cells_visited, kDefaulted);
   visit("primitives_tested", m.primitives_tested, kDefaulted);
-  visit("tests_saved", m.tests_saved, kDefaulted);
-  visit("boxes_tested", m.boxes_tested, kDefaulted);
-  visit("boxes_rejected", m.boxes_rejected, kDefaulted);
-  visit("spheres_tested", m.spheres_tested, kDefaulted);
-  visit("spheres_rejected", m.spheres_rejected, kDefaulted);
-  visit("nodes_descended", m.nodes_descended, kDefaulted);
-  visit("entry_links", m.entry_links, kDefaulted);
-  visit("rays_not_shot", m.rays_not_shot, kDefaulted);
+  visit("tests_saved", m.tests_saved, kRare);
+  visit("boxes_tested", m.boxes_tested, kRare);
+  visit("boxes_rejected", m.boxes_rejected, kRare);
+  visit("spheres_tested", m.spheres_tested, kRare);
+  visit("spheres_rejected", m.spheres_rejected, kRare);
+  visit("nodes_descended", m.nodes_descended, kRare);
+  visit("entry_links", m.entry_links, kRare);
+  visit("rays_not_shot", m.rays_not_shot, kRare);
+  visit("open_peak", m.open_peak, kRare);
+  visit("open_bytes_peak", m.open_bytes_peak, kRare);
+  visit("answers", m.answers, kRare);
+  visit("answer_batches", m.answer_batches, kRare);
+  visit("answer_bytes", m.answer_bytes, kRare);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
@@ -117,8 +98,9 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("max_depth", m.max_depth, {.max = kMaxDepth});
   visit("aov", m.aov, kAovText);
   visit("sums", m.sums, kDefaulted);
-  visit("subdivision", m.subdivision.way, kDefaulted);
-  visit("entry", m.subdivision.entry, kDefaulted);
+  visit("subdivision", m.subdivision.way, kRare);
+  visit("entry", m.subdivision.entry, kRare);
+  visit("returns", m.returns, kRare);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -259,8 +241,9 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("is_replica", m.is_replica);
   visit("makes_copies", m.makes_copies);
   visit("sums", m.sums, kDefaulted);
-  visit("subdivision", m.subdivision.way, kDefaulted);
-  visit("entry", m.subdivision.entry, kDefaulted);
+  visit("subdivision", m.subdivision.way, kRare);
+  visit("entry", m.subdivision.entry, kRare);
+  visit("returns", m.returns, kRare);
 }
 
 void each_field(auto& visit, IsAboutSlice auto& m) {

@@ -37,6 +37,10 @@ struct Names<SumsMode> {
   static constexpr std::array<std::string_view, 2> kAll{"direct", "tree"};
 };
 template <>
+struct Names<ReturnsMode> {
+  static constexpr std::array<std::string_view, 2> kAll{"frontal", "sender"};
+};
+template <>
 struct Names<Subdivision> {
   static constexpr std::array<std::string_view, 6> kAll{"surfaces", "roth",   "linked",
                                                         "arnaldi",  "octree", "kaplan"};

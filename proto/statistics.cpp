@@ -36,6 +36,9 @@ Json node_json(const NodeStats& n) {
           {"queue_peak", n.queue_peak},
           {"primitives", n.primitives},
           {"outbox_peak", n.outbox_peak},
+          {"open_peak", n.open_peak},
+          {"open_bytes_peak", n.open_bytes_peak},
+          {"answers", n.answers},
           {"memory_bytes", n.memory_bytes},
           {"models_borrowed", n.models_borrowed},
           {"tiles_taken_over", n.tiles_taken_over},
@@ -94,7 +97,8 @@ std::string statistics_json(const Statistics& s) {
                   {"shadows", to_string(s.shadows)},
                   {"partition", to_string(s.partition)},
                   {"flow", to_string(s.flow)},
-                  {"sums", to_string(s.sums)}};
+                  {"sums", to_string(s.sums)},
+                  {"returns", to_string(s.returns)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
   j["frontal_cpu_s"] = s.frontal_cpu_s;
@@ -115,7 +119,9 @@ std::string statistics_json(const Statistics& s) {
                    {"contribution_batches", sum(&NodeStats::contribution_batches)},
                    {"contribution_bytes", sum(&NodeStats::contribution_bytes)},
                    {"sum_batches", sum(&NodeStats::sum_batches)},
-                   {"sum_bytes", sum(&NodeStats::sum_bytes)}};
+                   {"sum_bytes", sum(&NodeStats::sum_bytes)},
+                   {"answer_batches", sum(&NodeStats::answer_batches)},
+                   {"answer_bytes", sum(&NodeStats::answer_bytes)}};
   j["subdivision"] = subdivision_json(s);
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;

@@ -25,6 +25,7 @@ struct Statistics {
   FlowMode flow = FlowMode::kCredit;
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision;
+  ReturnsMode returns = ReturnsMode::kFrontal;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

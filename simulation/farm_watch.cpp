@@ -86,7 +86,8 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   if (h == nullptr) return;
   if (h->type == BatchType::kRays || h->type == BatchType::kClassRays)
     rays_under_way_ += is_sent ? 1 : -1;
-  if (h->type == BatchType::kContributions) sums_under_way_ += is_sent ? 1 : -1;
+  if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers)
+    sums_under_way_ += is_sent ? 1 : -1;
   if (h->stamp.job != load_.job) return;
   if (h->type == BatchType::kClassRays || h->type == BatchType::kClassCredit) {
     return watch_classes(from, to, batch, h->type, is_sent);
@@ -113,7 +114,10 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
 /// Checks that no more rays of a class are on their way on a link, or wait behind it, than the link
 /// has places for them.
 void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent) {
-  BatchLimits limits{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = cube_.nodes()};
+  const BatchLimits limits{.pixel_count = kMaxPixels,
+                           .max_depth = kMaxDepth,
+                           .nodes = cube_.nodes(),
+                           .are_rays_numbered = load_.returns == ReturnsMode::kSender};
   if (type == BatchType::kClassRays && is_sent) {
     if (is_over_) outcome_.violations.push_back("class rays were sent after the token's end");
     ClassPlaces& out = processes_[from.value].places_out[bit_between(cube_, from, to)];

@@ -29,7 +29,7 @@ inline PerUnit receiving(const Message& message) {
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr) return doings;
   if (h->type == BatchType::kRays) doings[Unit::kRayIn] = h->count;
-  if (h->type == BatchType::kContributions) {
+  if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers) {
     doings[Unit::kFrontalByte] = static_cast<double>(message.frame.size());
   }
   return doings;
@@ -42,7 +42,7 @@ inline void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& do
     const auto* h = std::get_if<BatchHeader>(&header);
     if (h == nullptr) continue;
     if (h->type == BatchType::kRays) doings[Unit::kRayOut] += h->count;
-    if (h->type == BatchType::kContributions) {
+    if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers) {
       doings[Unit::kLightByte] += static_cast<double>(o.message.frame.size());
     }
   }

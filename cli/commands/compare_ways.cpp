@@ -64,6 +64,7 @@ struct Distribution {
   ShadowMode shadows = ShadowMode::kHorizon;
   std::uint32_t scatter = 0;
   PartitionMode partition = PartitionMode::kAuto;
+  ReturnsMode returns = ReturnsMode::kFrontal;
 };
 
 constexpr std::array kDistributions{
@@ -73,6 +74,8 @@ constexpr std::array kDistributions{
                  "--algorithm macro --shadows forward --scatter 1 --partition regular",
                  Algorithm::kMacro, ShadowMode::kForward, 1, PartitionMode::kRegular},
     Distribution{"macro", "--algorithm macro", Algorithm::kMacro},
+    Distribution{"macro, returned", "--algorithm macro --returns sender", Algorithm::kMacro,
+                 ShadowMode::kHorizon, 0, PartitionMode::kAuto, ReturnsMode::kSender},
 };
 
 }  // namespace
@@ -88,6 +91,7 @@ std::vector<Way> ways_of_report(const control::JobOptions& common) {
       way.options.shadows = d.shadows;
       way.options.scatter = d.scatter;
       way.options.partition = d.partition;
+      way.options.returns = d.returns;
       way.options.subdivision.way = subdivision;
       ways.push_back(std::move(way));
     }

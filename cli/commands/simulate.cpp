@@ -116,6 +116,7 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.flow = command.options.flow;
   s.sums = command.options.sums;
   s.subdivision = command.options.subdivision;
+  s.returns = command.options.returns;
   s.image = settings.image;
   s.render_s = outcome.render_s;
   s.token_rounds = outcome.rounds;

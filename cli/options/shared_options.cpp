@@ -166,6 +166,10 @@ void add_how(Declaring& options, control::JobOptions& o) {
   add_named(
       options, "--sums", "direct (default), or tree: nodes add up each other's light on its way",
       names_of(kSumsChoices), [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
+  add_named(options, "--returns",
+            "frontal (default), or sender: light goes back along the rays' ways, as in 1983",
+            names_of(kReturnsChoices),
+            [&o](const auto& text) { o.returns = parse_returns("--returns", text); });
   add_named(options, "--subdivision",
             "surfaces (default), or a way of 1987: roth, linked, arnaldi, octree, kaplan",
             names_of(kSubdivisionChoices), [&o](const auto& text) {

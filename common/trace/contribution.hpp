@@ -16,6 +16,11 @@ struct Contribution {
   friend bool operator==(const Contribution&, const Contribution&) = default;
 };
 
+/// Whether the sum is more than one record can hold.
+inline bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
+  return a.r > kMaxMergedLight - b.r || a.g > kMaxMergedLight - b.g || a.b > kMaxMergedLight - b.b;
+}
+
 struct TileCredit {
   std::uint32_t tile = 0;
   Credit credit;

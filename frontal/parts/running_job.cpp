@@ -235,6 +235,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.flow = scene.flow;
   s.sums = render_->sums();
   s.subdivision = scene.subdivision;
+  s.returns = scene.returns;
   s.image = scene.settings.image;
   s.primitives = scene.primitives;
   s.objects = scene.objects;

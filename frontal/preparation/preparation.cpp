@@ -158,6 +158,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   out.shadows = work.options.shadows;
   out.flow = work.options.flow;
   out.queue = work.options.queue;
+  out.returns = work.options.returns;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas =
       is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
@@ -207,6 +208,7 @@ std::string choices_text(const PreparedScene& scene) {
                      std::string(to_string(scene.shadows)) + " shadows, " +
                      std::string(to_string(scene.partition)) + " partition";
   if (scene.has_replicas || scene.makes_copies) text += ", neighbours help";
+  if (scene.returns == ReturnsMode::kSender) text += ", light back to senders";
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);
   }

@@ -40,6 +40,7 @@ struct PreparedScene {
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
   SubdivisionChoice subdivision;
+  ReturnsMode returns = ReturnsMode::kFrontal;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
   std::optional<TilePlan> plan;

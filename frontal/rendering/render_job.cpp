@@ -42,6 +42,7 @@ control::Load RenderJob::load() const {
   m.makes_copies = scene_.makes_copies;
   m.sums = sums_;
   m.subdivision = scene_.subdivision;
+  m.returns = scene_.returns;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = tiles_.window().first_size();
   m.batch_bytes = limits_.batch_bytes;

@@ -35,7 +35,8 @@ BatchLimits limits_of(const Seat& seat, const Domain& domain, const TilePlan& pl
 Holding Holding::of(const Seat& seat, const control::Load& load,
                     std::shared_ptr<const Domain> domain) {
   TilePlan plan = plan_of(load, *domain);
-  const BatchLimits limits = limits_of(seat, *domain, plan);
+  BatchLimits limits = limits_of(seat, *domain, plan);
+  limits.are_rays_numbered = load.returns == ReturnsMode::kSender;
   return {seat, std::move(domain), std::move(plan), limits};
 }
 

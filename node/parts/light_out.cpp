@@ -1,12 +1,14 @@
 #include "node/parts/light_out.hpp"
 
 #include <string>
+#include <utility>
 
 #include "check.hpp"
 
 namespace graycube {
 
-LightOut::LightOut(const Seat& seat, SumsMode sums) : is_child_(seat.links()) {
+LightOut::LightOut(const Seat& seat, SumsMode sums, std::unique_ptr<LightBack> back)
+    : back_(std::move(back)), is_child_(seat.links()) {
   if (sums != SumsMode::kTree) return;
   if (const auto parent = seat.cube.tree_parent(seat.rank)) parent_bit_ = seat.bit_of(*parent);
   for (const Rank child : seat.cube.tree_children(seat.rank)) is_child_[seat.bit_of(child)] = true;
@@ -15,19 +17,41 @@ LightOut::LightOut(const Seat& seat, SumsMode sums) : is_child_(seat.links()) {
 }
 
 void LightOut::reset() {
+  if (back_) back_->reset();
   merged_.clear();
   holds_others_light_ = false;
 }
 
 void LightOut::add(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
                    const TilePlan& plan, Mail& mail) {
+  if (!back_) return gather(returns, tile, plan, mail);
+  gather(back_->take(returns, mail), tile, plan, mail);
+}
+
+void LightOut::gather(std::span<const PixelReturn> returns, std::optional<std::uint32_t> tile,
+                      const TilePlan& plan, Mail& mail) {
   while (!returns.empty()) {
     // When children's light for the same pixels will come, each pixel must have one place only.
     const bool comes_once = tile && !has_children_;
     returns = returns.subspan(comes_once ? merged_.add_tile(returns, *tile, plan)
                                          : merged_.add(returns, plan));
-    if (merged_.is_full()) send(mail);
+    if (merged_.is_full()) send_merged(mail);
   }
+}
+
+bool LightOut::on_answers(std::uint32_t bit, std::span<const std::byte> batch,
+                          const BatchLimits& limits, const TilePlan& plan, Mail& mail) {
+  if (!back_) {
+    mail.drop("answers", "light does not go that way");
+    mail.fail("answers came from node " + std::to_string(mail.peer(bit).value) +
+              ", which was asked nothing");
+    return false;
+  }
+  const auto complete = back_->on_answers(bit, batch, limits, mail);
+  if (!complete) return false;
+  gather(*complete, std::nullopt, plan, mail);
+  holds_others_light_ = true;
+  return true;
 }
 
 bool LightOut::on_sums(std::uint32_t bit, std::span<const std::byte> batch,
@@ -46,17 +70,23 @@ bool LightOut::on_sums(std::uint32_t bit, std::span<const std::byte> batch,
     return false;
   }
   if (!merged_.add_gathered(credits, contributions)) {
-    send(mail);
+    send_merged(mail);
     GRAYCUBE_CHECK(merged_.add_gathered(credits, contributions), "no room in an empty buffer");
   }
   holds_others_light_ = true;
-  if (merged_.is_full()) send(mail);
+  if (merged_.is_full()) send_merged(mail);
   return true;
 }
 
 void LightOut::send(Mail& mail) {
-  if (is_empty()) return;
   holds_others_light_ = false;
+  if (back_) back_->send(mail);
+  send_merged(mail);
+}
+
+void LightOut::send_merged(Mail& mail) {
+  if (merged_.is_empty()) return;
+  holds_others_light_ = back_ && !back_->is_empty();
   const auto encoded = [this](const BatchStamp& stamp) {
     return encode_contributions(stamp, merged_.gathered().credits,
                                 merged_.gathered().contributions);
@@ -69,6 +99,7 @@ void LightOut::send(Mail& mail) {
 }
 
 void LightOut::report(control::NodeStats& stats) const {
+  if (back_) back_->report(stats);
   stats.contribution_batches = to_frontal_.batches;
   stats.contribution_bytes = to_frontal_.bytes;
   stats.sum_batches = to_parent_.batches;

@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace graycube {
-namespace {
-
-/// Whether the sum is more than one record can hold.
-bool is_too_much(const FixedRgb& a, const FixedRgb& b) {
-  return a.r > kMaxMergedLight - b.r || a.g > kMaxMergedLight - b.g || a.b > kMaxMergedLight - b.b;
-}
-
-}  // namespace
 
 /// The slot of the key, or the free one where it goes.
 MergeBuffer::Index::Slot& MergeBuffer::Index::slot_of(std::uint32_t key) {

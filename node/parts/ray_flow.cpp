@@ -35,6 +35,11 @@ void FlowCounts::report(control::NodeStats& stats) const {
 
 void RayFlow::post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type,
                         FlowCounts& counts, Mail& mail) {
+  if (light_back_ != nullptr) {
+    numbered_.assign(rays.begin(), rays.end());
+    if (!light_back_->leave(bit, numbered_)) return mail.fail(LightBack::kTooManyOpen);
+    rays = numbered_;
+  }
   ++counts.batches;
   counts.rays += rays.size();
   counts.bytes += mail.work_to_neighbour(

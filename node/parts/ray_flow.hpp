@@ -13,6 +13,7 @@
 #include "node/parts/holding.hpp"
 #include "node/parts/mail.hpp"
 #include "node/parts/pace.hpp"
+#include "node/parts/returns/light_back.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {
@@ -57,6 +58,8 @@ class RayFlow {
   virtual ~RayFlow() = default;
   virtual Pace pace() const = 0;
 
+  /// Each ray that is sent gets its number there, if there is such a part.
+  void number_by(LightBack* light_back) { light_back_ = light_back; }
   /// Rays leave across a link. `on_class`: the class of the work in which they were sent, if a full
   /// node did that work.
   virtual void leave(std::uint32_t bit, std::span<const RayTask> rays,
@@ -123,11 +126,14 @@ class RayFlow {
 
  protected:
   std::uint64_t reserved() const { return reserved_; }
-  static void post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type,
-                        FlowCounts& counts, Mail& mail);
+  void post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchType type,
+                 FlowCounts& counts, Mail& mail);
 
  private:
   std::uint64_t reserved_ = 0;
+  LightBack* light_back_ = nullptr;
+  /// Rays with their numbers; a member so that its memory serves the next batch.
+  std::vector<RayTask> numbered_;
 };
 
 std::unique_ptr<RayFlow> make_flow(FlowMode mode, const FlowRules& rules);

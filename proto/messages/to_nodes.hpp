@@ -58,6 +58,7 @@ struct Load {
   SumsMode sums = SumsMode::kDirect;
   /// How nodes find the crossings of rays.
   SubdivisionChoice subdivision{};
+  ReturnsMode returns = ReturnsMode::kFrontal;
   friend bool operator==(const Load&, const Load&) = default;
 };
 

@@ -43,6 +43,9 @@ enum class FlowMode : std::uint8_t { kCredit, kBlocking };
 /// How contributions reach the frontal: from each node by itself, or added up along the hypercube's
 /// tree.
 enum class SumsMode : std::uint8_t { kDirect, kTree };
+/// How light gets from where it is made to the frontal: straight, weighted by the rays' weights, or
+/// back along the rays' ways to the node that sent the primary ray.
+enum class ReturnsMode : std::uint8_t { kFrontal, kSender };
 enum class JobState : std::uint8_t {
   kQueued,
   kLoading,
@@ -74,6 +77,7 @@ std::string_view to_string(ShadowMode value);
 std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
 std::string_view to_string(SumsMode value);
+std::string_view to_string(ReturnsMode value);
 std::string_view to_string(Subdivision value);
 std::string_view to_string(Entry value);
 std::string_view to_string(JobState value);
@@ -119,6 +123,11 @@ struct NodeStats {
   std::uint64_t cells_visited = 0, primitives_tested = 0, tests_saved = 0;
   std::uint64_t boxes_tested = 0, boxes_rejected = 0, spheres_tested = 0, spheres_rejected = 0;
   std::uint64_t nodes_descended = 0, entry_links = 0, rays_not_shot = 0;
+  /// Where light goes back along the rays' ways: the most rays and pixels that were open at a time,
+  /// and the bytes that they took.
+  std::uint64_t open_peak = 0, open_bytes_peak = 0;
+  /// Rays of neighbours that were answered, and what the answers took.
+  std::uint64_t answers = 0, answer_batches = 0, answer_bytes = 0;
   /// Seconds from the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -145,6 +154,7 @@ struct JobOptions {
   std::string aov{};
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision{};
+  ReturnsMode returns = ReturnsMode::kFrontal;
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
 

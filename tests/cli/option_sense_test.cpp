@@ -26,6 +26,12 @@ TEST_CASE("an option that the algorithm has no use for is refused, and no other"
   o.algorithm = Algorithm::kSerial;
   CHECK(refusal([&] { check_sense(o); }) ==
         "graycube: usage: --sums: is for --algorithm roth and macro, not for serial");
+  o = {};
+  o.returns = ReturnsMode::kSender;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kRoth;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --returns: is for --algorithm macro, not for roth");
 }
 
 TEST_CASE("a queue's length is for blocking flow only") {

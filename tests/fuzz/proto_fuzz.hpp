@@ -33,6 +33,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
   std::vector<TileCredit> credits;
   std::vector<Contribution> contributions;
   std::vector<std::uint32_t> tiles;
+  std::vector<RayAnswer> answers;
   std::uint64_t granted = 0, work = 0;
   Token token;
   const BatchResult results[] = {decode_rays(bytes, limits, rays),
@@ -43,7 +44,8 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
                                  signal_of(bytes),
                                  decode_offer(bytes, limits, work),
                                  decode_rays(bytes, limits, class_rays, BatchType::kClassRays),
-                                 decode_class_credit(bytes, limits, classes)};
+                                 decode_class_credit(bytes, limits, classes),
+                                 decode_answers(bytes, limits, answers)};
   const BatchHeader* header = nullptr;
   for (const BatchResult& result : results) {
     const auto* accepted = std::get_if<BatchHeader>(&result);
@@ -59,6 +61,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
       again = encode_rays(header->stamp, class_rays, BatchType::kClassRays);
       break;
     case BatchType::kClassCredit: again = encode_class_credit(header->stamp, classes); break;
+    case BatchType::kAnswers: again = encode_answers(header->stamp, answers); break;
     case BatchType::kContributions:
       again = encode_contributions(header->stamp, credits, contributions);
       break;

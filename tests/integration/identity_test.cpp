@@ -76,6 +76,15 @@ void check_identity(const std::string& scene, const char* size = kSize,
   ways.push_back({"--algorithm", "macro", "-n", "4", "--sums", "tree", "--flow", "blocking",
                   "--queue", "65536"});
   ways.push_back({"--algorithm", "roth", "-n", "8", "--sums", "tree"});
+  for (const char* nodes : {"1", "4", "16"}) {
+    ways.push_back({"--algorithm", "macro", "-n", nodes, "--returns", "sender"});
+  }
+  ways.push_back({"--algorithm", "macro", "-n", "8", "--returns", "sender", "--shadows", "forward",
+                  "--partition", "regular", "--scatter", "3"});
+  ways.push_back({"--algorithm", "macro", "-n", "8", "--returns", "sender", "--shadows", "local",
+                  "--sums", "tree", "--threads", "2"});
+  ways.push_back({"--algorithm", "macro", "-n", "4", "--returns", "sender", "--flow", "blocking",
+                  "--queue", "65536"});
   check_ways(scene, ways, size, also);
 }
 
@@ -107,13 +116,14 @@ TEST_CASE("compare --report renders a scene with every subdivision and distribut
                                  kSmallSize, "--report", "-q"});
   INFO(o.out << o.err);
   REQUIRE(o.status == 0);
-  for (const char* distribution : {"serial, ", "roth, ", "macro, forward, ", "macro, "}) {
+  for (const char* distribution :
+       {"serial, ", "roth, ", "macro, forward, ", "macro, ", "macro, returned, "}) {
     for (const char* subdivision : kSubdivisions) {
       CHECK(o.out.find(std::string(distribution) + subdivision + " ") != std::string::npos);
     }
   }
   CHECK(o.out.find("TESTS/RAY") != std::string::npos);
-  CHECK(lines_of(o.out).size() == 2 + 4 * std::size(kSubdivisions));
+  CHECK(lines_of(o.out).size() == 2 + 5 * std::size(kSubdivisions));
   CHECK(o.out.find("DIFFERENT") == std::string::npos);
 }
 
@@ -172,6 +182,27 @@ TEST_CASE("with sums along the tree nodes send light to each other") {
     CHECK(stats["messages"]["sum_batches"] > 0);
     CHECK(stats["malformed_drops"] == 0);
   }
+}
+
+TEST_CASE("where light goes back to senders, nodes answer each other's rays and count them") {
+  Sandbox sandbox;
+  const Outcome o =
+      sandbox.run({"render", scene_file("mirrors.json").string(), "--algorithm", "macro", "-n",
+                   "16", "--returns", "sender", "--shadows", "forward", "--partition", "regular",
+                   "-o", "out.exr", "--stats", "s.json", "-q"});
+  INFO(o.err);
+  REQUIRE(o.status == 0);
+  const auto stats = sandbox.json("s.json");
+  CHECK(stats["choices"]["returns"] == "sender");
+  CHECK(stats["messages"]["answer_batches"] > 0);
+  CHECK(stats["malformed_drops"] == 0);
+  std::uint64_t rays_in = 0, answers = 0;
+  for (const auto& node : stats["per_node"]) {
+    rays_in += node["rays_in"].get<std::uint64_t>();
+    answers += node["answers"].get<std::uint64_t>();
+  }
+  CHECK(answers > 0);
+  CHECK(answers == rays_in);
 }
 
 TEST_CASE("simulate forwards the very rays of a real render, and finds the same picture") {

@@ -79,19 +79,23 @@ std::vector<Bytes> one_of_each(Random& random) {
   std::vector<Contribution> light;
   for (int i = 0; i < 3; ++i) credits.push_back(some_credit(random));
   light = some_lights(random, 4);
-  return {encode_rays(kStamp, some_rays(random, 3)),
-          encode_contributions(kStamp, credits, light),
-          encode_link_credit(kStamp, 65536),
-          encode_token(kStamp, {true, -12, 3, 20, 99}),
-          encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
-          encode_signal(kStamp, BatchType::kGreeting),
-          encode_signal(kStamp, BatchType::kGreetingAck),
-          encode_signal(kStamp, BatchType::kGoodbye),
-          encode_signal(kStamp, BatchType::kGoodbyeAck),
-          encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
-          encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
-          encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
-          encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF})};
+  return {
+      encode_rays(kStamp, some_rays(random, 3)),
+      encode_contributions(kStamp, credits, light),
+      encode_link_credit(kStamp, 65536),
+      encode_token(kStamp, {true, -12, 3, 20, 99}),
+      encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
+      encode_signal(kStamp, BatchType::kGreeting),
+      encode_signal(kStamp, BatchType::kGreetingAck),
+      encode_signal(kStamp, BatchType::kGoodbye),
+      encode_signal(kStamp, BatchType::kGoodbyeAck),
+      encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
+      encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
+      encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
+      encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF}),
+      encode_answers(kStamp, std::vector<RayAnswer>{{5, false, {1, 0, 300}},
+                                                    {6, true, {}},
+                                                    {1u << 31, true, {kMaxMergedLight, 1, 1}}})};
 }
 
 template <class T>
@@ -303,7 +307,7 @@ TEST_CASE("a damaged header is refused, and the error says what is wrong") {
   CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
   CHECK(error_of(peek_header(with(good, 4, std::uint16_t{3}))) == BatchError::kBadVersion);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
-  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{14}))) == BatchError::kBadType);
+  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{15}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
   CHECK(error_of(peek_header(with(good, 28, std::uint32_t{3}))) == BatchError::kBadLength);
   CHECK(error_of(peek_header(with(good, 32, std::uint32_t{1}))) == BatchError::kBadLength);

@@ -42,6 +42,11 @@ inline control::NodeStats example_stats() {
   s.nodes_descended = 16;
   s.entry_links = 17;
   s.rays_not_shot = 18;
+  s.open_peak = 70001;
+  s.open_bytes_peak = 1ull << 36;
+  s.answers = 1ull << 37;
+  s.answer_batches = 90000;
+  s.answer_bytes = 1ull << 38;
   s.models_borrowed = 3;
   s.endgame_s = 0.125;
   return s;
@@ -65,6 +70,7 @@ inline control::JobOptions example_options() {
   o.aov = "depth,object";
   o.sums = SumsMode::kTree;
   o.subdivision = {Subdivision::kArnaldi, Entry::kDescent};
+  o.returns = ReturnsMode::kSender;
   return o;
 }
 
@@ -127,7 +133,8 @@ inline std::vector<ControlMessage> example_messages() {
            true,
            true,
            SumsMode::kTree,
-           {Subdivision::kOctree, Entry::kExtremal}},
+           {Subdivision::kOctree, Entry::kExtremal},
+           ReturnsMode::kSender},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       Relieved{9, 1, 12},
