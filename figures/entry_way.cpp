@@ -1,0 +1,96 @@
+#include "figures/entry_way.hpp"
+
+#include <map>
+#include <span>
+#include <variant>
+
+#include "proto/model_slice.hpp"
+#include "subdivisions/frustum_order.hpp"
+#include "subdivisions/leaf_entry.hpp"
+
+namespace graycube::figures {
+namespace {
+
+/// Leaf regions are numbered apart from nodes.
+std::vector<std::uint32_t> nodes_of_leaves(const Bsp& bsp) {
+  std::vector<std::uint32_t> nodes(bsp.leaves().size());
+  for (std::uint32_t i = 0; i < bsp.nodes().size(); ++i) {
+    if (bsp.nodes()[i].axis == BspNode::kLeafAxis) nodes[bsp.nodes()[i].child] = i;
+  }
+  return nodes;
+}
+
+template <typename Order>
+std::vector<std::uint32_t> way_along(const Bsp& bsp, const Order& order, double t) {
+  const auto nodes = nodes_of_leaves(bsp);
+  std::vector<std::uint32_t> way;
+  WalkCounts counts;
+  OutermostLeaves(bsp).enter(bsp, order, t, counts, [&](const BspLeaf& leaf) {
+    way.push_back(nodes[static_cast<std::size_t>(&leaf - bsp.leaves().data())]);
+  });
+  return way;
+}
+
+/// The subdivided parts of the scene that nodes hold, made when first asked for.
+class NodeSpaces {
+ public:
+  struct Part {
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const LeafSpace> space;
+  };
+
+  NodeSpaces(const std::vector<SharedBytes>& slices, Subdivision way)
+      : slices_(slices), way_(way) {}
+
+  /// Nothing when the node's part is empty.
+  const Part& of(Rank rank) {
+    const std::uint32_t i = slices_.size() > 1 ? rank.value : 0;
+    const auto [found, is_new] = parts_.try_emplace(i);
+    if (!is_new || i >= slices_.size()) return found->second;
+    std::span<const std::byte> bytes = slices_[i].bytes();
+    auto taken = take_model(bytes);
+    if (auto* model = std::get_if<Model>(&taken)) {
+      found->second.model = std::make_shared<const Model>(std::move(*model));
+      found->second.space = std::make_shared<const LeafSpace>(*found->second.model, way_);
+    }
+    return found->second;
+  }
+
+ private:
+  const std::vector<SharedBytes>& slices_;
+  Subdivision way_;
+  std::map<std::uint32_t, Part> parts_;
+};
+
+bool can_be_drawn(const LeafSpace& space, const RayTask& ray) {
+  if (space.way() != Subdivision::kArnaldi) return true;
+  const Ray line = space.camera_space().line_of(ray.ray);
+  return !space.is_fan() || line.origin.z + ray.t * line.direction.z > 0;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> entry_way(const LeafSpace& space, const RayTask& ray) {
+  if (space.way() == Subdivision::kArnaldi) {
+    return way_along(space.bsp(), FrustumOrder(space.camera_space(), ray.ray), ray.t);
+  }
+  return way_along(space.bsp(), PlaneOrder(ray.ray), ray.t);
+}
+
+std::optional<ShownEntry> choose_entry(const RunRecord& run, const std::vector<SharedBytes>& slices,
+                                       Subdivision way) {
+  NodeSpaces spaces(slices, way);
+  std::optional<ShownEntry> best;
+  for (const ReceivedRay& received : run.rays) {
+    const NodeSpaces::Part& part = spaces.of(received.at);
+    if (!part.space || !can_be_drawn(*part.space, received.ray)) continue;
+    auto passed = entry_way(*part.space, received.ray);
+    if (passed.size() > kMostOnWay && best) continue;
+    if (best && best->way.size() <= kMostOnWay && best->way.size() >= passed.size()) continue;
+    best = ShownEntry{received, part.model, part.space, std::move(passed)};
+    if (best->way.size() == kMostOnWay) break;
+  }
+  return best;
+}
+
+}  // namespace graycube::figures
