@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
+#include "figures/page/shown_picture.hpp"
 #include "figures/screen_regions.hpp"
 #include "figures/section_view.hpp"
-#include "figures/shown_picture.hpp"
 
 namespace graycube::figures {
 namespace {
@@ -46,7 +46,7 @@ void draw_regions(Svg& svg, const ShownPicture& shown, const std::vector<ScreenR
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty()) continue;
-    if (i > 0) svg.path(paths[i], {.fill = kScale[i - 1], .opacity = 0.62});
+    if (i > 0) svg.path(paths[i], {.fill = kScale[i - 1], .opacity = 0.5});
     svg.path(paths[i], {.stroke = kInk, .width = 0.7, .opacity = 0.8});
   }
   for (const auto& [at, count] : counts) {
@@ -70,8 +70,7 @@ std::string screen_svg(std::string_view scene, const Picture& picture, const Lea
   shown.draw(svg, 0.35);
   draw_regions(svg, shown, regions, most, picture.width, picture.height);
   draw_shades(svg, {kMargin, kHeight - 58}, most,
-              "primitives that a region holds in depth; regions without a colour hold none: no "
-              "ray is shot");
+              "primitives held in depth; a region without colour holds none: no ray is shot");
   return svg.finish();
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 #include "figures/section_view.hpp"
 
 namespace graycube::figures {
@@ -51,24 +51,25 @@ Section section_at(const LeafSpace& space, const Vec3& place,
   return section;
 }
 
-/// A window around the entry and all faces of the way's cells that are in the whole window.
+/// A window around the entry and all faces of the way's cells that are in the whole window; where a
+/// cell lies beside that, its nearest face.
 Window window_around(const LeafSpace& space, const Section& section, const Vec3& place,
                      const std::vector<std::uint32_t>& way) {
   const Window whole = whole_window(space, section);
   Window w{place[section.right], place[section.right], place[section.up], place[section.up]};
-  const auto include = [](double value, double lo, double hi, double& least, double& most) {
-    if (value < lo || value > hi) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
+  const auto include = [](double from, double to, double lo, double hi, double& least,
+                          double& most) {
+    for (const double face : {from, to}) {
+      const bool is_nearest = (face == from && from >= hi) || (face == to && to <= lo);
+      if ((face < lo || face > hi) && !is_nearest) continue;
+      least = std::min(least, face);
+      most = std::max(most, face);
+    }
   };
   for (const std::uint32_t node : way) {
     const SectionCell c = projected(space, section, node);
-    for (const double right : {c.right_lo, c.right_hi}) {
-      include(right, whole.right_lo, whole.right_hi, w.right_lo, w.right_hi);
-    }
-    for (const double up : {c.up_lo, c.up_hi}) {
-      include(up, whole.up_lo, whole.up_hi, w.up_lo, w.up_hi);
-    }
+    include(c.right_lo, c.right_hi, whole.right_lo, whole.right_hi, w.right_lo, w.right_hi);
+    include(c.up_lo, c.up_hi, whole.up_lo, whole.up_hi, w.up_lo, w.up_hi);
   }
   const double right =
       std::max(kAround * (w.right_hi - w.right_lo), 0.05 * (whole.right_hi - whole.right_lo));
@@ -109,7 +110,11 @@ void draw_way(Svg& svg, const ShownEntry& entry, const Section& section, const S
     middles.push_back(middle);
   }
   for (std::size_t i = 1; i < middles.size(); ++i) {
-    svg.arrow(middles[i - 1], middles[i], {.stroke = kRed, .width = 2}, 10);
+    const Point a = middles[i - 1], b = middles[i];
+    const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1.0);
+    const double share = std::max(0.5, 1 - 11 / length);
+    svg.arrow(a, {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
+              {.stroke = kRed, .width = 2}, std::min(10.0, length / 8));
   }
   for (std::size_t i = 0; i < middles.size(); ++i) {
     const bool is_last = i + 1 == middles.size();

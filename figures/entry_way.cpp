@@ -62,7 +62,12 @@ class NodeSpaces {
   std::map<std::uint32_t, Part> parts_;
 };
 
+/// Rays that begin in a macro-region other than their node's come from nowhere: they have no way
+/// behind them, of more than this share of a unit.
+constexpr double kLeastWay = 1e-6;
+
 bool can_be_drawn(const LeafSpace& space, const RayTask& ray) {
+  if (!(ray.t > kLeastWay)) return false;
   if (space.way() != Subdivision::kArnaldi) return true;
   const Ray line = space.camera_space().line_of(ray.ray);
   return !space.is_fan() || line.origin.z + ray.t * line.direction.z > 0;

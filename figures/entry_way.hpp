@@ -25,9 +25,9 @@ struct ShownEntry {
 /// Ways of more leaf regions than this aren't legible.
 inline constexpr std::size_t kMostOnWay = 7;
 
-/// Of the rays recorded, the first one with the longest legible way. `slices` are the nodes' parts
-/// of the scene as prepared, by rank, or one for all. Nothing if no ray was received that can be
-/// drawn: for `arnaldi` it must be in front of the eye.
+/// Among the rays recorded, the first one with the longest legible way. `slices` are the nodes'
+/// parts of the scene as prepared, by rank, or one for all. Nothing if no ray was received that can
+/// be drawn: for `arnaldi` it must be in front of the eye.
 std::optional<ShownEntry> choose_entry(const RunRecord& run, const std::vector<SharedBytes>& slices,
                                        Subdivision way);
 

@@ -3,25 +3,18 @@
 #include <algorithm>
 #include <array>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 
 namespace graycube::figures {
 namespace {
 
 constexpr double kWidth = 1040, kHeight = 560;
 
-/// How far a step along each bit of a label moves on the page, in units of the shortest: two
-/// squares, joined obliquely to a cube; two cubes side by side; four; and these again, obliquely.
-constexpr std::array<Point, kMaxDimension> kSteps{{{1, 0},
-                                                   {0, -1},
-                                                   {0.42, -0.34},
-                                                   {2.05, 0},
-                                                   {0, -1.95},
-                                                   {1.05, -0.85},
-                                                   {4.6, 0},
-                                                   {0, -4.6},
-                                                   {2, -2},
-                                                   {9, 0}}};
+/// How far a step along each bit of a label moves on the page, in units of the shortest: a square;
+/// a second one behind it, which makes a cube; more cubes beside and above. No step passes a node.
+constexpr std::array<Point, 6> kSteps{
+    {{1, 0}, {0, -1}, {0.42, -0.34}, {2.2, 0.55}, {0.62, -2.35}, {4.9, 0.25}}};
+static_assert(kMostNodesDrawn == 1u << kSteps.size());
 
 constexpr std::string_view color_of(CubeEdge::Use use) {
   return use == CubeEdge::Use::kColumns ? kBlue : use == CubeEdge::Use::kRows ? kOrange : kFaint;
@@ -30,7 +23,7 @@ constexpr std::string_view color_of(CubeEdge::Use use) {
 /// A node's place in units of kSteps.
 Point place_of(GrayLabel label) {
   Point p;
-  for (std::uint32_t bit = 0; bit < kMaxDimension; ++bit) {
+  for (std::uint32_t bit = 0; bit < kSteps.size(); ++bit) {
     if ((label.value >> bit & 1) == 0) continue;
     p.x += kSteps[bit].x;
     p.y += kSteps[bit].y;
@@ -59,11 +52,8 @@ void draw_node(Svg& svg, const Hypercube& cube, Rank rank, Point at, double radi
   svg.circle(at, radius, {.fill = kWhite, .stroke = kInk, .width = 1.2});
   svg.text({at.x, at.y + 4}, std::to_string(rank.value),
            {.size = radius > 11 ? 12.0 : 10.0, .anchor = Anchor::kMiddle, .is_bold = true});
-  svg.text({at.x, at.y + radius + 11}, bits_text(cube, cube.label_of(rank)),
-           {.size = radius > 11 ? 11.0 : 8.5,
-            .color = kQuiet,
-            .anchor = Anchor::kMiddle,
-            .has_rim = true});
+  svg.text({at.x + 0.75 * radius + 2, at.y + radius + 6}, bits_text(cube, cube.label_of(rank)),
+           {.size = radius > 11 ? 11.0 : 8.5, .color = kQuiet, .has_rim = true});
 }
 
 double radius_for(const Hypercube& cube) { return cube.nodes() > 16 ? 9 : 14; }

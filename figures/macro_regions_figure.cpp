@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "figures/hypercube_figure.hpp"
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 
 namespace graycube::figures {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "figures/shown_picture.hpp"
+#include "figures/page/shown_picture.hpp"
 #include "film/film.hpp"
 #include "proto/messages.hpp"
 #include "topology/hypercube.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 #include "proto/messages/values.hpp"
 
 namespace graycube::figures {
@@ -39,7 +39,8 @@ void draw_pointer(Svg& svg, const LeafSpace& space, const Section& section, cons
   const Point from = view.face_middle(leaf, pointer.face);
   const Point to = view.shows(target) ? view.middle(target) : from;
   svg.circle(from, 3, {.fill = color});
-  svg.arrow(from, to, {.stroke = color, .width = 2.2}, 12);
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  svg.arrow(from, to, {.stroke = color, .width = 2.2}, std::min(12.0, length / 8));
   const std::uint32_t leaves = space.leaves_below(pointer.target);
   if (leaves > 1 && view.shows(target)) {
     svg.text({to.x, to.y - 8}, "subtree of " + std::to_string(leaves),

@@ -72,6 +72,8 @@ class Recorder {
   }
 
  private:
+  static constexpr std::size_t kKeptOfBatch = 24;
+
   void on_control(Place from, double sent_s, const Message& message) {
     const auto decoded = decode(message.text());
     const auto* m = std::get_if<ControlMessage>(&decoded);
@@ -102,8 +104,10 @@ class Recorder {
   void keep_rays(Rank from, Rank to, const Message& message, BatchType type) {
     std::vector<RayTask> rays;
     if (std::holds_alternative<BatchError>(decode_rays(message.frame, limits_, rays, type))) return;
-    for (const RayTask& ray : rays) {
-      if (record_.rays.size() < RunRecord::kMostRays) record_.rays.push_back({to, from, ray});
+    // Rays of a batch are much alike: those that are kept are spread over it.
+    const std::size_t step = rays.size() / kKeptOfBatch + 1;
+    for (std::size_t i = 0; i < rays.size(); i += step) {
+      if (record_.rays.size() < RunRecord::kMostRays) record_.rays.push_back({to, from, rays[i]});
     }
   }
 

@@ -40,7 +40,7 @@ struct ReceivedRay {
 struct RunRecord {
   std::vector<RayShipment> shipments;
   std::vector<TokenHop> token;
-  /// The first kMostRays that were sent.
+  /// Some of each batch, until there are kMostRays.
   std::vector<ReceivedRay> rays;
   /// Whether there were more shipments than kMostShipments: those are missing.
   bool is_cut_short = false;

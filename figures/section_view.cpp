@@ -1,8 +1,9 @@
 #include "figures/section_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 
 namespace graycube::figures {
 namespace {
@@ -28,7 +29,9 @@ std::string axes_text(const LeafSpace& space, const Section& section) {
     const std::string letter(1, names[axis]);
     return space.is_fan() && axis < 2 ? letter + "/z" : letter;
   };
-  const std::string where = name(section.across) + " = " + figure_text(section.at);
+  // What rounding leaves of 0 is 0 to the reader.
+  const double at = std::fabs(section.at) < 1e-9 ? 0 : section.at;
+  const std::string where = name(section.across) + " = " + figure_text(at);
   if (space.way() == Subdivision::kLinked) {
     return "section at " + where + ": " + name(section.right) + " to the right, " +
            name(section.up) + " up, in units of the scene";

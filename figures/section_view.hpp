@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "figures/leaf_space.hpp"
-#include "figures/svg.hpp"
+#include "figures/page/svg.hpp"
 
 namespace graycube::figures {
 

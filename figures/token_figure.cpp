@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 #include "figures/traffic_figure.hpp"
 
 namespace graycube::figures {
@@ -93,8 +93,8 @@ void draw_rays(Svg& svg, const Plot& plot, const RunRecord& run) {
 std::string text_of(const TokenRound& r) {
   return "round " + std::to_string(r.round) + ": " + std::to_string(r.hops) + " hops, " +
          figure_text((r.ended_s - r.began_s) * 1e6) + " µs, back " +
-         (r.is_black ? "black" : "white") + ", messages sent less received " +
-         std::to_string(r.count) + " (without node 0's)";
+         (r.is_black ? "black" : "white") + ", its sum of messages " + std::to_string(r.count) +
+         " before node 0 adds its own";
 }
 
 void draw_rounds(Svg& svg, const Plot& plot, const std::vector<TokenRound>& rounds) {

@@ -1,12 +1,13 @@
 #include "figures/traffic_figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "figures/macro_regions_figure.hpp"
-#include "figures/page.hpp"
-#include "figures/shown_picture.hpp"
+#include "figures/page/page.hpp"
+#include "figures/page/shown_picture.hpp"
 #include "figures/traffic.hpp"
 #include "regions/camera.hpp"
 
@@ -109,54 +110,72 @@ void draw_nodes(Svg& svg, const std::vector<Point>& places,
   }
 }
 
-/// A row of the table of traffic over time.
-void draw_row(Svg& svg, const Box& row, std::string_view name,
-              const std::vector<std::uint64_t>& over_time, std::uint64_t total, double most) {
+/// Cells of one shade are one path, so that drawings stay small.
+using ShadePaths = std::array<std::string, kScale.size()>;
+
+/// A row of the table of traffic over time; its cells are added to `paths`.
+void draw_row(Svg& svg, const Box& row, std::string_view name, const LinkTraffic& link, double most,
+              ShadePaths& paths) {
   svg.text({row.x - 8, row.center().y + 4}, name, {.size = 11, .anchor = Anchor::kEnd});
-  const double width = row.width / static_cast<double>(over_time.size());
-  for (std::size_t i = 0; i < over_time.size(); ++i) {
-    const std::size_t shade = shade_of(static_cast<double>(over_time[i]), most);
+  const double width = row.width / static_cast<double>(link.over_time.size());
+  for (std::size_t i = 0; i < link.over_time.size(); ++i) {
+    const std::size_t shade = shade_of(static_cast<double>(link.over_time[i]), most);
     if (shade == 0) continue;
-    svg.rectangle({row.x + width * static_cast<double>(i), row.y, width, row.height},
-                  {.fill = kScale[shade]});
+    paths[shade] += "M" + coordinate(row.x + width * static_cast<double>(i)) + " " +
+                    coordinate(row.y) + "h" + coordinate(width) + "v" + coordinate(row.height) +
+                    "h" + coordinate(-width) + "z";
   }
-  svg.rectangle(row, {.stroke = kFaint, .width = 0.7});
-  svg.text({row.right() + 8, row.center().y + 4}, count_text(total), {.size = 11, .color = kQuiet});
+  svg.text({row.right() + 8, row.center().y + 4}, count_text(link.rays),
+           {.size = 11, .color = kQuiet});
+}
+
+std::uint64_t busiest_part(const LinkTraffic& link) {
+  return *std::max_element(link.over_time.begin(), link.over_time.end());
+}
+
+/// The sum of links from number `first` on.
+LinkTraffic sum_of(const std::vector<LinkTraffic>& links, std::size_t first) {
+  LinkTraffic sum;
+  sum.over_time.resize(kParts);
+  for (std::size_t i = first; i < links.size(); ++i) {
+    sum.rays += links[i].rays;
+    for (std::size_t p = 0; p < kParts; ++p) sum.over_time[p] += links[i].over_time[p];
+  }
+  return sum;
 }
 
 void draw_table(Svg& svg, const RunRecord& run, const std::vector<LinkTraffic>& links) {
   const Box table{640, kHead + 32, 370, 460};
   const std::size_t shown = links.size() > kMostLinks ? kMostLinks - 1 : links.size();
-  std::vector<std::uint64_t> others(kParts), all(kParts);
-  std::uint64_t most = 1, other_rays = 0, rays = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    for (std::size_t p = 0; p < kParts; ++p) {
-      all[p] += links[i].over_time[p];
-      if (i >= shown) others[p] += links[i].over_time[p];
-      if (i < shown) most = std::max(most, links[i].over_time[p]);
-    }
-    rays += links[i].rays;
-    if (i >= shown) other_rays += links[i].rays;
-  }
   const std::size_t rows = shown + 1 + (links.size() > shown ? 1 : 0);
   const double height = std::min(24.0, table.height / static_cast<double>(rows));
+  std::uint64_t most = 1;
+  for (std::size_t i = 0; i < shown; ++i) most = std::max(most, busiest_part(links[i]));
   Box row{table.x, table.y, table.width, height - 4};
+  ShadePaths paths;
+  const auto add = [&](const std::string& name, const LinkTraffic& link, std::uint64_t largest) {
+    draw_row(svg, row, name, link, static_cast<double>(largest), paths);
+    row.y += height;
+  };
   svg.text({table.x - 8, table.y - 10}, "link",
            {.size = 11, .color = kQuiet, .anchor = Anchor::kEnd});
   svg.text({table.right() + 8, table.y - 10}, "rays", {.size = 11, .color = kQuiet});
-  for (std::size_t i = 0; i < shown; ++i, row.y += height) {
-    draw_row(svg, row,
-             std::to_string(links[i].from.value) + " \u2192 " + std::to_string(links[i].to.value),
-             links[i].over_time, links[i].rays, static_cast<double>(most));
+  for (std::size_t i = 0; i < shown; ++i) {
+    const LinkTraffic& link = links[i];
+    add(std::to_string(link.from.value) + " \u2192 " + std::to_string(link.to.value), link, most);
   }
   if (links.size() > shown) {
-    draw_row(svg, row, std::to_string(links.size() - shown) + " others", others, other_rays,
-             static_cast<double>(*std::max_element(others.begin(), others.end())));
-    row.y += height;
+    const LinkTraffic others = sum_of(links, shown);
+    add(std::to_string(links.size() - shown) + " others", others, busiest_part(others));
   }
-  draw_row(svg, row, "all", all, rays,
-           static_cast<double>(*std::max_element(all.begin(), all.end())));
-  draw_time_axis(svg, {table.x, table.y, table.width, row.bottom() - table.y + 2}, 0, run.end_s);
+  const LinkTraffic all = sum_of(links, 0);
+  add("all", all, busiest_part(all));
+  const Box drawn{table.x, table.y, table.width, row.y - table.y};
+  svg.rectangle(drawn, {.stroke = kFaint});
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    if (!paths[i].empty()) svg.path(paths[i], {.fill = kScale[i]});
+  }
+  draw_time_axis(svg, drawn, 0, run.end_s);
 }
 
 }  // namespace
@@ -193,7 +212,8 @@ std::string traffic_svg(std::string_view scene, const Picture& picture,
        {LegendEntry::Sign::kArrow, kViolet, "across a link round the back or to no neighbour"},
        {LegendEntry::Sign::kDot, kScale[5], "node: the darker, the more rays it received"},
        {LegendEntry::Sign::kDot, kGold, has_hidden ? "light (others are behind the eye)" : "light"},
-       {LegendEntry::Sign::kArea, kScale[4], "rays sent in a part of the time"}});
+       {LegendEntry::Sign::kArea, kScale[4],
+        "rays sent in a part of the time (sums by themselves)"}});
   return svg.finish();
 }
 

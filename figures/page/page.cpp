@@ -1,4 +1,4 @@
-#include "figures/page.hpp"
+#include "figures/page/page.hpp"
 
 #include <algorithm>
 #include <cmath>

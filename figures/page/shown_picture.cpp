@@ -1,4 +1,4 @@
-#include "figures/shown_picture.hpp"
+#include "figures/page/shown_picture.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "figures/svg.hpp"
+#include "figures/page/svg.hpp"
 #include "film/film.hpp"
 
 namespace graycube::figures {

@@ -1,4 +1,4 @@
-#include "figures/svg.hpp"
+#include "figures/page/svg.hpp"
 
 #include <algorithm>
 #include <cmath>

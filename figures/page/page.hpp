@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "figures/svg.hpp"
+#include "figures/page/svg.hpp"
 
 namespace graycube::figures {
 
