@@ -93,6 +93,23 @@ void draw_ray(Svg& svg, const ShownEntry& entry, const SectionView& view, bool i
   svg.polyline(points, {.stroke = kOrange, .width = 2.4, .dashes = is_after ? "" : "6 4"});
 }
 
+/// The subtrees that links lead to, as far as they are more than the next leaf region.
+void draw_subtrees(Svg& svg, const ShownEntry& entry, const Section& section,
+                   const SectionView& view) {
+  for (std::size_t i = 1; i < entry.way.size(); ++i) {
+    const std::uint32_t node = subtree_between(*entry.space, entry.way[i - 1], entry.way[i]);
+    const std::uint32_t leaves = entry.space->leaves_below(node);
+    const SectionCell cell = projected(*entry.space, section, node);
+    const auto outline = view.outline(cell);
+    if (leaves < 2 || outline.empty()) continue;
+    svg.polygon(outline, {.fill = kRed, .opacity = 0.05});
+    svg.polygon(outline, {.stroke = kRed, .width = 2.4, .dashes = "8 5"});
+    const Point top{(outline[2].x + outline[3].x) / 2, outline[2].y + 18};
+    svg.text(top, "subtree of " + std::to_string(leaves) + " leaf regions",
+             {.size = 12, .color = kRed, .anchor = Anchor::kMiddle, .has_rim = true});
+  }
+}
+
 void draw_way(Svg& svg, const ShownEntry& entry, const Section& section, const SectionView& view) {
   std::vector<Point> middles;
   for (std::size_t i = 0; i < entry.way.size(); ++i) {
@@ -147,6 +164,7 @@ std::string entry_svg(std::string_view scene, const ShownEntry& entry) {
                        subtitle_of(entry, section));
   svg.begin_clip(view.panel());
   view.draw_cells(svg, cells_in(space, section));
+  draw_subtrees(svg, entry, section, view);
   draw_way(svg, entry, section, view);
   draw_ray(svg, entry, view, false);
   draw_ray(svg, entry, view, true);
@@ -154,12 +172,14 @@ std::string entry_svg(std::string_view scene, const ShownEntry& entry) {
   svg.circle(at, 6, {.fill = kOrange, .stroke = kInk, .width = 1.5});
   svg.end_clip();
   svg.rectangle(view.panel(), {.stroke = kInk});
-  draw_legend(svg, {kMargin, kHeight - 70}, kWidth - 2 * kMargin,
-              {{LegendEntry::Sign::kDashes, kOrange, "the ray before it came to the node"},
-               {LegendEntry::Sign::kLine, kOrange, "the ray from there on"},
-               {LegendEntry::Sign::kDot, kOrange, "where it is when it arrives"},
-               {LegendEntry::Sign::kArea, kGreen, "its entry region"},
-               {LegendEntry::Sign::kArrow, kRed, "links followed from the outermost leaf region"}});
+  draw_legend(
+      svg, {kMargin, kHeight - 70}, kWidth - 2 * kMargin,
+      {{LegendEntry::Sign::kDashes, kOrange, "the ray before it came to the node"},
+       {LegendEntry::Sign::kLine, kOrange, "the ray from there on"},
+       {LegendEntry::Sign::kDot, kOrange, "where it is when it arrives"},
+       {LegendEntry::Sign::kArea, kGreen, "its entry region"},
+       {LegendEntry::Sign::kArrow, kRed, "links followed from the outermost leaf region"},
+       {LegendEntry::Sign::kDashes, kRed, "what a link leads to: only planes in it are compared"}});
   svg.text({kMargin, kHeight - 16},
            "Leaf regions on the way lie in depth, too; here they are seen one behind the other. "
            "Report, figure 8.",

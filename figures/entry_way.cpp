@@ -1,7 +1,9 @@
 #include "figures/entry_way.hpp"
 
+#include <cmath>
 #include <map>
 #include <span>
+#include <tuple>
 #include <variant>
 
 #include "proto/model_slice.hpp"
@@ -73,6 +75,20 @@ bool can_be_drawn(const LeafSpace& space, const RayTask& ray) {
   return !space.is_fan() || line.origin.z + ray.t * line.direction.z > 0;
 }
 
+/// What makes a way worth drawing, the most important first: that it is legible and long, and ends
+/// amid the scene, in a leaf region that holds something; then how far the ray has come.
+using Merit = std::tuple<bool, std::size_t, int, bool, double>;
+
+Merit merit_of(const LeafSpace& space, const std::vector<std::uint32_t>& way, const RayTask& ray) {
+  const Aabb& cell = space.cell(way.back());
+  int finite_faces = 0;
+  for (int a = 0; a < 3; ++a) {
+    finite_faces += (std::isfinite(cell.lo[a]) ? 1 : 0) + (std::isfinite(cell.hi[a]) ? 1 : 0);
+  }
+  return {way.size() <= kMostOnWay, way.size(), finite_faces,
+          !space.primitives_below(way.back()).empty(), ray.t};
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> entry_way(const LeafSpace& space, const RayTask& ray) {
@@ -82,18 +98,29 @@ std::vector<std::uint32_t> entry_way(const LeafSpace& space, const RayTask& ray)
   return way_along(space.bsp(), PlaneOrder(ray.ray), ray.t);
 }
 
+std::uint32_t subtree_between(const LeafSpace& space, std::uint32_t leaf, std::uint32_t next) {
+  // The first face in the order of OutermostLeaves behind which the next leaf region lies.
+  const BspLeaf& region = space.bsp().leaves()[space.bsp().nodes()[leaf].child];
+  const Aabb& cell = space.cell(next);
+  for (const std::uint32_t node : region.neighbour) {
+    if (node != kNoNeighbour && intersection_of(space.cell(node), cell) == cell) return node;
+  }
+  return next;
+}
+
 std::optional<ShownEntry> choose_entry(const RunRecord& run, const std::vector<SharedBytes>& slices,
                                        Subdivision way) {
   NodeSpaces spaces(slices, way);
   std::optional<ShownEntry> best;
+  Merit best_merit;
   for (const ReceivedRay& received : run.rays) {
     const NodeSpaces::Part& part = spaces.of(received.at);
     if (!part.space || !can_be_drawn(*part.space, received.ray)) continue;
     auto passed = entry_way(*part.space, received.ray);
-    if (passed.size() > kMostOnWay && best) continue;
-    if (best && best->way.size() <= kMostOnWay && best->way.size() >= passed.size()) continue;
+    const Merit merit = merit_of(*part.space, passed, received.ray);
+    if (best && merit <= best_merit) continue;
     best = ShownEntry{received, part.model, part.space, std::move(passed)};
-    if (best->way.size() == kMostOnWay) break;
+    best_merit = merit;
   }
   return best;
 }

@@ -10,7 +10,8 @@ namespace graycube::figures {
 namespace {
 
 constexpr double kWidth = 1120, kPlotLeft = 88, kPlotHeight = 400, kHeight = 690;
-constexpr std::size_t kMostRoundsListed = 6, kMostRayMarks = 2000;
+constexpr std::size_t kMostRoundsListed = 6;
+constexpr double kMarkWidth = 2.5;
 /// How much of the time before the token sets out is shown, as a share of the time that it travels.
 constexpr double kBefore = 0.25;
 
@@ -78,23 +79,41 @@ void draw_token(Svg& svg, const Plot& plot, const std::vector<TokenHop>& token) 
   }
 }
 
-void draw_rays(Svg& svg, const Plot& plot, const RunRecord& run) {
-  std::string path;
-  std::size_t shown = 0;
+/// A mark for each node and each kMarkWidth of the page in which rays arrive there, so that a run
+/// of many small messages gives no larger drawing.
+void draw_rays(Svg& svg, const Hypercube& cube, const Plot& plot, const RunRecord& run) {
+  const auto steps = static_cast<std::size_t>(plot.box().width / kMarkWidth) + 1;
+  std::vector<std::vector<bool>> arrive(cube.nodes(), std::vector<bool>(steps));
   for (const RayShipment& s : run.shipments) {
-    if (s.arrived_s < plot.first_s() || shown == kMostRayMarks) continue;
-    ++shown;
-    const double x = plot.x(s.arrived_s), y = plot.y(s.to);
-    path += "M" + coordinate(x) + " " + coordinate(y - 4) + "V" + coordinate(y + 4);
+    if (s.arrived_s < plot.first_s()) continue;
+    const double step = (plot.x(s.arrived_s) - plot.box().x) / kMarkWidth;
+    arrive[s.to.value][std::min(static_cast<std::size_t>(step), steps - 1)] = true;
   }
-  if (!path.empty()) svg.path(path, {.stroke = kBlue, .width = 1.6, .opacity = 0.75});
+  std::string path;
+  const double half = std::min(4.0, 0.4 * plot.box().height / (cube.nodes() + 1));
+  for (std::uint32_t r = 0; r < cube.nodes(); ++r) {
+    for (std::size_t i = 0; i < steps; ++i) {
+      if (!arrive[r][i]) continue;
+      const std::size_t first = i;
+      while (i + 1 < steps && arrive[r][i + 1]) ++i;
+      const double width = kMarkWidth * static_cast<double>(i - first + 1) - 0.5;
+      path += "M" + coordinate(plot.box().x + kMarkWidth * static_cast<double>(first)) + " " +
+              coordinate(plot.y(Rank{r}) - half) + "h" + coordinate(width) + "v" +
+              coordinate(2 * half) + "h" + coordinate(-width) + "z";
+    }
+  }
+  if (!path.empty()) svg.path(path, {.fill = kBlue, .opacity = 0.75});
+}
+
+std::string duration_of(const TokenRound& r) {
+  const double took_s = r.ended_s - r.began_s;
+  return took_s < 1e-3 ? figure_text(took_s * 1e6) + " µs" : figure_text(took_s * 1e3) + " ms";
 }
 
 std::string text_of(const TokenRound& r) {
   return "round " + std::to_string(r.round) + ": " + std::to_string(r.hops) + " hops, " +
-         figure_text((r.ended_s - r.began_s) * 1e6) + " µs, back " +
-         (r.is_black ? "black" : "white") + ", its sum of messages " + std::to_string(r.count) +
-         " before node 0 adds its own";
+         duration_of(r) + ", back " + (r.is_black ? "black" : "white") + ", its sum of messages " +
+         std::to_string(r.count) + " before node 0 adds its own";
 }
 
 void draw_rounds(Svg& svg, const Plot& plot, const std::vector<TokenRound>& rounds) {
@@ -149,7 +168,7 @@ std::string token_svg(std::string_view scene, const Hypercube& cube, const RunRe
           " ms after the start, when node 0 is out of primary rays" + ending_text(run) +
           " (report, 3.3.4)");
   plot.draw_rows(svg);
-  draw_rays(svg, plot, run);
+  draw_rays(svg, cube, plot, run);
   draw_token(svg, plot, run.token);
   draw_rounds(svg, plot, rounds);
   draw_time_axis(svg, plot.box(), plot.first_s(), plot.last_s());

@@ -99,9 +99,9 @@ TEST_CASE("a received ray's way goes by links to the leaf region that a descent 
     for (std::size_t i = 1; i < entry->way.size(); ++i) {
       const BspLeaf& before = space.bsp().leaves()[space.bsp().nodes()[entry->way[i - 1]].child];
       const Aabb& next = space.cell(entry->way[i]);
-      CHECK(std::any_of(before.neighbour.begin(), before.neighbour.end(), [&](std::uint32_t n) {
-        return n != kNoNeighbour && intersection_of(space.cell(n), next) == next;
-      }));
+      const std::uint32_t subtree = subtree_between(space, entry->way[i - 1], entry->way[i]);
+      CHECK(std::count(before.neighbour.begin(), before.neighbour.end(), subtree) > 0);
+      CHECK(intersection_of(space.cell(subtree), next) == next);
     }
     CHECK(xml_problem(entry_svg("s.json", *entry)).empty());
   }
