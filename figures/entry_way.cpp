@@ -13,22 +13,12 @@
 namespace graycube::figures {
 namespace {
 
-/// Leaf regions are numbered apart from nodes.
-std::vector<std::uint32_t> nodes_of_leaves(const Bsp& bsp) {
-  std::vector<std::uint32_t> nodes(bsp.leaves().size());
-  for (std::uint32_t i = 0; i < bsp.nodes().size(); ++i) {
-    if (bsp.nodes()[i].axis == BspNode::kLeafAxis) nodes[bsp.nodes()[i].child] = i;
-  }
-  return nodes;
-}
-
 template <typename Order>
-std::vector<std::uint32_t> way_along(const Bsp& bsp, const Order& order, double t) {
-  const auto nodes = nodes_of_leaves(bsp);
+std::vector<std::uint32_t> way_along(const LeafSpace& space, const Order& order, double t) {
   std::vector<std::uint32_t> way;
   WalkCounts counts;
-  OutermostLeaves(bsp).enter(bsp, order, t, counts, [&](const BspLeaf& leaf) {
-    way.push_back(nodes[static_cast<std::size_t>(&leaf - bsp.leaves().data())]);
+  OutermostLeaves(space.bsp()).enter(space.bsp(), order, t, counts, [&](const BspLeaf& leaf) {
+    way.push_back(space.node_of(leaf));
   });
   return way;
 }
@@ -93,9 +83,9 @@ Merit merit_of(const LeafSpace& space, const std::vector<std::uint32_t>& way, co
 
 std::vector<std::uint32_t> entry_way(const LeafSpace& space, const RayTask& ray) {
   if (space.way() == Subdivision::kArnaldi) {
-    return way_along(space.bsp(), FrustumOrder(space.camera_space(), ray.ray), ray.t);
+    return way_along(space, FrustumOrder(space.camera_space(), ray.ray), ray.t);
   }
-  return way_along(space.bsp(), PlaneOrder(ray.ray), ray.t);
+  return way_along(space, PlaneOrder(ray.ray), ray.t);
 }
 
 std::uint32_t subtree_between(const LeafSpace& space, std::uint32_t leaf, std::uint32_t next) {

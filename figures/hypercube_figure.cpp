@@ -138,7 +138,9 @@ std::string hypercube_svg(const Hypercube& cube) {
     return e.use != CubeEdge::Use::kUnused;
   });
   Svg svg = begin_page(
-      kWidth, kHeight, "A hypercube of " + std::to_string(cube.nodes()) + " nodes, and its grid",
+      kWidth, kHeight,
+      "A hypercube of " + std::to_string(cube.nodes()) + (cube.nodes() == 1 ? " node" : " nodes") +
+          ", and its grid",
       "Dimension " + std::to_string(cube.dimension()) + ", " + std::to_string(edges.size()) +
           " links, " + std::to_string(used) + " of them between neighbours of a grid of " +
           std::to_string(cube.columns()) + " \u00D7 " + std::to_string(cube.rows()) +

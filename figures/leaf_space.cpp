@@ -22,6 +22,15 @@ std::vector<Aabb> cells_of_nodes(const Bsp& bsp, const Aabb& all) {
   return cells;
 }
 
+/// Leaf regions are numbered apart from nodes: the node of each.
+std::vector<std::uint32_t> nodes_of_leaves(const Bsp& bsp) {
+  std::vector<std::uint32_t> nodes(bsp.leaves().size());
+  for (std::uint32_t i = 0; i < bsp.nodes().size(); ++i) {
+    if (bsp.nodes()[i].axis == BspNode::kLeafAxis) nodes[bsp.nodes()[i].child] = i;
+  }
+  return nodes;
+}
+
 Bsp bsp_of(const Model& model, Subdivision way, const CameraSpace& space) {
   return way == Subdivision::kArnaldi ? build_screen_bsp(model, space) : Bsp::build(model);
 }
@@ -50,6 +59,7 @@ LeafSpace::LeafSpace(const Model& model, Subdivision way)
       camera_space_(frame_, CameraSpace::Direction::kForward),
       bsp_(bsp_of(model, way, camera_space_)),
       cells_(cells_of_nodes(bsp_, everything())),
+      leaf_nodes_(nodes_of_leaves(bsp_)),
       extent_(extent_of_primitives(model)) {}
 
 Aabb LeafSpace::everything() const {

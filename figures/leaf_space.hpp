@@ -32,6 +32,10 @@ class LeafSpace {
   const Aabb& extent() const { return extent_; }
   /// The cell of a node of the BSP, inner or leaf.
   const Aabb& cell(std::uint32_t node) const { return cells_[node]; }
+  /// The node of a leaf region of bsp().
+  std::uint32_t node_of(const BspLeaf& leaf) const {
+    return leaf_nodes_[static_cast<std::size_t>(&leaf - bsp_.leaves().data())];
+  }
   /// The primitives that a node's leaf regions hold, each once, in increasing order.
   std::vector<std::uint32_t> primitives_below(std::uint32_t node) const;
   /// The number of leaf regions below a node, itself included if it is one.
@@ -45,6 +49,8 @@ class LeafSpace {
   CameraSpace camera_space_;
   Bsp bsp_;
   std::vector<Aabb> cells_;
+  /// By the leaf region's index.
+  std::vector<std::uint32_t> leaf_nodes_;
   Aabb extent_;
 };
 

@@ -75,13 +75,12 @@ void draw_boundaries(Svg& svg, const ShownPicture& shown, const Picture& picture
 
 std::string macro_regions_svg(std::string_view scene, const Picture& picture, const Hypercube& cube,
                               const control::GridLayout& grid, PartitionMode mode) {
-  Svg svg =
-      begin_page(kWidth, kHeight,
-                 std::string(scene) + ": macro-regions of " + std::to_string(cube.nodes()) +
-                     (cube.nodes() == 1 ? " node" : " nodes"),
-                 std::to_string(grid.columns) + " \u00D7 " + std::to_string(grid.rows) +
-                     " pyramids through the eye, " + std::string(to_string(mode)) +
-                     " boundaries; the outer ones reach round to the back (report, figure 7)");
+  Svg svg = begin_page(kWidth, kHeight,
+                       std::string(scene) + ": macro-regions of " + std::to_string(cube.nodes()) +
+                           (cube.nodes() == 1 ? " node" : " nodes"),
+                       std::to_string(grid.columns) + " \u00D7 " + std::to_string(grid.rows) +
+                           " pyramids through the eye, " + std::string(to_string(mode)) +
+                           " boundaries (report, figure 7)");
   const ShownPicture shown(picture, {kMargin, kHead, kWidth - 2 * kMargin, kHeight - 150});
   shown.draw(svg, 0.15);
   draw_boundaries(svg, shown, picture, grid);
@@ -96,7 +95,7 @@ std::string macro_regions_svg(std::string_view scene, const Picture& picture, co
   svg.text(
       {kMargin, kHeight - 20},
       "In each region: the node's rank, and below it its Gray label. Neighbours' labels differ "
-      "in one bit.",
+      "in one bit. Outer regions reach round to the back.",
       {.size = 12, .color = kQuiet});
   return svg.finish();
 }

@@ -20,6 +20,7 @@ struct TokenRound {
 };
 std::vector<TokenRound> rounds_of(const RunRecord& run);
 
+/// The token must have been handed on at least once.
 std::string token_svg(std::string_view scene, const Hypercube& cube, const RunRecord& run);
 
 }  // namespace graycube::figures

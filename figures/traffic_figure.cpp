@@ -20,23 +20,26 @@ constexpr std::size_t kParts = 56, kMostLinks = 20;
 constexpr double kWidestArrow = 9;
 
 /// Where nodes are on the map: at their regions' middles, or evenly in columns and rows where these
-/// are many or not in the picture.
+/// are many or not all in the picture.
 std::vector<Point> node_places(const ShownPicture& shown, const Picture& picture,
                                const Hypercube& cube, const control::GridLayout& grid) {
-  std::vector<Point> places;
-  const bool is_even = grid.columns != cube.columns() || grid.rows != cube.rows();
+  bool is_even = grid.columns != cube.columns() || grid.rows != cube.rows();
+  const auto middle = [&](const std::vector<std::int64_t>& edges, std::uint32_t i, double side) {
+    const PixelSpan span = pixels_between(edges, i, side);
+    if (span.from >= span.to) is_even = true;
+    return span.middle();
+  };
+  std::vector<Point> places, even;
   for (std::uint32_t r = 0; r < cube.nodes(); ++r) {
     const std::uint32_t column = cube.column_of(Rank{r}), row = cube.row_of(Rank{r});
-    const double even_x = (column + 0.5) / cube.columns() * picture.width;
-    const double even_y = (row + 0.5) / cube.rows() * picture.height;
-    PixelSpan x{even_x, even_x}, y{even_y, even_y};
-    if (!is_even) {
-      x = pixels_between(grid.column_edges, column, picture.width);
-      y = pixels_between(grid.row_edges, row, picture.height);
-    }
-    places.push_back(shown.at(x.middle(), y.middle()));
+    even.push_back(shown.at((column + 0.5) / cube.columns() * picture.width,
+                            (row + 0.5) / cube.rows() * picture.height));
+    if (is_even) continue;
+    const double x = middle(grid.column_edges, column, picture.width);
+    const double y = middle(grid.row_edges, row, picture.height);
+    places.push_back(shown.at(x, y));
   }
-  return places;
+  return is_even ? even : places;
 }
 
 /// A light's place in the picture, in pixels; nothing behind the eye.

@@ -45,7 +45,7 @@ void check_draw_options(const DrawCommand& command, const control::JobOptions& o
     throw usage_failure("-n", "--figure " + figure + " needs at least 2 nodes");
   }
   const Subdivision way = options.subdivision.way;
-  if (shows_leaves(command.figure) && way != Subdivision::kSurfaces && !has_links(way)) {
+  if (shows_leaves(command.figure) && !has_links(way)) {
     throw usage_failure("--subdivision", "--figure " + figure +
                                              " draws linked and arnaldi (default), not " +
                                              std::string(to_string(way)));
@@ -55,10 +55,13 @@ void check_draw_options(const DrawCommand& command, const control::JobOptions& o
   }
 }
 
-/// The job whose picture or run is drawn.
+/// The job whose picture or run is drawn. Where leaf regions are asked for and no subdivision, it
+/// is the report's.
 control::JobOptions job_of(const DrawCommand& command) {
   control::JobOptions options = command.options;
   options.algorithm = Algorithm::kMacro;
+  Subdivision& way = options.subdivision.way;
+  if (shows_leaves(command.figure) && way == Subdivision::kSurfaces) way = Subdivision::kArnaldi;
   return options;
 }
 
@@ -92,10 +95,8 @@ class Subject {
   const std::string& name() const { return scene_.name; }
   const RenderSettings& settings() const { return settings_; }
   Hypercube cube() const { return *Hypercube::of_size(command_.nodes); }
-  Subdivision leaf_way() const {
-    const Subdivision way = options_.subdivision.way;
-    return way == Subdivision::kSurfaces ? Subdivision::kArnaldi : way;
-  }
+  /// That of figures of leaf regions.
+  Subdivision way() const { return options_.subdivision.way; }
 
   /// The picture, found by today's subdivision: all give the same.
   Picture picture() const {
@@ -157,14 +158,13 @@ std::string macro_regions_of(const Subject& subject) {
 
 std::string leaves_of(const Subject& subject, FigureName figure) {
   const Model model = subject.model();
-  const figures::LeafSpace space(model, subject.leaf_way());
+  const figures::LeafSpace space(model, subject.way());
   return figure == FigureName::kBsp ? figures::bsp_svg(subject.name(), subject.picture(), space)
                                     : figures::pointers_svg(subject.name(), space);
 }
 
 std::string entry_of(const Subject& subject, const DrawCommand& command) {
-  const auto entry =
-      figures::choose_entry(subject.run(), subject.prepared().slices, subject.leaf_way());
+  const auto entry = figures::choose_entry(subject.run(), subject.prepared().slices, subject.way());
   if (!entry) {
     nothing_to_draw(command,
                     "no ray goes on to a neighbour where that can be drawn; --shadows forward "
