@@ -256,7 +256,7 @@ class Parser {
     add_model_choice(options, c.choice);
     options.option({.names = "--figure",
                     .value = "NAME",
-                    .help = "What to draw, after the report's figures",
+                    .help = "hypercube, macro-regions, bsp, pointers, entry, traffic or token",
                     .kind = ValueKind::kChoice,
                     .choices = names_of(kFigureChoices),
                     .is_required = true},
