@@ -39,6 +39,7 @@ class Parser {
     declare_compare();
     declare_convert();
     declare_simulate();
+    declare_draw();
     declare_texts();
   }
 
@@ -245,6 +246,31 @@ class Parser {
     add_machine(options, c);
     add_job_options(options, c.options);
     add_table_options(options, c.as_json, c.is_quiet, c.plot);
+  }
+
+  void declare_draw() {
+    auto declared = declare<DrawCommand>("draw", "Draw a figure of how a scene is rendered");
+    DrawCommand& c = declared.command;
+    Declaring& options = declared.options;
+    add_scene(options, c.scene);
+    add_model_choice(options, c.choice);
+    options.option({.names = "--figure",
+                    .value = "NAME",
+                    .help = "hypercube, macro-regions, bsp, pointers, entry, traffic or token",
+                    .kind = ValueKind::kChoice,
+                    .choices = names_of(kFigureChoices),
+                    .is_required = true},
+                   [&c](const std::string& text) { c.figure = parse_figure("--figure", text); });
+    add_nodes(options, c.nodes,
+              "Nodes: a power of two, 1 to 64 (default " + std::to_string(c.nodes) + ")");
+    options.option({.names = "-o,--output",
+                    .value = "OUT.svg",
+                    .help = "The drawing (default: SCENE's name with -FIGURE.svg, here)",
+                    .kind = ValueKind::kFile},
+                   [&c](const std::string& text) { c.output = text; });
+    add_how(options, c.options);
+    add_common_options(options, c.options);
+    options.flag("--quiet,-q", c.is_quiet, "Print nothing but errors");
   }
 
   /// Declares the figures of the machines that simulate assumes.

@@ -10,6 +10,7 @@
 
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
+#include "figures/figure_name.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
@@ -102,6 +103,17 @@ struct SimulateCommand {
   std::filesystem::path plot;
   bool as_json = false, is_quiet = false;
 };
+struct DrawCommand {
+  std::string scene;
+  ModelChoice choice;
+  figures::FigureName figure = figures::FigureName::kHypercube;
+  /// The algorithm is macro, whatever they say.
+  control::JobOptions options;
+  std::uint32_t nodes = 16;
+  /// Empty for a name made of the scene's and the figure's.
+  std::filesystem::path output;
+  bool is_quiet = false;
+};
 struct ConvertCommand {
   std::string in, out;
   ModelChoice choice;
@@ -114,7 +126,7 @@ struct PrintCommand {
 using Command =
     std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
                  CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
-                 CompareCommand, SimulateCommand, ConvertCommand, PrintCommand>;
+                 CompareCommand, SimulateCommand, DrawCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are main's, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);

@@ -156,6 +156,10 @@ Entry parse_entry(std::string_view option, std::string_view text) {
   return parse_choice<Entry>(option, text, kEntryChoices);
 }
 
+figures::FigureName parse_figure(std::string_view option, std::string_view text) {
+  return parse_choice<figures::FigureName>(option, text, kFigureChoices);
+}
+
 Shell parse_shell(std::string_view option, std::string_view text) {
   return parse_choice<Shell>(option, text, kShellChoices);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/options/completion.hpp"
+#include "figures/figure_name.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
@@ -49,6 +50,11 @@ inline constexpr std::array kSubdivisionChoices{Subdivision::kSurfaces, Subdivis
                                                 Subdivision::kLinked,   Subdivision::kArnaldi,
                                                 Subdivision::kOctree,   Subdivision::kKaplan};
 inline constexpr std::array kEntryChoices{Entry::kUsual, Entry::kDescent, Entry::kExtremal};
+inline constexpr std::array kFigureChoices{
+    figures::FigureName::kHypercube, figures::FigureName::kMacroRegions,
+    figures::FigureName::kBsp,       figures::FigureName::kPointers,
+    figures::FigureName::kEntry,     figures::FigureName::kTraffic,
+    figures::FigureName::kToken};
 inline constexpr std::array kShellChoices{Shell::kBash, Shell::kZsh, Shell::kFish};
 
 /// The choices as they are spelled.
@@ -69,6 +75,7 @@ SumsMode parse_sums(std::string_view option, std::string_view text);
 ReturnsMode parse_returns(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);
 Entry parse_entry(std::string_view option, std::string_view text);
+figures::FigureName parse_figure(std::string_view option, std::string_view text);
 Shell parse_shell(std::string_view option, std::string_view text);
 
 /// Reads a finite number.

@@ -19,6 +19,7 @@ ExitStatus run(const DownCommand& command);
 ExitStatus run(const CheckCommand& command);
 ExitStatus run(const CompareCommand& command);
 ExitStatus run(const SimulateCommand& command);
+ExitStatus run(const DrawCommand& command);
 ExitStatus run(const ConvertCommand& command);
 ExitStatus run(const PrintCommand& command);
 

@@ -97,7 +97,7 @@ void add_threads(Declaring& options, std::uint32_t& threads, const char* help) {
                  });
 }
 
-void add_nodes(Declaring& options, std::uint32_t& nodes, const char* help) {
+void add_nodes(Declaring& options, std::uint32_t& nodes, const std::string& help) {
   options.option({.names = "-n,--nodes", .value = "NODES", .help = help},
                  [&nodes](const std::string& text) { nodes = parse_nodes("-n", text); });
 }
@@ -140,6 +140,8 @@ void add_named(Declaring& options, const char* name, const char* help,
                  std::move(take));
 }
 
+}  // namespace
+
 void add_how(Declaring& options, control::JobOptions& o) {
   add_named(options, "--algorithm", "auto (default), serial, roth or macro",
             names_of(kAlgorithmChoices),
@@ -180,8 +182,6 @@ void add_how(Declaring& options, control::JobOptions& o) {
             names_of(kEntryChoices),
             [&o](const auto& text) { o.subdivision.entry = parse_entry("--entry", text); });
 }
-
-}  // namespace
 
 void add_job_options(Declaring& options, control::JobOptions& o) {
   add_how(options, o);

@@ -29,13 +29,16 @@ void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help,
 
 void add_threads(Declaring& options, std::uint32_t& threads, const char* help);
 
-void add_nodes(Declaring& options, std::uint32_t& nodes, const char* help);
+void add_nodes(Declaring& options, std::uint32_t& nodes, const std::string& help);
 
 /// The same with the help for commands that start nodes.
 void add_nodes(Declaring& options, std::uint32_t& nodes);
 
 /// Options that all ways to compute the picture have.
 void add_common_options(Declaring& options, control::JobOptions& o);
+
+/// Options that choose among ways to compute the picture, all of which give the same one.
+void add_how(Declaring& options, control::JobOptions& o);
 
 /// Options that decide how the picture is computed.
 void add_job_options(Declaring& options, control::JobOptions& o);

@@ -36,6 +36,9 @@ Picture read_exr(const std::filesystem::path& path);
 /// ".linear.png"; else 8-bit sRGB. The file appears whole or not at all, like that of write_exr().
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
+/// The bytes of a PNG with 8-bit sRGB, as write_png() writes them.
+std::string png_text(const Picture& picture);
+
 /// A PNG's samples as stored: 8 or 16 bits, RGB (grey is widened, alpha dropped).
 struct PngImage {
   std::uint32_t width = 0, height = 0;

@@ -61,6 +61,18 @@ void write_bytes(png_structp png, png_bytep bytes, png_size_t count) {
   if (!file->write(bytes, count)) png_error(png, "write failed");
 }
 
+/// Never throws across libpng: a failure is one of libpng's.
+void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
+  auto* text = static_cast<std::string*>(png_get_io_ptr(png));
+  bool is_full = false;
+  try {
+    text->append(reinterpret_cast<const char*>(bytes), count);
+  } catch (const std::bad_alloc&) {
+    is_full = true;
+  }
+  if (is_full) png_error(png, "there is not enough memory");
+}
+
 void flush_nothing(png_structp) {}
 
 /// Big-endian 16-bit or 8-bit samples of one row.
@@ -77,12 +89,18 @@ void encode_row(const float* linear, const Layout& layout, png_bytep out) {
   }
 }
 
+/// Where the bytes of a PNG go: what libpng calls, and with what.
+struct Sink {
+  png_rw_ptr write;
+  void* to;
+};
+
 /// False when libpng complained. `row` holds layout.row_bytes().
-bool encode(Writer& writer, WholeFile& file, const Layout& layout, const float* rgb,
+bool encode(Writer& writer, const Sink& sink, const Layout& layout, const float* rgb,
             png_bytep row) {
   png_structp png = writer.png;
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_write_fn(png, &file, write_bytes, flush_nothing);
+  png_set_write_fn(png, sink.to, sink.write, flush_nothing);
   png_set_IHDR(png, writer.info, layout.width, layout.height, layout.bits, PNG_COLOR_TYPE_RGB,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (layout.bits == 8) {
@@ -162,11 +180,27 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
   WholeFile file(path);
   Writer writer;
   if (writer.info == nullptr) throw std::bad_alloc();
-  if (!encode(writer, file, layout, picture.rgb.data(), row.data()) && !file.failed()) {
+  const Sink sink{write_bytes, &file};
+  if (!encode(writer, sink, layout, picture.rgb.data(), row.data()) && !file.failed()) {
     throw PictureError("cannot write picture: " + path.string() + ": " +
                        writer.complaint.text.data());
   }
   file.commit();  // reports a failed write
+}
+
+std::string png_text(const Picture& picture) {
+  const std::uint64_t pixels = std::uint64_t{picture.width} * picture.height;
+  GRAYCUBE_CHECK(pixels > 0 && picture.rgb.size() == 3 * pixels, "%u x %u pixels, %zu floats",
+                 picture.width, picture.height, picture.rgb.size());
+  const Layout layout{picture.width, picture.height, 8};
+  std::vector<png_byte> row(layout.row_bytes());
+  std::string text;
+  Writer writer;
+  if (writer.info == nullptr) throw std::bad_alloc();
+  if (!encode(writer, {append_bytes, &text}, layout, picture.rgb.data(), row.data())) {
+    throw PictureError(std::string("cannot write picture: ") + writer.complaint.text.data());
+  }
+  return text;
 }
 
 PngImage read_png(const std::filesystem::path& path) {

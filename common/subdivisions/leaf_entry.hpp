@@ -22,17 +22,30 @@ class OutermostLeaves {
   /// there are leaf regions, the root is asked.
   template <typename Order>
   const BspLeaf& enter(const Bsp& bsp, const Order& order, double t, WalkCounts& counts) const {
+    return enter(bsp, order, t, counts, [](const BspLeaf&) {});
+  }
+  /// The same; calls `pass(leaf)` for each leaf region on the way, the outermost one first and the
+  /// ray's own last.
+  template <typename Order, typename Pass>
+  const BspLeaf& enter(const Bsp& bsp, const Order& order, double t, WalkCounts& counts,
+                       Pass&& pass) const {
     const BspNode& root = bsp.nodes()[0];
-    if (root.axis == BspNode::kLeafAxis) return bsp.leaves()[root.child];
+    if (root.axis == BspNode::kLeafAxis) {
+      pass(bsp.leaves()[root.child]);
+      return bsp.leaves()[root.child];
+    }
     const BspLeaf* leaf =
         &bsp.leaves()[order.is_above(root.axis, root.split, t) ? rightmost_ : leftmost_];
     for (std::size_t links = 0; links < bsp.leaves().size(); ++links) {
+      pass(*leaf);
       const std::uint32_t next = beyond(*leaf, order, t);
       if (next == kNoNeighbour) return *leaf;
       ++counts.entry_links;
       leaf = &leaf_at(bsp, next, order, t, counts);
     }
-    return leaf_at(bsp, 0, order, t, counts);
+    leaf = &leaf_at(bsp, 0, order, t, counts);
+    pass(*leaf);
+    return *leaf;
   }
 
  private:

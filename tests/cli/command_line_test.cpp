@@ -90,6 +90,24 @@ TEST_CASE("every option of simulate arrives") {
   CHECK(refused({"simulate", "a.json"}).find("--nodes is required") != std::string::npos);
 }
 
+TEST_CASE("every option of draw arrives") {
+  const auto c = std::get<DrawCommand>(parsed(
+      {"draw", "a.json", "--figure", "macro-regions", "-n", "8", "-o", "f.svg", "--size", "64x32",
+       "--subdivision", "linked", "--shadows", "forward", "--partition", "regular", "-q"}));
+  CHECK(c.scene == "a.json");
+  CHECK(c.figure == figures::FigureName::kMacroRegions);
+  CHECK(c.nodes == 8);
+  CHECK(c.output == "f.svg");
+  CHECK(c.options.width == 64u);
+  CHECK(c.options.subdivision.way == Subdivision::kLinked);
+  CHECK(c.options.shadows == ShadowMode::kForward);
+  CHECK(c.options.partition == PartitionMode::kRegular);
+  CHECK(c.is_quiet);
+  CHECK(std::get<DrawCommand>(parsed({"draw", "a.json", "--figure", "token"})).nodes == 16);
+  CHECK(refused({"draw", "a.json"}).find("--figure is required") != std::string::npos);
+  CHECK(refused({"draw", "a.json", "--figure", "tokens"}).find("token") != std::string::npos);
+}
+
 TEST_CASE("clients look for the farm where they are told, then in the environment") {
   ::setenv("GRAYCUBE_FRONTAL", "tcp://127.0.0.1:7000", 1);
   CHECK(std::get<JobsCommand>(parsed({"jobs"})).connect == "tcp://127.0.0.1:7000");
@@ -182,7 +200,8 @@ TEST_CASE("lists of jobs and nodes are asked for as JSON, and page by page") {
 }
 
 TEST_CASE("help names every ending of a scene's name") {
-  for (const char* command : {"render", "submit", "check", "compare", "simulate", "convert"}) {
+  for (const char* command :
+       {"render", "submit", "check", "compare", "simulate", "draw", "convert"}) {
     const auto help = std::get<PrintCommand>(parsed({command, "--help"})).text;
     for (const std::string_view ending : kSceneEndings) {
       INFO(command << " " << ending);
@@ -211,7 +230,7 @@ TEST_CASE("help names every command, and a command's help its options") {
   const auto all = std::get<PrintCommand>(parsed({"--help"})).text;
   for (const char* name :
        {"render", "up", "submit", "jobs", "status", "watch", "cancel", "fetch", "nodes", "down",
-        "check", "compare", "simulate", "convert", "completion"}) {
+        "check", "compare", "simulate", "draw", "convert", "completion"}) {
     CHECK(all.find(name) != std::string::npos);
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
