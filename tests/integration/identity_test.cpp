@@ -242,31 +242,40 @@ TEST_CASE("simulate forwards the very rays of a real render, and finds the same 
   CHECK(sandbox.temporary_files().empty());
 }
 
-TEST_CASE("a picture does not show which subdivision found its crossings, statistics do") {
+TEST_CASE("a picture does not show which subdivision found its crossings") {
   const Arguments algorithms[] = {{"--algorithm", "serial"},
                                   {"--algorithm", "roth", "-n", "4"},
-                                  {"--algorithm", "macro", "-n", "8"}};
-  for (const char* scene :
-       {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json"}) {
+                                  {"--algorithm", "macro", "-n", "1"},
+                                  {"--algorithm", "macro", "-n", "8", "--returns", "sender"},
+                                  {"--algorithm", "macro", "-n", "16", "--shadows", "forward"}};
+  for (const char* scene : {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json",
+                            "scatter1000.json"}) {
     std::vector<Arguments> ways;
     for (const Arguments& algorithm : algorithms) {
-      for (const char* subdivision : kSubdivisions) {
+      const auto add = [&](const Arguments& options) {
         ways.push_back(algorithm);
-        ways.back().insert(ways.back().end(), {"--subdivision", subdivision});
-      }
+        ways.back().insert(ways.back().end(), options.begin(), options.end());
+      };
+      for (const char* subdivision : kSubdivisions) add({"--subdivision", subdivision});
+      add({"--subdivision", "linked", "--entry", "extremal"});
+      add({"--subdivision", "arnaldi", "--entry", "descent"});
     }
     check_ways(scene, ways, kSmallSize, {});
   }
+}
+
+TEST_CASE("statistics tell the subdivision, and what its search did") {
   Sandbox sandbox;
-  for (const Arguments& algorithm : algorithms) {
+  for (const char* algorithm : {"serial", "roth", "macro"}) {
     for (const char* subdivision : kSubdivisions) {
-      Arguments options = algorithm;
-      options.insert(options.end(), {"--subdivision", subdivision, "--stats", "stats.json"});
-      picture(sandbox, "mirrors.json", kSmallSize, options);
+      picture(sandbox, "mirrors.json", kSmallSize,
+              {"--algorithm", algorithm, "--subdivision", subdivision, "--stats", "stats.json"});
       const auto found = sandbox.json("stats.json")["subdivision"];
-      INFO(algorithm[1] << ' ' << subdivision);
+      INFO(algorithm << ' ' << subdivision);
       CHECK(found["way"] == subdivision);
       CHECK(found["primitives_tested"] > 1000);
+      CHECK((found["boxes_tested"] > 0) == (found["way"] == "roth"));
+      CHECK((found["entry_links"] > 0) == (found["way"] == "arnaldi"));
     }
   }
 }
