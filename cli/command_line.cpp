@@ -94,6 +94,7 @@ class Parser {
     add_nodes(options, render.nodes);
     add_threads(options, render.threads, "Evaluator threads per node (default 1)");
     add_job_options(options, render.options);
+    options.flag("--json", render.as_json, "Progress, and what was written, as lines of JSON");
     options.flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
   }
 

@@ -21,7 +21,7 @@ struct RenderCommand {
   Outputs outputs;
   control::JobOptions options;
   std::uint32_t nodes = 1, threads = 1;
-  bool is_quiet = false;
+  bool as_json = false, is_quiet = false;
 };
 
 struct SubmitCommand {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cli/commands/commands.hpp"
+#include "cli/display/json_text.hpp"
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/job_client.hpp"
 #include "cli/interrupts.hpp"
@@ -50,7 +51,7 @@ ImageSize size_of(const Scene& scene, const control::JobOptions& options) {
 Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
                         const std::string& name, SharedBytes scene, const ImageSize& size,
                         FrontalProcess& frontal) {
-  ProgressDisplay display(stdout, command.is_quiet);
+  ProgressDisplay display(stdout, command.is_quiet, command.as_json);
   const std::string& endpoint = frontal.wait_until_listening();
   bool ends_on_interrupt = true;
   FarmClient farm(endpoint, [&] {
@@ -93,8 +94,14 @@ void write_outputs(const RenderCommand& command, const Outputs& outputs, const s
   const double wall_s =
       write_timed_stats(outputs, rendered.stats, started, load_s, rendered.written_cpu_s);
   if (command.is_quiet) return;
-  std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
-              rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
+  if (command.as_json) {
+    std::printf("{\"exr\":%s,\"width\":%u,\"height\":%u,\"wall_s\":%.3f}\n",
+                json_string(outputs.exr.string()).c_str(), rendered.picture.width,
+                rendered.picture.height, wall_s);
+  } else {
+    std::printf("%s: %u x %u, %s, %s\n", outputs.exr.c_str(), rendered.picture.width,
+                rendered.picture.height, rendered.summary.c_str(), duration_text(wall_s).c_str());
+  }
   // The files are what counts: a reader of this output that has gone is no failure.
   std::fflush(stdout);
   std::clearerr(stdout);
@@ -118,7 +125,7 @@ ExitStatus run(const RenderCommand& command) {
     for (const Problem& warning : scene.warnings) print(warning);
   }
   if (command.options.algorithm == Algorithm::kSerial) {
-    ProgressDisplay display(stdout, command.is_quiet);
+    ProgressDisplay display(stdout, command.is_quiet, command.as_json);
     Rendered rendered = render_here(std::move(scene), command.options, command.threads, display);
     const InterruptsHeld held;
     write_outputs(command, outputs, name, rendered, started, load_s);

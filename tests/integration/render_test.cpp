@@ -36,6 +36,26 @@ TEST_CASE("the first scene is rendered on 8 nodes in seconds, and says how") {
   CHECK(sandbox.temporary_files().empty());
 }
 
+TEST_CASE("render --json tells its progress and what it wrote, a line of JSON each") {
+  for (const char* algorithm : {"serial", "macro"}) {
+    Sandbox sandbox;
+    const Outcome o =
+        sandbox.run({"render", scene_file("first.json").string(), "-o", "a \"b\".exr", "-n", "2",
+                     "--algorithm", algorithm, "--size", "48x32", "--json"});
+    INFO(algorithm << ": " << o.out << o.err);
+    REQUIRE(o.status == 0);
+    std::vector<Json> lines;
+    for (const std::string& line : lines_of(o.out)) lines.push_back(Json::parse(line));
+    REQUIRE(lines.size() >= 2);
+    CHECK(lines.front()["type"] == "progress");
+    CHECK(lines.back()["exr"] == "a \"b\".exr");
+    CHECK(lines.back()["width"] == 48);
+    CHECK(lines.back()["height"] == 32);
+    CHECK(lines.back()["wall_s"] > 0);
+    CHECK_FALSE(file_bytes(sandbox / "a \"b\".exr").empty());
+  }
+}
+
 TEST_CASE("a picture whose name is no UTF-8 is the same as any other") {
   Sandbox sandbox;
   for (const char* name : {"plain.exr", "odd\xff.exr"}) {
