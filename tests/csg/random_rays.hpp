@@ -22,6 +22,14 @@ struct RayCase {
   double t1 = kInf;
 };
 
+/// The case with a unit direction, and in some cases another beginning and end.
+inline RayCase with_random_ends(RayCase c, Dice& dice) {
+  c.ray.direction = normalized(c.ray.direction);
+  if (dice.one_in(6)) c.t0 = dice.between(-3, 3);
+  if (dice.one_in(6)) c.t1 = c.t0 + dice.between(0, 8);
+  return c;
+}
+
 inline constexpr std::size_t kRayCases = 9;
 
 class RandomRays {
@@ -30,13 +38,7 @@ class RandomRays {
       : dice_(seed ^ 0x9E3779B97F4A7C15ull), model_(model), trees_(model) {}
 
   /// Makes a ray of kind number `kind` < kRayCases.
-  RayCase make(std::size_t kind) {
-    RayCase c = of_kind(kind);
-    c.ray.direction = normalized(c.ray.direction);
-    if (dice_.one_in(6)) c.t0 = dice_.between(-3, 3);
-    if (dice_.one_in(6)) c.t1 = c.t0 + dice_.between(0, 8);
-    return c;
-  }
+  RayCase make(std::size_t kind) { return with_random_ends(of_kind(kind), dice_); }
 
   Dice& dice() { return dice_; }
 

@@ -24,13 +24,7 @@ class CameraRays {
     }
   }
 
-  RayCase make(std::size_t kind) {
-    RayCase c = of_kind(kind);
-    c.ray.direction = normalized(c.ray.direction);
-    if (dice_.one_in(6)) c.t0 = dice_.between(-3, 3);
-    if (dice_.one_in(6)) c.t1 = c.t0 + dice_.between(0, 8);
-    return c;
-  }
+  RayCase make(std::size_t kind) { return with_random_ends(of_kind(kind), dice_); }
   Dice& dice() { return dice_; }
 
  private:

@@ -102,10 +102,13 @@ TEST_CASE("every setting is read") {
                                  "reflect": 8, "transmit": 0.5, "ior": 1.5, "model": "torrance_sparrow"},
                                  "hall": {"model": "hall_greenberg"},
                                  "rt": {"model": "rt"}, "lamp": {"model": "rt_lamp"},
-                                 "camo": {"pattern": {"type": "camouflage", "colors": [[1,0,0], [0,1,0], [0,0,1]],
-                                   "to_pattern": [{"scale": 2}, {"translate": [1,0,0]}], "thresholds": [-0.5, 0.75],
+                                 "camo": {"pattern": {"type": "camouflage",
+                                   "colors": [[1,0,0], [0,1,0], [0,0,1]],
+                                   "to_pattern": [{"scale": 2}, {"translate": [1,0,0]}],
+                                   "thresholds": [-0.5, 0.75],
                                    "octaves": 3.5, "lacunarity": 2, "decay": -0.5}},
-                                 "marble": {"pattern": {"type": "marble", "colors": [[1,0,0]]}}})"));
+                                 "marble": {"pattern": {"type": "marble",
+                                   "colors": [[1,0,0]]}}})"));
   const RenderSettings& s = scene.settings;
   CHECK(s.image == ImageSize{300, 200, 3});
   CHECK(
