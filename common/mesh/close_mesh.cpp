@@ -12,6 +12,7 @@
 #include "mesh/cut_face.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/join_points.hpp"
+#include "written_digits.hpp"
 
 namespace graycube {
 namespace {
@@ -196,11 +197,11 @@ void join(std::span<const Vec3> points, double distance, std::span<std::uint32_t
   for (std::uint32_t& c : corners) c = number[c];
 }
 
-/// The distance within which corners differ by rounding.
-double rounding_of(std::span<const Vec3> points, std::span<const std::uint32_t> corners) {
+/// The largest coordinate of all corners, without its sign.
+double largest_of(std::span<const Vec3> points, std::span<const std::uint32_t> corners) {
   double largest = 0;
   for (const std::uint32_t i : corners) largest = std::max(largest, max_abs(points[i]));
-  return kRoundingShare * largest;
+  return largest;
 }
 
 }  // namespace
@@ -245,7 +246,10 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons, d
   // A mesh that is closed as written keeps all of its points, however close they are.
   auto as_written = cut_and_oriented(polygons);
   if (std::holds_alternative<TriangleMesh>(as_written)) return as_written;
-  for (const double distance : {rounding_of(polygons.points, polygons.corners), join_within}) {
+  const double largest = largest_of(polygons.points, polygons.corners);
+  // Two ways to compute a corner may end in neighbours among the numbers that a file can hold.
+  const double written = polygons.digits > 0 ? 2 * half_unit(largest, polygons.digits) : 0;
+  for (const double distance : {kRoundingShare * largest, written, join_within}) {
     if (!(distance > 0)) continue;
     PolygonMesh joined = polygons;
     join(joined.points, distance, joined.corners);
@@ -275,7 +279,7 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
   if (!fault) return triangles;
   std::vector<std::uint32_t> corners;
   for (const Triangle& t : triangles.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  join(triangles.points, rounding_of(triangles.points, corners), corners);
+  join(triangles.points, kRoundingShare * largest_of(triangles.points, corners), corners);
   for (std::size_t i = 0; i < corners.size(); ++i) triangles.triangles[i / 3][i % 3] = corners[i];
   if (orient(triangles)) return *std::move(fault);
   return triangles;

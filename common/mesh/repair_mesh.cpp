@@ -89,23 +89,43 @@ void note_joined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& poi
   }
 }
 
-/// Joins corners of open edges at growing distances, until none is open. What a distance joins
-/// counts only where fewer edges are open afterwards.
+std::vector<std::uint32_t> corners_of(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// Joins those of the points that are within a distance, and drops triangles that are doubled then.
+/// That counts only if no more than `most_left` edges are open afterwards.
+void try_to_join(TriangleMesh& mesh, OpenEdges& open, const std::vector<std::uint32_t>& points,
+                 double distance, std::size_t most_left, MeshRepairs& repairs) {
+  const auto number = joined_points(mesh.points, points, distance);
+  TriangleMesh joined = mesh;
+  for (Triangle& t : joined.triangles) {
+    for (std::uint32_t& i : t) i = number[i];
+  }
+  std::erase_if(joined.triangles, has_equal_corners);
+  const std::size_t dropped = drop_doubled(joined);
+  OpenEdges left = open_edges(joined);
+  if (left.count > most_left) return;
+  note_joined(mesh, points, number, repairs);
+  repairs.dropped_faces += dropped;
+  mesh = std::move(joined);
+  open = std::move(left);
+}
+
+/// Joins corners at growing distances, until no edge is open: those of open edges where that leaves
+/// fewer of them, and all corners where that closes the mesh. A strip that goes on beyond its seam
+/// ends at open edges, but lies on faces whose own edges have two faces each.
 void join_corners(TriangleMesh& mesh, double side, MeshRepairs& repairs) {
   OpenEdges open = open_edges(mesh);
   for (const double share : kJoinShares) {
     if (open.count == 0) return;
-    const auto number = joined_points(mesh.points, open.points, share * side);
-    TriangleMesh joined = mesh;
-    for (Triangle& t : joined.triangles) {
-      for (std::uint32_t& i : t) i = number[i];
-    }
-    std::erase_if(joined.triangles, has_equal_corners);
-    OpenEdges left = open_edges(joined);
-    if (left.count >= open.count) continue;
-    note_joined(mesh, open.points, number, repairs);
-    mesh = std::move(joined);
-    open = std::move(left);
+    const std::vector<std::uint32_t> ends = open.points;
+    try_to_join(mesh, open, ends, share * side, open.count - 1, repairs);
+    if (open.count > 0) try_to_join(mesh, open, corners_of(mesh), share * side, 0, repairs);
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace graycube {
 
-/// Corners at open edges are joined if they are no farther apart than this share of the longest
+/// Corners are joined to close edges if they are no farther apart than this share of the longest
 /// side of the mesh's bounds, and holes filled that are so flat.
 inline constexpr double kRepairShare = 1e-4;
 /// The most edges of a hole that is filled.
@@ -29,8 +29,8 @@ struct RepairedMesh {
 };
 
 /// The mesh as closed_mesh() gives it, which is tried first and then stays as it is. Otherwise
-/// triangles that are there twice are dropped, and corners of open edges joined at a distance that
-/// is no larger than needed. Then faces are turned to agree, and flat holes of up to
+/// triangles that are there twice are dropped, and corners joined, those of open edges first, at a
+/// distance that is no larger than needed. Then faces are turned to agree, and flat holes of up to
 /// kMaxFilledEdges edges get a face each. Faults: those of closed_mesh(), holes that are bent or
 /// larger, and surfaces that enclose next to nothing even then.
 std::variant<RepairedMesh, MeshFault> repaired_mesh(const PolygonMesh& polygons);

@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <numbers>
+
 #include "catch.hpp"
 #include "cli/expect_failure.hpp"
 #include "cli/foreign_mesh_samples.hpp"
@@ -83,6 +85,25 @@ TEST_CASE("where y is up in a file, the box is turned") {
     CHECK(box.volume == Approx(6));
     CHECK(box.lo == Vec3{0, -3, 0});
     CHECK(box.hi == Vec3{1, 0, 2});
+  }
+}
+
+TEST_CASE("cones and cylinders whose last side lies on the first are repaired") {
+  if (!is_built()) return;
+  const TemporaryFolder folder;
+  // assimp 5.2.5 sums up the angle of a cylinder's sides in 24 bits, and goes one too far.
+  const std::vector<std::pair<std::string, double>> shapes{
+      {R"(<Cylinder radius="2" height="3"/>)", 12 * std::numbers::pi},
+      {R"(<Cone bottomRadius="2" height="3"/>)", 4 * std::numbers::pi},
+      {R"(<Sphere radius="2"/>)", 32 * std::numbers::pi / 3}};
+  ModelChoice choice;
+  choice.repairs = true;
+  for (const auto& [shape, volume] : shapes) {
+    INFO(shape);
+    const auto path = write_file(
+        folder / "round.x3d", R"(<?xml version="1.0"?><X3D version="3.0"><Scene><Shape>)" + shape +
+                                  "</Shape></Scene></X3D>");
+    CHECK(read_box(path, choice).volume == Approx(volume).epsilon(0.05));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "mesh/cut_face.hpp"
 #include "mesh/samples.hpp"
+#include "written_digits.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -268,4 +269,18 @@ TEST_CASE("corners further apart are joined only within a distance that is asked
   CHECK(contains_text(fault_of(gap), "not closed"));
   CHECK(std::holds_alternative<TriangleMesh>(closed_mesh(gap, 1e-6)));
   CHECK(std::holds_alternative<MeshFault>(closed_mesh(gap, 1e-8)));
+}
+
+TEST_CASE("corners that differ by a unit of the file's last digit are joined") {
+  PolygonMesh seam = box_polygons({-2, -2, -2}, {2, 2, 2});
+  // What the sine of 2π is in numbers of 24 bits, as a cylinder's seam has it.
+  seam.points.push_back(seam.points[seam.corners[0]] + Vec3{0, -1.75e-7, 0});
+  seam.corners[0] = 8;
+  CHECK(contains_text(fault_of(seam), "not closed"));
+  seam.digits = kSinglePrecisionDigits;
+  const auto closed = closed_mesh(seam);
+  REQUIRE(std::holds_alternative<TriangleMesh>(closed));
+  CHECK(std::get<TriangleMesh>(closed).points.size() == 8);
+  seam.points[8].y -= 1e-5;
+  CHECK(contains_text(fault_of(seam), "not closed"));
 }

@@ -162,6 +162,33 @@ TEST_CASE("a face that is there twice is dropped once") {
   CHECK(s.mesh == once);
 }
 
+TEST_CASE("a strip that goes on beyond its seam is dropped") {
+  PolygonMesh drum = drum_polygons(1, 0, 2, 16);
+  // Once more the side that begins at the seam, off by what 16 sums of an angle may be.
+  const auto side = [&] {
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : drum.face_ends) {
+      if (end - begin == 4) break;
+      begin = end;
+    }
+    return std::vector<std::uint32_t>(drum.corners.begin() + begin,
+                                      drum.corners.begin() + begin + 4);
+  }();
+  std::vector<std::uint32_t> again;
+  for (const std::uint32_t i : side) {
+    again.push_back(static_cast<std::uint32_t>(drum.points.size()));
+    drum.points.push_back(drum.points[i] + Vec3{-3e-6, 2e-6, 0});
+  }
+  drum.add_face(again);
+  REQUIRE(std::holds_alternative<MeshFault>(closed_mesh(drum)));
+  const auto repaired = repaired_mesh(drum);
+  REQUIRE(std::holds_alternative<RepairedMesh>(repaired));
+  const auto& [mesh, repairs] = std::get<RepairedMesh>(repaired);
+  CHECK(mesh.points.size() == 32);
+  CHECK(repairs.dropped_faces == 2);
+  CHECK(repairs.filled_holes == 0);
+}
+
 TEST_CASE("a sheet is no solid, however it is repaired") {
   PolygonMesh sheet;
   sheet.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
