@@ -44,9 +44,9 @@ struct MeshFault {
 /// given to this function again comes back unchanged.
 ///
 /// A mesh that has no inside as it is written is tried again with points joined that are within
-/// kRoundingShare (mesh/join_points.hpp) of the largest coordinate, then within one unit of the last
-/// of its `digits`, and then within `join_within`: programs compute a corner in two ways. The fault
-/// is that of the mesh as written.
+/// kRoundingShare (mesh/join_points.hpp) of the largest coordinate, then within one unit of the
+/// last of its `digits`, and then within `join_within`: programs compute a corner in two ways. The
+/// fault is that of the mesh as written.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
 /// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or

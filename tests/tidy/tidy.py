@@ -20,7 +20,7 @@ SOURCES = (".cpp", ".hpp")
 MAX_FILES = 30
 
 # One file a message, a case or an experiment: these don't count as crowded.
-DATA_FOLDERS = ("proto/schema", "scenes", "tests/fuzz/corpus", "docs/lab")
+DATA_FOLDERS = ("proto/schema", "scenes", "tests/fuzz/corpus", "docs/lab", "findings")
 # The most bytes of what everybody reads first.
 MAX_BYTES = {"README.md": 7 * 1024, "ARCHITECTURE.md": 12 * 1024}
 # Where the compiler looks for what quotes name, after the root itself.
