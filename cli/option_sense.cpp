@@ -44,6 +44,12 @@ void check_sense(const control::JobOptions& o) {
                                        std::string(to_string(o.subdivision.way)));
   if (o.queue != usual.queue && o.flow != FlowMode::kBlocking)
     throw usage_failure("--queue", "is for --flow blocking, which is not asked for");
+  // Whether `auto` picks macro is decided only when the scene is known.
+  if (o.fifo != usual.fifo && o.algorithm != Algorithm::kMacro)
+    throw usage_failure("--fifo", "process is for --algorithm macro, not for " +
+                                      std::string(to_string(o.algorithm)));
+  if (o.fifo != usual.fifo && o.flow != FlowMode::kBlocking)
+    throw usage_failure("--fifo", "process is for --flow blocking, which is not asked for");
 }
 
 }  // namespace graycube

@@ -140,6 +140,10 @@ FlowMode parse_flow(std::string_view option, std::string_view text) {
   return parse_choice<FlowMode>(option, text, kFlowChoices);
 }
 
+FifoMode parse_fifo(std::string_view option, std::string_view text) {
+  return parse_choice<FifoMode>(option, text, kFifoChoices);
+}
+
 SumsMode parse_sums(std::string_view option, std::string_view text) {
   return parse_choice<SumsMode>(option, text, kSumsChoices);
 }

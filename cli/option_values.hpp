@@ -44,6 +44,7 @@ inline constexpr std::array kShadowChoices{ShadowMode::kHorizon, ShadowMode::kFo
 inline constexpr std::array kPartitionChoices{PartitionMode::kAuto, PartitionMode::kRegular,
                                               PartitionMode::kBalanced};
 inline constexpr std::array kFlowChoices{FlowMode::kCredit, FlowMode::kBlocking};
+inline constexpr std::array kFifoChoices{FifoMode::kThread, FifoMode::kProcess};
 inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree};
 inline constexpr std::array kReturnsChoices{ReturnsMode::kFrontal, ReturnsMode::kSender};
 inline constexpr std::array kSubdivisionChoices{Subdivision::kSurfaces, Subdivision::kRoth,
@@ -71,6 +72,7 @@ ShadowMode parse_shadows(std::string_view option, std::string_view text);
 PartitionMode parse_partition(std::string_view option, std::string_view text);
 std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
+FifoMode parse_fifo(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
 ReturnsMode parse_returns(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);

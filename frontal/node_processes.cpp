@@ -19,11 +19,6 @@
 namespace graycube {
 namespace {
 
-std::string description(int status) {
-  if (WIFSIGNALED(status)) return "killed by signal " + std::to_string(WTERMSIG(status));
-  return "exited with status " + std::to_string(WEXITSTATUS(status));
-}
-
 class Pipe {
  public:
   Pipe() {
@@ -126,7 +121,7 @@ std::vector<NodeExit> NodeProcesses::reap() {
     if (pid <= 0) return exits;
     const auto child = running_.find(pid);
     if (child == running_.end()) continue;
-    exits.push_back({child->second.rank, child->second.incarnation, description(status)});
+    exits.push_back({child->second.rank, child->second.incarnation, how_it_ended(status)});
     running_.erase(child);
   }
 }

@@ -102,6 +102,7 @@ void EvaluatorPool::measure(control::NodeStats& stats) {
   stats.idle_s = clock_.seconds(WaitReason::kIdle);
   stats.blocked_s = clock_.seconds(WaitReason::kBlocked);
   stats.window_s = clock_.seconds(WaitReason::kWindow);
+  stats.fifo_wait_s = clock_.seconds(WaitReason::kFetching);
   clock_.reset();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

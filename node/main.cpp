@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "geometry/simd.hpp"
 #include "memory/kept_heap.hpp"
 #include "node/evaluator_pool.hpp"
+#include "node/fifo_process.hpp"
 #include "node/node.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
@@ -36,6 +38,11 @@ std::string inbox_of(const NodeArguments& a, std::size_t number) {
   return "ipc://" + a.folder + "/node-" + std::to_string(a.ranks[number]);
 }
 
+/// A program that lies beside this one.
+std::filesystem::path program_beside(const char* name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
 class Mailroom {
  public:
   /// Opens the sockets of the node whose place in the arguments is `number`.
@@ -45,34 +52,54 @@ class Mailroom {
         rank_{a.ranks[number]},
         node_({rank_, a.incarnations[number], static_cast<std::uint64_t>(::getpid()),
                inbox_.endpoint(), a.threads, kVersion}),
-        pool_(node_, wakeup_) {
+        pool_(node_, wakeup_),
+        fifo_(program_beside("graycube-fifo")) {
+    node_.measure = [this, measure = std::move(node_.measure)](control::NodeStats& stats) {
+      measure(stats);
+      stats.fifo_cpu_s = fifo_.cpu_s();
+      stats.cpu_s += stats.fifo_cpu_s;
+    };
     frontal_.send(node_.hello());
   }
 
   void run() {
     for (;;) {
-      const int descriptors[] = {wakeup_.descriptor()};
+      const int descriptors[] = {wakeup_.descriptor(), fifo_.descriptor()};
       wait_readable(sockets_, descriptors, std::chrono::seconds(1));
       wakeup_.clear();
       const bool ended = pool_.with_node([&] {
-        while (auto m = inbox_.receive()) {
-          note_peer(*m);
-          node_.on_neighbour(m->message.frame);
-        }
-        for (auto& [to, link] : links_) {
-          while (const auto m = link.receive_view()) node_.on_neighbour(m->frame);
-        }
-        while (auto m = frontal_.receive()) node_.on_frontal(*m);
+        take_mail();
         outgoing_ = node_.take_outgoing();
+        for_fifo_ = node_.take_for_fifo();
+        fifo_order_ = node_.fifo_order();
         return node_.is_shut_down();
       });
       // Outside the lock: evaluators never wait for a socket.
       for (Node::Outgoing& o : outgoing_) send(o);
       if (ended) return;
+      serve_fifo();
     }
   }
 
  private:
+  void take_mail() {
+    while (auto m = inbox_.receive()) {
+      note_peer(*m);
+      node_.on_neighbour(m->message.frame);
+    }
+    for (auto& [to, link] : links_) {
+      while (const auto m = link.receive_view()) node_.on_neighbour(m->frame);
+    }
+    fifo_.receive([this](std::span<const std::byte> ray) { node_.on_fifo(ray); });
+    if (auto why = fifo_.take_failure()) node_.on_fifo_end(*std::move(why));
+    while (auto m = frontal_.receive()) node_.on_frontal(*m);
+  }
+
+  void serve_fifo() {
+    if (!fifo_.serve(fifo_order_)) wakeup_.signal();
+    fifo_.send(for_fifo_);
+  }
+
   void send(Node::Outgoing& o) {
     if (!o.to) return frontal_.send(std::move(o.message));
     if (!connects_to(rank_, *o.to)) {
@@ -108,7 +135,10 @@ class Mailroom {
   Rank rank_;
   Node node_;
   EvaluatorPool pool_;
+  FifoProcess fifo_;
   std::vector<Node::Outgoing> outgoing_;
+  std::vector<Bytes> for_fifo_;
+  std::optional<FifoOrder> fifo_order_;
 };
 
 int fail(const std::string& what, const std::string& where, const std::string& why, int status) {

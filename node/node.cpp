@@ -190,6 +190,23 @@ void Node::on_rays(std::uint32_t bit, BatchType type, std::span<const std::byte>
   rendering_->on_rays(bit, received_, mail_);
 }
 
+// ---- the FIFO's process
+
+std::optional<FifoOrder> Node::fifo_order() const {
+  if (!has_job_) return std::nullopt;
+  const std::uint32_t links = membership_.seat().links();
+  if (!is_fifo_apart(load_, links)) return std::nullopt;
+  return FifoOrder{membership_.job(), membership_.epoch(), fifo_places(load_, links)};
+}
+
+void Node::on_fifo(std::span<const std::byte> ray) {
+  if (rendering_) rendering_->on_handed(ray, mail_);
+}
+
+void Node::on_fifo_end(std::string why) {
+  if (fifo_order()) mail_.fail(std::move(why));
+}
+
 // ---- evaluators
 
 std::optional<Work> Node::take_work() {

@@ -31,6 +31,10 @@ class Node {
   void on_frontal(const Message& message);
   /// A batch from a neighbour's inbox link. The sender is read from it and checked.
   void on_neighbour(std::span<const std::byte> batch);
+  /// A ray from the process that holds this node's FIFO.
+  void on_fifo(std::span<const std::byte> ray);
+  /// That process has ended, or could not be started: the job fails.
+  void on_fifo_end(std::string why);
 
   /// Something for an evaluator to do, if there is. When there isn't, whatever waits to be sent
   /// goes out.
@@ -52,6 +56,10 @@ class Node {
   /// Takes the messages to be sent, in order; the caller sends all of them. To be called when all
   /// messages at hand are taken in.
   std::vector<Outgoing> take_outgoing();
+  /// The same for messages to the process that holds this node's FIFO; and what it is needed for
+  /// now: the caller starts and ends it.
+  std::vector<Bytes> take_for_fifo() { return mail_.take_for_fifo(); }
+  std::optional<FifoOrder> fifo_order() const;
   bool has_outgoing() const { return !mail_.is_empty(); }
   bool is_shut_down() const { return is_shut_down_; }
   /// Endpoints of all nodes' inboxes, indexed by rank; empty strings until the frontal has told.

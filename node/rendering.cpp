@@ -16,12 +16,20 @@ std::unique_ptr<LightBack> back_of(const Holding& here) {
   return std::make_unique<LightBack>(here.seat.links(), here.plan.pixel_count());
 }
 
+/// Nothing where received rays wait in this process.
+std::optional<FifoApart> fifo_of(const Holding& here, const control::Load& load) {
+  const std::uint32_t links = here.seat.links();
+  if (!is_fifo_apart(load, links)) return std::nullopt;
+  return FifoApart(links, fifo_places(load, links));
+}
+
 }  // namespace
 
 Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
     : here_(std::move(holding)),
       flow_(make_flow(load.flow, FlowRules::of(load, here_))),
       queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
+      fifo_(fifo_of(here_, load)),
       helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
       borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
       light_(here_.seat, load.sums, back_of(here_)) {
@@ -33,6 +41,7 @@ Rendering::Rendering(Holding holding, const control::Load& load, std::size_t sli
 void Rendering::reset() {
   flow_->reset();
   queue_.reset();
+  if (fifo_) fifo_->reset();
   helping_.reset();
   borrowing_.reset();
   light_.reset();
@@ -59,6 +68,8 @@ std::optional<Work> Rendering::take_work(Mail& mail) {
       ++working_;
       return work;
     }
+    // The evaluator comes by again when the ray is here: until then what it sends can wait.
+    if (wait_reason() == WaitReason::kFetching) return std::nullopt;
   }
   flush_on_idle(mail);
   return std::nullopt;
@@ -87,6 +98,7 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
   if (!piece) return std::nullopt;
   for (std::uint32_t bit = 0; piece->is_received && bit < here_.seat.links(); ++bit)
     flow_->grant(bit, mail);
+  fetch(mail);
   work.helped = piece->helped;
   if (work.helped) work.domain = helping_.copy_of(here_.seat.bit_of(*work.helped));
   if (const auto* pixels = std::get_if<TileWork>(&piece->what)) {
@@ -238,12 +250,25 @@ void Rendering::pass_token(Mail& mail, std::optional<std::uint64_t> ping) {
   if (has_begun_ && ending_) ending_->pass(is_passive, ping, mail);
 }
 
+/// Asks for the next received ray while this one is traced, so that it is here when its turn comes.
+void Rendering::fetch(Mail& mail) {
+  if (fifo_ && queue_.received() == 0) fifo_->ask(mail);
+}
+
+/// Received rays come before primary ones, wherever they wait.
 bool Rendering::may_start_tiles() const {
-  return flow_->may_start_tiles() && (light_.back() == nullptr || light_.back()->may_start_tiles());
+  return is_fifo_empty() && flow_->may_start_tiles() &&
+         (light_.back() == nullptr || light_.back()->may_start_tiles());
 }
 
 bool Rendering::has_unfinished() const {
-  return !queue_.is_empty() || !flow_->is_empty() || !light_.is_empty();
+  return !queue_.is_empty() || !is_fifo_empty() || !flow_->is_empty() || !light_.is_empty();
+}
+
+/// Whether none is at work, nor will be before something comes from outside this node.
+bool Rendering::all_evaluators_wait() const {
+  const WaitReason reason = wait_reason();
+  return working_ == 0 && reason != WaitReason::kReady && reason != WaitReason::kFetching;
 }
 
 WaitReason Rendering::wait_reason() const {
@@ -252,6 +277,7 @@ WaitReason Rendering::wait_reason() const {
   if (queue_.has_rays() || flow_->held() > 0) {
     return flow_->is_full() ? WaitReason::kBlocked : WaitReason::kReady;
   }
+  if (!is_fifo_empty()) return WaitReason::kFetching;
   if (queue_.has_tiles()) return may_start_tiles() ? WaitReason::kReady : WaitReason::kWindow;
   return queue_.unassigned() > 0 ? WaitReason::kWindow : WaitReason::kIdle;
 }
@@ -263,6 +289,7 @@ void Rendering::report(control::NodeStats& stats) const {
   helping_.report(stats);
   borrowing_.report(stats);
   light_.report(stats);
+  if (fifo_) fifo_->report(stats);
 }
 
 }  // namespace graycube

@@ -10,6 +10,7 @@
 
 #include "node/parts/borrowing.hpp"
 #include "node/parts/ending.hpp"
+#include "node/parts/fifo/fifo_apart.hpp"
 #include "node/parts/helping.hpp"
 #include "node/parts/holding.hpp"
 #include "node/parts/light_out.hpp"
@@ -23,12 +24,14 @@ namespace graycube {
 
 /// Why an evaluator gets no work (design section 6).
 enum class WaitReason : std::uint8_t {
-  kReady,    ///< it would get some now
-  kBlocked,  ///< there are rays that may not go on: the next queue, or what the outboxes may hold,
-             ///< is full
-  kWindow,   ///< there are only unstarted primary rays, and the window is closed
-  kIdle,     ///< there is neither
+  kReady,     ///< it would get some now
+  kBlocked,   ///< there are rays that may not go on: the next queue, or what the outboxes may hold,
+              ///< is full
+  kWindow,    ///< there are only unstarted primary rays, and the window is closed
+  kFetching,  ///< a ray is on its way from the FIFO's process
+  kIdle,      ///< there is none of these
 };
+inline constexpr std::size_t kWaitReasons = 5;
 
 class Rendering {
  public:
@@ -63,6 +66,9 @@ class Rendering {
   void on_offer(std::uint32_t bit, std::span<const std::byte> batch, BatchType type, Mail& mail);
   void on_token(std::span<const std::byte> batch, Mail& mail);
 
+  /// From the process that holds the FIFO: a received ray whose turn it is.
+  void on_handed(std::span<const std::byte> ray, Mail& mail);
+
   // With evaluators
   std::optional<Work> take_work(Mail& mail);
   void give_result(WorkResult& result, Mail& mail);
@@ -76,6 +82,7 @@ class Rendering {
 
  private:
   [[nodiscard]] bool open(std::uint32_t bit, std::span<RayTask> rays, Mail& mail);
+  void keep(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail);
   void on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays);
   std::shared_ptr<const Domain> domain_of(std::uint32_t tile) const;
   std::optional<Work> choose_work(Mail& mail);
@@ -89,8 +96,10 @@ class Rendering {
   void share_work(Mail& mail);
   void give(const Helping::Gift& gift, std::uint32_t bit, Mail& mail);
   bool may_start_tiles() const;
-  std::size_t held() const { return queue_.held() + flow_->held(); }
-  bool all_evaluators_wait() const { return working_ == 0 && wait_reason() != WaitReason::kReady; }
+  bool is_fifo_empty() const { return !fifo_ || fifo_->held() == 0; }
+  void fetch(Mail& mail);
+  std::size_t held() const { return queue_.held() + flow_->held() + (fifo_ ? fifo_->held() : 0); }
+  bool all_evaluators_wait() const;
   void send(bool partial, Mail& mail);
   void flush_on_idle(Mail& mail);
   void pass_token(Mail& mail, std::optional<std::uint64_t> ping = std::nullopt);
@@ -98,6 +107,8 @@ class Rendering {
   Holding here_;
   std::unique_ptr<RayFlow> flow_;
   WorkQueue queue_;
+  /// Nothing unless received rays wait in a process apart; then the queue has one of them at most.
+  std::optional<FifoApart> fifo_;
   Helping helping_;
   Borrowing borrowing_;
   LightOut light_;

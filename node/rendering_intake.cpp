@@ -87,7 +87,7 @@ void Rendering::on_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) 
   bool go_on = false;
   for_each_region(std::span<const RayTask>(rays),
                   [&](RegionIndex region, std::span<const RayTask> run) {
-                    if (here_.holds(region)) return queue_.add_received(run, bit);
+                    if (here_.holds(region)) return keep(bit, run, mail);
                     go_on = flow_->pass_on(bit, here_.seat.bit_towards(region), run) || go_on;
                   });
   tally_.note_queue(held());
@@ -96,6 +96,19 @@ void Rendering::on_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) 
   if (all_evaluators_wait()) return flush_on_idle(mail);
   flow_->send(false, mail);
   flow_->grant(bit, mail);
+}
+
+/// Keeps received rays until an evaluator is free for them.
+void Rendering::keep(std::uint32_t bit, std::span<const RayTask> rays, Mail& mail) {
+  if (!fifo_) return queue_.add_received(rays, bit);
+  fifo_->put(bit, rays, mail);
+  fetch(mail);
+}
+
+void Rendering::on_handed(std::span<const std::byte> ray, Mail& mail) {
+  if (!fifo_) return;
+  if (const auto handed = fifo_->on_hand(ray, limits(), mail))
+    queue_.add_received({&handed->ray, 1}, handed->bit);
 }
 
 void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays) {

@@ -30,7 +30,7 @@ class WaitClock {
   void reset() { seconds_ = {}; }
 
  private:
-  std::array<double, 4> seconds_{};
+  std::array<double, kWaitReasons> seconds_{};
   Time since_{};
   WaitReason reason_ = WaitReason::kIdle;
   unsigned waiting_ = 0;

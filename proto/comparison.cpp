@@ -35,7 +35,8 @@ Figures figures_of(const std::string& statistics) {
     f.largest_memory_bytes =
         std::max(f.largest_memory_bytes, n.at("memory_bytes").get<std::uint64_t>());
     f.queue_peak = std::max(f.queue_peak, n.at("queue_peak").get<std::uint64_t>());
-    f.nodes.push_back({n.at("busy_s"), n.at("blocked_s"), n.at("window_s"), n.at("idle_s")});
+    f.nodes.push_back({n.at("busy_s"), n.at("blocked_s"), n.at("window_s"), n.at("idle_s"),
+                       n.value("fifo_wait_s", 0.0)});
   }
   return f;
 }

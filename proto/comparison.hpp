@@ -11,6 +11,8 @@ namespace graycube {
 /// Evaluator seconds of one node.
 struct NodeTimes {
   double busy_s = 0, blocked_s = 0, window_s = 0, idle_s = 0;
+  /// Waiting for a FIFO that is a process apart.
+  double fifo_wait_s = 0;
 };
 
 struct Figures {

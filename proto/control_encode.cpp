@@ -55,7 +55,7 @@ class FieldWriter {
 
   template <class T>
   void operator()(const char* name, const T& value, const FieldLimits& limits = {}) {
-    if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+    if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
       if (limits.is_rare && value == T{}) return;
     }
     object_[name] = write(value, limits);

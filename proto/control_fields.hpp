@@ -33,6 +33,9 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("pid", m.pid);
   visit("cpu_s", m.cpu_s, kSeconds);
   visit("start_cpu_s", m.start_cpu_s, {.min = 0, .has_default = true});
+  visit("fifo_wait_s", m.fifo_wait_s, kRareSeconds);
+  visit("fifo_cpu_s", m.fifo_cpu_s, kRareSeconds);
+  visit("fifo_messages", m.fifo_messages, kRare);
   visit("busy_s", m.busy_s, kSeconds);
   visit("idle_s", m.idle_s, kSeconds);
   visit("blocked_s", m.blocked_s, kSeconds);
@@ -90,6 +93,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("scatter", m.scatter, {.max = kMaxScatter, .has_default = true});
   visit("flow", m.flow, kDefaulted);
   visit("queue", m.queue, {.min = 1, .max = kMaxQueue, .has_default = true});
+  visit("fifo", m.fifo, kRare);
   visit("threads", m.threads, {.max = kMaxThreads, .has_default = true});
   visit("timeout_s", m.timeout_s, {.min = 0, .has_default = true});
   visit("width", m.width, {.min = 1, .max = kMaxImageSide});
@@ -231,6 +235,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("shadows", m.shadows);
   visit("flow", m.flow);
   visit("queue", m.queue, {.min = 1, .max = kMaxQueue});
+  visit("fifo", m.fifo, kRare);
   visit("link_credit_bytes", m.link_credit_bytes);
   visit("window_tiles", m.window_tiles, at_least_one());
   visit("batch_bytes", m.batch_bytes, at_least_one());

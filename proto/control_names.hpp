@@ -33,6 +33,10 @@ struct Names<FlowMode> {
   static constexpr std::array<std::string_view, 2> kAll{"credit", "blocking"};
 };
 template <>
+struct Names<FifoMode> {
+  static constexpr std::array<std::string_view, 2> kAll{"thread", "process"};
+};
+template <>
 struct Names<SumsMode> {
   static constexpr std::array<std::string_view, 2> kAll{"direct", "tree"};
 };

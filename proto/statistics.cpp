@@ -46,6 +46,17 @@ Json node_json(const NodeStats& n) {
           {"peak_rss_bytes", n.peak_rss_bytes}};
 }
 
+/// Adds what is told of FIFOs that are processes apart.
+void add_fifos(const Statistics& s, Json& j) {
+  if (s.fifo == FifoMode::kThread) return;
+  j["choices"]["fifo"] = to_string(s.fifo);
+  j["messages"]["fifo_messages"] = total(s.per_node, &NodeStats::fifo_messages);
+  for (std::size_t i = 0; i < s.per_node.size(); ++i) {
+    j["per_node"][i]["fifo_wait_s"] = s.per_node[i].fifo_wait_s;
+    j["per_node"][i]["fifo_cpu_s"] = s.per_node[i].fifo_cpu_s;
+  }
+}
+
 Json balance_json(const Statistics& s) {
   double most = 0;
   for (const NodeStats& n : s.per_node) most = std::max(most, n.busy_s);
@@ -133,6 +144,7 @@ std::string statistics_json(const Statistics& s) {
   j["malformed_drops"] = sum(&NodeStats::malformed_drops);
   j["per_node"] = Json::array();
   for (const NodeStats& n : s.per_node) j["per_node"].push_back(node_json(n));
+  add_fifos(s, j);
   return j.dump();
 }
 

@@ -23,6 +23,7 @@ struct Statistics {
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
+  FifoMode fifo = FifoMode::kThread;
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;

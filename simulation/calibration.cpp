@@ -172,6 +172,8 @@ PerUnit transport_costs() {
 PerUnit measured_costs(const std::string& scene_text, control::JobOptions options,
                        std::uint32_t nodes) {
   options.queue = kMaxQueue;
+  // A process apart does no work but that of messages.
+  options.fifo = FifoMode::kThread;
   options.timeout_s = 0;
   MachineFigures figures;
   // Costs of about the right size suffice: they only decide which messages meet.

@@ -30,6 +30,7 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
   }
   for (std::uint32_t i = 0; i < options.nodes; ++i) {
     mailrooms_.push_back(std::make_unique<Thread>(cores_of(Rank{i})));
+    fifos_.push_back(std::make_unique<Thread>(cores_of(Rank{i})));
   }
   mailrooms_.push_back(std::make_unique<Thread>(cores_of({})));
   FrontalOptions f{.cube = cube_,
@@ -178,17 +179,22 @@ void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
   call(*p.node);
   auto out = std::make_shared<std::vector<Node::Outgoing>>(p.node->take_outgoing());
+  auto for_fifo = std::make_shared<std::vector<Bytes>>(p.node->take_for_fifo());
+  serve_fifo(p);
   doings[Unit::kNodeCall] = 1;
   add_sending(*out, doings);
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   watch_time(p);
-  if (is_evaluator && !out->empty()) doings[Unit::kWakeup] = 1;
+  if (is_evaluator && !(out->empty() && for_fifo->empty())) doings[Unit::kWakeup] = 1;
   for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
-  mailroom_of(rank).ask({rank.value, [this, rank, doings] { return take(rank, doings); },
-                         [this, rank, out, incarnation = p.incarnation] {
-                           if (!is_alive(rank, incarnation)) return;
-                           for (const Node::Outgoing& o : *out) deliver(rank, o);
-                         }});
+  add_sending_to_fifo(*for_fifo, doings);
+  mailroom_of(rank).ask(
+      {rank.value, [this, rank, doings] { return take(rank, doings); },
+       [this, rank, out, for_fifo, order = p.fifo_order, incarnation = p.incarnation] {
+         if (!is_alive(rank, incarnation)) return;
+         for (const Node::Outgoing& o : *out) deliver(rank, o);
+         if (order) deliver_to_fifo(rank, *order, *for_fifo);
+       }});
   wake(rank);
 }
 
@@ -220,6 +226,24 @@ void Farm::deliver(Rank rank, const Node::Outgoing& o) {
     if (!to) return frontal_receives(peer_of(rank, incarnation), message);
     node_receives(*to, processes_[to->value].incarnation, rank, message);
   });
+}
+
+void Farm::node_receives_ray(Rank rank, std::uint32_t incarnation, const Bytes& answer) {
+  const auto begin = [this, rank, incarnation, transport = handling(answer.size())] {
+    return is_alive(rank, incarnation) ? take(rank, transport) : 0;
+  };
+  const auto arrive = [this, rank, incarnation, answer] {
+    if (!is_alive(rank, incarnation)) return;
+    PerUnit doings;
+    doings[Unit::kRayIn] = 1;
+    FifoStream stream;
+    in_node(rank, false, doings, [&](Node& node) {
+      const bool is_message =
+          stream.take(answer, [&](FifoWord, std::span<const std::byte> ray) { node.on_fifo(ray); });
+      if (!is_message) outcome_.violations.push_back("a FIFO answered nonsense");
+    });
+  };
+  mailroom_of(rank).ask({rank.value, begin, arrive});
 }
 
 // ---- evaluators

@@ -14,6 +14,7 @@
 #include "frontal/frontal.hpp"
 #include "node/node.hpp"
 #include "node/parts/class_places.hpp"
+#include "node/parts/fifo/ray_fifo.hpp"
 #include "node/wait_clock.hpp"
 #include "proto/control.hpp"
 #include "simulation/cores.hpp"
@@ -78,6 +79,10 @@ class Farm {
     /// Evaluators that wait for a core or work, and pieces of work that are under way.
     unsigned active = 0, working = 0;
     double cpu_s = 0, busy_s = 0, last_primary_s = 0;
+    /// The node's FIFO, if it is a process apart, what it serves, and its part of cpu_s.
+    std::optional<RayFifo> fifo;
+    std::optional<FifoOrder> fifo_order;
+    double fifo_cpu_s = 0;
     WaitClock clock;
     WaitReason reason = WaitReason::kIdle;
     unsigned waiting = 0;
@@ -109,6 +114,16 @@ class Farm {
   void node_receives(Rank rank, std::uint32_t incarnation, Place from, const Message& message);
   void deliver(Rank rank, const Node::Outgoing& o);
   void wake(Rank rank);
+
+  // The FIFOs that are processes apart
+  void serve_fifo(Process& p);
+  void deliver_to_fifo(Rank rank, const FifoOrder& order, const std::vector<Bytes>& messages);
+  void fifo_receives(Rank rank, std::uint32_t incarnation, const FifoOrder& order,
+                     const Bytes& message);
+  double run_fifo(Rank rank, const Bytes& message, Bytes& answer);
+  void node_receives_ray(Rank rank, std::uint32_t incarnation, const Bytes& answer);
+
+  // Evaluators
   void ask_for_turn(Rank rank, bool is_woken);
   struct Turn;
   double begin(Turn& turn);
@@ -132,6 +147,7 @@ class Farm {
   Timeline timeline_;
   std::vector<std::unique_ptr<Cores>> cores_;       // by rank, then the frontal's; or one for all
   std::vector<std::unique_ptr<Thread>> mailrooms_;  // by rank, then the frontal's
+  std::vector<std::unique_ptr<Thread>> fifos_;      // by rank
   std::unique_ptr<JobStore> store_ = make_memory_store();
   std::unique_ptr<Frontal> frontal_;
   double frontal_cpu_s_ = 0;

@@ -39,11 +39,13 @@ void Farm::fill_in(Process& p, control::NodeStats& stats) {
   p.clock.update(moment(end_s), p.reason, p.waiting, false);
   p.is_rendering = false;
   stats.cpu_s = std::exchange(p.cpu_s, 0);
+  stats.fifo_cpu_s = std::exchange(p.fifo_cpu_s, 0);
   stats.busy_s = std::exchange(p.busy_s, 0);
   stats.endgame_s = std::max(0.0, end_s - p.last_primary_s);
   stats.idle_s = p.clock.seconds(WaitReason::kIdle);
   stats.blocked_s = p.clock.seconds(WaitReason::kBlocked);
   stats.window_s = p.clock.seconds(WaitReason::kWindow);
+  stats.fifo_wait_s = p.clock.seconds(WaitReason::kFetching);
   p.clock.reset();
 }
 

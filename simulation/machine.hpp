@@ -19,7 +19,8 @@ class Machine {
   /// Told that a node's process has started, perhaps again.
   virtual void on_start(Rank) {}
   /// The moment at which a message arrives that is handed to the link at `now_s`. Messages of a
-  /// link keep their order: a later call gives no earlier moment.
+  /// link keep their order: a later call gives no earlier moment. `from` and `to` are the same node
+  /// for messages between it and the process that holds its FIFO.
   virtual double arrival_s(Place from, Place to, std::size_t bytes, double now_s) = 0;
   /// The core seconds that this work takes.
   virtual double cpu_s(Place at, const PerUnit& doings) = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "node/node.hpp"
+#include "node/parts/fifo/fifo_words.hpp"
 #include "proto/batch.hpp"
 #include "simulation/doings.hpp"
 
@@ -45,6 +46,15 @@ inline void add_sending(const std::vector<Node::Outgoing>& messages, PerUnit& do
     if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers) {
       doings[Unit::kLightByte] += static_cast<double>(o.message.frame.size());
     }
+  }
+}
+
+/// The same for messages to the process that holds the node's FIFO, with one side's part of passing
+/// them on.
+inline void add_sending_to_fifo(const std::vector<Bytes>& messages, PerUnit& doings) {
+  for (const Bytes& m : messages) {
+    doings.add(handling(m.size()));
+    if (m.front() == static_cast<std::byte>(FifoWord::kPut)) doings[Unit::kRayOut] += 1;
   }
 }
 

@@ -33,8 +33,10 @@ class ModelledMachine : public Machine {
     }
   }
 
-  /// A link carries one message after another; all the frontal's messages share one link.
+  /// A link carries one message after another; all the frontal's messages share one link. Between
+  /// processes of one node there is none.
   double arrival_s(Place from, Place to, std::size_t bytes, double now_s) override {
+    if (from && from == to) return now_s;
     const bool is_host = !from || !to;
     double& free_at_s = !from ? from_host_s_ : !to ? to_host_s_ : links_[{from->value, to->value}];
     const double gbps = is_host ? figures_.host_gbps : figures_.link_gbps;

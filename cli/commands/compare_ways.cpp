@@ -28,12 +28,14 @@ std::vector<Way> ways_of_algorithms(const control::JobOptions& common) {
     PartitionMode partition = PartitionMode::kRegular;
     /// Places of a blocking queue; 0 for flow by credit.
     std::uint32_t queue = 0;
+    FifoMode fifo = FifoMode::kThread;
   };
   const auto macro = [&](std::string name, const Macro& m) {
     std::string arguments = "--algorithm macro --shadows " + std::string(to_string(m.shadows)) +
                             " --scatter " + std::to_string(m.scatter) + " --partition " +
                             std::string(to_string(m.partition));
     if (m.queue != 0) arguments += " --flow blocking --queue " + std::to_string(m.queue);
+    if (m.fifo == FifoMode::kProcess) arguments += " --fifo process";
     add(std::move(name), std::move(arguments), [&](auto& o) {
       o.algorithm = Algorithm::kMacro;
       o.shadows = m.shadows;
@@ -41,10 +43,12 @@ std::vector<Way> ways_of_algorithms(const control::JobOptions& common) {
       o.partition = m.partition;
       o.flow = m.queue != 0 ? FlowMode::kBlocking : FlowMode::kCredit;
       if (m.queue != 0) o.queue = m.queue;
+      o.fifo = m.fifo;
     });
   };
   macro("macro as in 1987", {.queue = common.queue});
   macro("  with endless queues", {.queue = kMaxQueue});
+  macro("macro as in 1987, FIFO apart", {.queue = common.queue, .fifo = FifoMode::kProcess});
   macro("macro, credits", {});
   macro("macro, horizons", {.shadows = ShadowMode::kHorizon});
   macro("macro, local shadows", {.shadows = ShadowMode::kLocal});

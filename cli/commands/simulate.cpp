@@ -114,6 +114,7 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.shadows = command.options.shadows;
   s.partition = command.options.partition;
   s.flow = command.options.flow;
+  s.fifo = command.options.fifo;
   s.sums = command.options.sums;
   s.subdivision = command.options.subdivision;
   s.returns = command.options.returns;

@@ -14,8 +14,9 @@ struct Part {
   const char* color;
   double NodeTimes::*seconds;
 };
-constexpr std::array<Part, 4> kParts{{{"busy", "#2b8a3e", &NodeTimes::busy_s},
+constexpr std::array<Part, 5> kParts{{{"busy", "#2b8a3e", &NodeTimes::busy_s},
                                       {"blocked", "#c92a2a", &NodeTimes::blocked_s},
+                                      {"FIFO", "#1864ab", &NodeTimes::fifo_wait_s},
                                       {"window", "#f08c00", &NodeTimes::window_s},
                                       {"idle", "#ced4da", &NodeTimes::idle_s}}};
 
@@ -46,12 +47,27 @@ std::string rectangle(double x, double y, double width, double height, const cha
   return line;
 }
 
-std::string node_bar(const NodeTimes& node, double x, double y, double width) {
+/// The parts of these rows' bars: none for FIFOs where none is a process apart.
+std::vector<Part> parts_of(const std::vector<ComparedRow>& rows) {
+  bool have_fifos = false;
+  for (const ComparedRow& row : rows) {
+    if (row.statistics.empty()) continue;
+    for (const NodeTimes& node : figures_of(row.statistics).nodes)
+      have_fifos = have_fifos || node.fifo_wait_s > 0;
+  }
+  std::vector<Part> parts(kParts.begin(), kParts.end());
+  if (!have_fifos)
+    std::erase_if(parts, [](const Part& p) { return p.seconds == &NodeTimes::fifo_wait_s; });
+  return parts;
+}
+
+std::string node_bar(const NodeTimes& node, const std::vector<Part>& parts, double x, double y,
+                     double width) {
   double total = 0;
-  for (const Part& p : kParts) total += node.*p.seconds;
+  for (const Part& p : parts) total += node.*p.seconds;
   std::string svg;
   double bottom = y + kHeight;
-  for (const Part& p : kParts) {
+  for (const Part& p : parts) {
     const double height = total > 0 ? kHeight * (node.*p.seconds) / total : 0;
     bottom -= height;
     svg += rectangle(x, bottom, width, height, p.color);
@@ -71,7 +87,8 @@ std::string bars_svg(const std::string& title, const std::vector<ComparedRow>& r
   std::string svg = head + rectangle(0, 0, kLeft + kWidth + 20, bottom, "#ffffff");
   svg += text_at(10, 22, title, 15);
   double x = kLeft;
-  for (const Part& p : kParts) {
+  const std::vector<Part> parts = parts_of(rows);
+  for (const Part& p : parts) {
     svg += rectangle(x, 30, 12, 12, p.color) + text_at(x + 17, 41, p.name, 12);
     x += 90;
   }
@@ -89,7 +106,7 @@ std::string bars_svg(const std::string& title, const std::vector<ComparedRow>& r
       const Figures f = figures_of(row.statistics);
       const double step = std::min(kMaxBar, kWidth / static_cast<double>(f.nodes.size()));
       for (std::size_t i = 0; i < f.nodes.size(); ++i) {
-        svg += node_bar(f.nodes[i], kLeft + static_cast<double>(i) * step, y, 0.9 * step);
+        svg += node_bar(f.nodes[i], parts, kLeft + static_cast<double>(i) * step, y, 0.9 * step);
       }
     }
     y += kHeight + kGap;

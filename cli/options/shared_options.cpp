@@ -165,6 +165,10 @@ void add_how(Declaring& options, control::JobOptions& o) {
             "credit (default), or blocking: bounded queues that stall evaluators, as in 1987",
             names_of(kFlowChoices),
             [&o](const auto& text) { o.flow = parse_flow("--flow", text); });
+  add_named(options, "--fifo",
+            "thread (default), or process: blocking queues are held by processes apart, as in 1987",
+            names_of(kFifoChoices),
+            [&o](const auto& text) { o.fifo = parse_fifo("--fifo", text); });
   add_named(
       options, "--sums", "direct (default), or tree: nodes add up each other's light on its way",
       names_of(kSumsChoices), [&o](const auto& text) { o.sums = parse_sums("--sums", text); });

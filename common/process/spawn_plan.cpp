@@ -86,4 +86,9 @@ int wait_for_end(pid_t pid) {
   return status;
 }
 
+std::string how_it_ended(int wait_status) {
+  if (WIFSIGNALED(wait_status)) return "killed by signal " + std::to_string(WTERMSIG(wait_status));
+  return "exited with status " + std::to_string(WEXITSTATUS(wait_status));
+}
+
 }  // namespace graycube

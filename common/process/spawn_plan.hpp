@@ -46,4 +46,7 @@ class SpawnPlan {
 /// (waitpid(2)); 0 if there is no such child.
 int wait_for_end(pid_t pid);
 
+/// A wait status for people: "killed by signal 9", "exited with status 1".
+std::string how_it_ended(int wait_status);
+
 }  // namespace graycube

@@ -233,6 +233,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.shadows = scene.shadows;
   s.partition = scene.partition;
   s.flow = scene.flow;
+  s.fifo = scene.fifo;
   s.sums = render_->sums();
   s.subdivision = scene.subdivision;
   s.returns = scene.returns;

@@ -158,6 +158,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   out.shadows = work.options.shadows;
   out.flow = work.options.flow;
   out.queue = work.options.queue;
+  if (out.flow == FlowMode::kBlocking) out.fifo = work.options.fifo;
   out.returns = work.options.returns;
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas =
@@ -211,6 +212,7 @@ std::string choices_text(const PreparedScene& scene) {
   if (scene.returns == ReturnsMode::kSender) text += ", light back to senders";
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);
+    if (scene.fifo == FifoMode::kProcess) text += " in processes apart";
   }
   return text + subdivision;
 }

@@ -39,6 +39,7 @@ struct PreparedScene {
   ShadowMode shadows = ShadowMode::kForward;
   PartitionMode partition = PartitionMode::kRegular;
   FlowMode flow = FlowMode::kCredit;
+  FifoMode fifo = FifoMode::kThread;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;
   std::uint32_t queue = kDefaultQueue;

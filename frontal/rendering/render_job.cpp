@@ -36,6 +36,7 @@ control::Load RenderJob::load() const {
   m.shadows = scene_.shadows;
   m.flow = scene_.flow;
   m.queue = scene_.queue;
+  m.fifo = scene_.fifo;
   m.horizon_bytes = scene_.horizon_bytes;
   m.borrow_bytes = lends() ? kBorrowBytes : 0;
   m.is_replica = scene_.has_replicas;

@@ -15,6 +15,7 @@ void Mail::begin(const BatchStamp& first) {
   sent_to_frontal_ = 0;
   came_from_frontal_ = 0;
   counted_ = {};
+  for_fifo_.clear();
 }
 
 BatchStamp Mail::stamped(std::uint64_t sequence) const {

@@ -39,6 +39,8 @@ class Mail {
   void to_frontal(const ControlMessage& message);
   /// Tells the frontal that the job has failed, which ends it.
   void fail(std::string why);
+  /// To the process that holds this node's FIFO (fifo/fifo_words.hpp).
+  void to_fifo(Bytes message) { for_fifo_.push_back(std::move(message)); }
   /// A greeting or its answer: neither is numbered.
   void signal(std::uint32_t bit, BatchType type);
   /// `encode(stamp)` makes the batch; its size is returned.
@@ -75,8 +77,9 @@ class Mail {
   std::uint32_t job() const { return first_.job; }
   std::uint32_t epoch() const { return first_.epoch; }
 
-  bool is_empty() const { return outgoing_.empty(); }
+  bool is_empty() const { return outgoing_.empty() && for_fifo_.empty(); }
   std::vector<Outgoing> take() { return std::exchange(outgoing_, {}); }
+  std::vector<Bytes> take_for_fifo() { return std::exchange(for_fifo_, {}); }
 
  private:
   struct Link {
@@ -90,6 +93,7 @@ class Mail {
   std::vector<Link> links_;  // by bit
   std::uint64_t sent_to_frontal_ = 0, came_from_frontal_ = 0;
   std::vector<Outgoing> outgoing_;
+  std::vector<Bytes> for_fifo_;
   Counted counted_;
   std::uint64_t drops_ = 0;
 };

@@ -39,6 +39,7 @@ struct Load {
   /// Rays that the input queues hold together if flow is blocking. Nodes have no use for it: each
   /// link's part of it is link_credit_bytes.
   std::uint32_t queue = kDefaultQueue;
+  FifoMode fifo = FifoMode::kThread;
   std::uint64_t link_credit_bytes = 0;
   /// Own tiles that may be open at a time. Nodes have no use for it: the frontal hands out no more.
   std::uint32_t window_tiles = 1;

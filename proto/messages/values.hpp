@@ -40,6 +40,9 @@ enum class Grain : std::uint8_t { kPixel, kLine, kTile };
 enum class ShadowMode : std::uint8_t { kHorizon, kForward, kLocal };
 enum class PartitionMode : std::uint8_t { kRegular, kBalanced, kAuto };
 enum class FlowMode : std::uint8_t { kCredit, kBlocking };
+/// Where a node's queue of received rays lies if flow is blocking: in the node's own process, which
+/// has threads for links and for evaluators, or in a process apart.
+enum class FifoMode : std::uint8_t { kThread, kProcess };
 /// How contributions reach the frontal: from each node by itself, or added up along the hypercube's
 /// tree.
 enum class SumsMode : std::uint8_t { kDirect, kTree };
@@ -76,6 +79,7 @@ std::string_view to_string(Grain value);
 std::string_view to_string(ShadowMode value);
 std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
+std::string_view to_string(FifoMode value);
 std::string_view to_string(SumsMode value);
 std::string_view to_string(ReturnsMode value);
 std::string_view to_string(Subdivision value);
@@ -100,6 +104,10 @@ struct NodeStats {
   double cpu_s = 0, busy_s = 0, idle_s = 0, blocked_s = 0, window_s = 0;
   /// The part of cpu_s that the process took before its first job came; 0 in later jobs.
   double start_cpu_s = 0;
+  /// Where the FIFO is a process apart: seconds for which the evaluator waited for it to hand out a
+  /// ray, the part of cpu_s that it took, and messages between it and the node.
+  double fifo_wait_s = 0, fifo_cpu_s = 0;
+  std::uint64_t fifo_messages = 0;
   std::uint64_t rays_in = 0, rays_out = 0, queue_peak = 0, primitives = 0, peak_rss_bytes = 0;
   /// Numbers of rays, counted where the rays are created.
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
@@ -144,6 +152,7 @@ struct JobOptions {
   FlowMode flow = FlowMode::kCredit;
   /// Rays that a node's input queues hold together if flow is blocking.
   std::uint32_t queue = kDefaultQueue;
+  FifoMode fifo = FifoMode::kThread;
   /// Evaluator threads per node; 0 for as many as the node was started with.
   std::uint32_t threads = 0;
   /// Seconds after which the job fails; 0 for no limit.

@@ -12,8 +12,9 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-std::string some_statistics() {
+std::string some_statistics(double fifo_wait_s = 0) {
   Statistics s;
+  if (fifo_wait_s > 0) s.fifo = FifoMode::kProcess;
   s.nodes = 2;
   s.render_s = 4;
   s.wall_s = 5;
@@ -21,6 +22,7 @@ std::string some_statistics() {
     control::NodeStats n;
     n.busy_s = 1;
     n.blocked_s = blocked;
+    n.fifo_wait_s = fifo_wait_s;
     n.queue_peak = 7;
     n.memory_bytes = static_cast<std::uint64_t>(1000 * blocked);
     n.forwarded_shadow = 5;
@@ -58,6 +60,18 @@ TEST_CASE("bars show each node's parts, and rows without a picture say why") {
               ">deadlocked<") == 1);
   // Three quarters of the first node's bar of 84 is blocked.
   CHECK(svg.find("height=\"63.00\" fill=\"#c92a2a\"") != std::string::npos);
+}
+
+TEST_CASE("bars have a part for FIFOs if any is a process apart") {
+  const auto drawn = [](double fifo_wait_s) {
+    return bars_svg("", {{"one", "", RowOutcome::kSame, "", some_statistics(fifo_wait_s)}});
+  };
+  CHECK(drawn(0).find(">FIFO<") == std::string::npos);
+  const std::string svg = drawn(4);
+  CHECK(count(svg, ">FIFO<") == 1);
+  CHECK(count(svg, "<rect") == 1 + 5 + 2 * 5);
+  // Half of the first node's bar of 84.
+  CHECK(count(svg, "height=\"42.00\"") == 1);
 }
 
 }  // namespace

@@ -70,8 +70,8 @@ TEST_CASE("every option of simulate arrives") {
       parsed({"simulate",     "a.json",   "--nodes",     "64,256", "--link-gbps", "0.002",
               "--link-us",    "1000",     "--cores",     "3",      "--host-gbps", "1",
               "--message-us", "7",        "--cpu-scale", "1e4",    "--algorithm", "macro",
-              "--flow",       "blocking", "--queue",     "9",      "--json",      "--plot",
-              "b.svg",        "--size",   "64x32",       "-q"}));
+              "--flow",       "blocking", "--queue",     "9",      "--fifo",      "process",
+              "--json",       "--plot",   "b.svg",       "--size", "64x32",       "-q"}));
   CHECK(c.scene == "a.json");
   CHECK(c.nodes == std::vector<std::uint32_t>{64, 256});
   CHECK(c.link_gbps == 0.002);
@@ -83,6 +83,7 @@ TEST_CASE("every option of simulate arrives") {
   CHECK(c.options.algorithm == Algorithm::kMacro);
   CHECK(c.options.flow == FlowMode::kBlocking);
   CHECK(c.options.queue == 9);
+  CHECK(c.options.fifo == FifoMode::kProcess);
   CHECK(c.options.width == 64u);
   CHECK(c.plot == "b.svg");
   CHECK(c.as_json);
@@ -235,9 +236,10 @@ TEST_CASE("help names every command, and a command's help its options") {
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
   for (const char* option :
-       {"--png", "--nodes", "--threads", "--algorithm", "--grain", "--shadows", "--partition",
-        "--scatter", "--flow", "--sums", "--returns", "--subdivision", "--entry", "--size",
-        "--samples", "--max-depth", "--stats", "--timeout", "--quiet"}) {
+       {"--png",     "--nodes",     "--threads",     "--algorithm", "--grain",
+        "--shadows", "--partition", "--scatter",     "--flow",      "--fifo",
+        "--sums",    "--returns",   "--subdivision", "--entry",     "--size",
+        "--samples", "--max-depth", "--stats",       "--timeout",   "--quiet"}) {
     CHECK(render.find(option) != std::string::npos);
   }
   CHECK(all.find("man-page") == std::string::npos);

@@ -43,6 +43,24 @@ TEST_CASE("a queue's length is for blocking flow only") {
   CHECK_NOTHROW(check_sense(o));
 }
 
+TEST_CASE("a FIFO of its own process is for macro with blocking flow only") {
+  control::JobOptions o;
+  o.algorithm = Algorithm::kMacro;
+  o.fifo = FifoMode::kProcess;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --fifo: process is for --flow blocking, which is not asked for");
+  o.flow = FlowMode::kBlocking;
+  CHECK_NOTHROW(check_sense(o));
+  for (const Algorithm other : {Algorithm::kAuto, Algorithm::kRoth}) {
+    o.algorithm = other;
+    CHECK(refusal([&] { check_sense(o); }) ==
+          "graycube: usage: --fifo: process is for --algorithm macro, not for " +
+              std::string(to_string(other)));
+  }
+  o.fifo = FifoMode::kThread;
+  CHECK_NOTHROW(check_sense(o));
+}
+
 TEST_CASE("an entry can be chosen only where leaf regions are linked") {
   control::JobOptions o;
   o.subdivision = {Subdivision::kOctree, Entry::kDescent};

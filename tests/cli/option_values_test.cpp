@@ -121,6 +121,7 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_partition("--partition", "balanced") == PartitionMode::kBalanced);
   CHECK(parse_flow("--flow", "credit") == FlowMode::kCredit);
   CHECK(parse_flow("--flow", "blocking") == FlowMode::kBlocking);
+  CHECK(parse_fifo("--fifo", "process") == FifoMode::kProcess);
   CHECK(parse_sums("--sums", "direct") == SumsMode::kDirect);
   CHECK(parse_sums("--sums", "tree") == SumsMode::kTree);
   CHECK(parse_returns("--returns", "sender") == ReturnsMode::kSender);

@@ -95,8 +95,8 @@ TEST_CASE("compare renders a scene in every way and finds the same picture each 
   INFO(o.out << o.err);
   REQUIRE(o.status == 0);
   CHECK(o.err.empty());
-  for (const char* way :
-       {"serial ", "roth pixel", "macro as in 1987", "macro, horizons", "auto "}) {
+  for (const char* way : {"serial ", "roth pixel", "macro as in 1987",
+                          "macro as in 1987, FIFO apart", "macro, horizons", "auto "}) {
     CHECK(o.out.find(way) != std::string::npos);
   }
   CHECK(o.out.find("DIFFERENT") == std::string::npos);

@@ -42,6 +42,9 @@ inline control::NodeStats example_stats() {
   s.nodes_descended = 16;
   s.entry_links = 17;
   s.rays_not_shot = 18;
+  s.fifo_wait_s = 1.5;
+  s.fifo_cpu_s = 2.0 / 3;
+  s.fifo_messages = 1ull << 39;
   s.open_peak = 70001;
   s.open_bytes_peak = 1ull << 36;
   s.answers = 1ull << 37;
@@ -61,6 +64,7 @@ inline control::JobOptions example_options() {
   o.scatter = 2;
   o.flow = FlowMode::kBlocking;
   o.queue = 64;
+  o.fifo = FifoMode::kProcess;
   o.threads = 4;
   o.timeout_s = 90.5;
   o.width = 640;
@@ -123,6 +127,7 @@ inline std::vector<ControlMessage> example_messages() {
            ShadowMode::kForward,
            FlowMode::kCredit,
            64,
+           FifoMode::kProcess,
            1 << 20,
            8,
            65536,
