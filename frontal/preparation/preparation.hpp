@@ -41,6 +41,7 @@ struct PreparedScene {
   FlowMode flow = FlowMode::kCredit;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;
+  MeshMode mesh = MeshMode::k2d;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
   std::optional<TilePlan> plan;

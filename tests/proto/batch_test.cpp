@@ -37,7 +37,8 @@ RayTask some_ray(Random& random) {
   task.depth = static_cast<std::uint16_t>(random.below(10));
   task.light = static_cast<std::uint16_t>(random.below(64) & 63);
   task.region = {static_cast<std::uint16_t>(random.below(4)),
-                 static_cast<std::uint16_t>(random.below(2))};
+                 static_cast<std::uint16_t>(random.below(2)),
+                 static_cast<std::uint16_t>(random.below(kMaxSlabs))};
   task.hops = static_cast<std::uint16_t>(random.below(kMaxHops + 1));
   return task;
 }
@@ -73,29 +74,32 @@ std::vector<Contribution> some_lights(Random& random, std::size_t count) {
   return all;
 }
 
+/// The bytes of a part of a slice.
+const Bytes kSomeBytes(9, std::byte{0x5a});
+
 /// One message of every type.
 std::vector<Bytes> one_of_each(Random& random) {
   std::vector<TileCredit> credits;
   std::vector<Contribution> light;
   for (int i = 0; i < 3; ++i) credits.push_back(some_credit(random));
   light = some_lights(random, 4);
-  return {
-      encode_rays(kStamp, some_rays(random, 3)),
-      encode_contributions(kStamp, credits, light),
-      encode_link_credit(kStamp, 65536),
-      encode_token(kStamp, {true, -12, 3, 20, 99}),
-      encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
-      encode_signal(kStamp, BatchType::kGreeting),
-      encode_signal(kStamp, BatchType::kGreetingAck),
-      encode_signal(kStamp, BatchType::kGoodbye),
-      encode_signal(kStamp, BatchType::kGoodbyeAck),
-      encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
-      encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
-      encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
-      encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF}),
-      encode_answers(kStamp, std::vector<RayAnswer>{{5, false, {1, 0, 300}},
-                                                    {6, true, {}},
-                                                    {1u << 31, true, {kMaxMergedLight, 1, 1}}})};
+  return {encode_rays(kStamp, some_rays(random, 3)),
+          encode_contributions(kStamp, credits, light),
+          encode_link_credit(kStamp, 65536),
+          encode_token(kStamp, {true, -12, 3, 20, 99}),
+          encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
+          encode_signal(kStamp, BatchType::kGreeting),
+          encode_signal(kStamp, BatchType::kGreetingAck),
+          encode_signal(kStamp, BatchType::kGoodbye),
+          encode_signal(kStamp, BatchType::kGoodbyeAck),
+          encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
+          encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
+          encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
+          encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF}),
+          encode_answers(kStamp, std::vector<RayAnswer>{{5, false, {1, 0, 300}},
+                                                        {6, true, {}},
+                                                        {1u << 31, true, {kMaxMergedLight, 1, 1}}}),
+          encode_slice_part(kStamp, {7, 5, 300, kSomeBytes})};
 }
 
 template <class T>
