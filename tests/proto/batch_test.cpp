@@ -165,6 +165,9 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.ends_at_horizon = true;
   CHECK(load_little<std::uint8_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 92) == 5);
   CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
+  task.region.slab = 5;
+  CHECK(load_little<std::uint16_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 98) ==
+        0x590A);
   CHECK(load_little<std::uint16_t>(at + 100) == 0x0B0C);
 }
 
@@ -181,8 +184,8 @@ TEST_CASE("rays keep every bit on the wire") {
     REQUIRE(again.size() == rays.size());
     // No padding before the last field: memcmp compares all bits.
     constexpr std::size_t kSize = offsetof(RayTask, hops) + sizeof(RayTask::hops);
-    // Depth and light take a byte less each on the wire.
-    static_assert(kSize == kRayBytes + 2);
+    // Depth and light take a byte less each on the wire, and a slab shares two with its row.
+    static_assert(kSize == kRayBytes + 4);
     for (std::size_t i = 0; i < rays.size(); ++i)
       CHECK(std::memcmp(&again[i], &rays[i], kSize) == 0);
   }

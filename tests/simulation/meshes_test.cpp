@@ -74,8 +74,8 @@ TEST_CASE("slabs go together with AOVs, samples, help and what is known of other
     how.limits.window_tiles = 1 + static_cast<std::uint32_t>(seed % 3);
     control::JobOptions options = with(Algorithm::kMacro);
     options.mesh = MeshMode::k3d;
-    options.partition = seed % 4 == 0 ? PartitionMode::kRegular : PartitionMode::kAuto;
-    options.shadows = seed % 3 == 0 ? ShadowMode::kForward : ShadowMode::kHorizon;
+    options.partition = seed % 5 == 0 ? PartitionMode::kRegular : PartitionMode::kAuto;
+    options.shadows = seed % 3 == 0 ? ShadowMode::kHorizon : ShadowMode::kForward;
     options.aov = "depth,normal,albedo,object";
     INFO("seed " << seed << ", " << how.nodes << " nodes");
     RandomFarm farm(how);
@@ -86,7 +86,7 @@ TEST_CASE("slabs go together with AOVs, samples, help and what is known of other
                   total(outcome, &control::NodeStats::rays_taken_over);
   }
   CHECK(primary > 1000);
-  CHECK(taken_over > 20);
+  CHECK(taken_over > 100);
 }
 
 TEST_CASE("each slice and all light cross the links of a ring or tree alone") {
