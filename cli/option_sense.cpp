@@ -19,7 +19,7 @@ struct Use {
 
 void check_sense(const control::JobOptions& o) {
   const control::JobOptions usual;
-  const std::array<Use, 7> uses{{
+  const std::array<Use, 8> uses{{
       {"--grain", o.grain != usual.grain, true, false},
       {"--shadows", o.shadows != usual.shadows, false, true},
       {"--partition", o.partition != usual.partition, false, true},
@@ -27,6 +27,7 @@ void check_sense(const control::JobOptions& o) {
       {"--flow", o.flow != usual.flow, true, true},
       {"--sums", o.sums != usual.sums, true, true},
       {"--returns", o.returns != usual.returns, false, true},
+      {"--mesh", o.mesh != usual.mesh, false, true},
   }};
   const bool is_auto = o.algorithm == Algorithm::kAuto;
   for (const Use& use : uses) {
@@ -42,6 +43,10 @@ void check_sense(const control::JobOptions& o) {
   if (o.subdivision.entry != Entry::kUsual && !has_links(o.subdivision.way))
     throw usage_failure("--entry", "is for --subdivision linked and arnaldi, not for " +
                                        std::string(to_string(o.subdivision.way)));
+  if (o.sums != usual.sums && sums_of(o) != o.sums)
+    throw usage_failure("--sums", std::string(to_string(o.sums)) + " does not go with --mesh " +
+                                      std::string(to_string(o.mesh)) + ", which adds light up by " +
+                                      std::string(to_string(sums_of(o))));
   if (o.queue != usual.queue && o.flow != FlowMode::kBlocking)
     throw usage_failure("--queue", "is for --flow blocking, which is not asked for");
   // Whether `auto` picks macro is decided only when the scene is known.

@@ -148,6 +148,10 @@ SumsMode parse_sums(std::string_view option, std::string_view text) {
   return parse_choice<SumsMode>(option, text, kSumsChoices);
 }
 
+MeshMode parse_mesh(std::string_view option, std::string_view text) {
+  return parse_choice<MeshMode>(option, text, kMeshChoices);
+}
+
 ReturnsMode parse_returns(std::string_view option, std::string_view text) {
   return parse_choice<ReturnsMode>(option, text, kReturnsChoices);
 }

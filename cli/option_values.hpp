@@ -45,7 +45,9 @@ inline constexpr std::array kPartitionChoices{PartitionMode::kAuto, PartitionMod
                                               PartitionMode::kBalanced};
 inline constexpr std::array kFlowChoices{FlowMode::kCredit, FlowMode::kBlocking};
 inline constexpr std::array kFifoChoices{FifoMode::kThread, FifoMode::kProcess};
-inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree};
+inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree, SumsMode::kRing};
+inline constexpr std::array kMeshChoices{MeshMode::k2d, MeshMode::k3d, MeshMode::kRing,
+                                         MeshMode::kTree};
 inline constexpr std::array kReturnsChoices{ReturnsMode::kFrontal, ReturnsMode::kSender};
 inline constexpr std::array kSubdivisionChoices{Subdivision::kSurfaces, Subdivision::kRoth,
                                                 Subdivision::kLinked,   Subdivision::kArnaldi,
@@ -74,6 +76,7 @@ std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
 FifoMode parse_fifo(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
+MeshMode parse_mesh(std::string_view option, std::string_view text);
 ReturnsMode parse_returns(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);
 Entry parse_entry(std::string_view option, std::string_view text);

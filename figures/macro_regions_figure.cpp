@@ -37,7 +37,7 @@ void draw_labels(Svg& svg, const ShownPicture& shown, const Picture& picture, co
       const Point a = shown.at(x.from, y.from), b = shown.at(x.to, y.to);
       const double room = std::min(b.x - a.x, b.y - a.y);
       if (x.from >= x.to || y.from >= y.to || room < kLeastLabelled) continue;
-      const Rank rank = cube.owner_of(column, row);
+      const Rank rank = NodeMesh(cube).owner_of(column, row);
       const double size = std::clamp(room / 4, 8.0, 22.0);
       const Point at{(a.x + b.x) / 2, (a.y + b.y) / 2};
       svg.text({at.x, at.y + size * 0.1}, std::to_string(rank.value),

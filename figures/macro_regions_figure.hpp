@@ -7,7 +7,7 @@
 #include "figures/page/shown_picture.hpp"
 #include "film/film.hpp"
 #include "proto/messages.hpp"
-#include "topology/hypercube.hpp"
+#include "topology/node_mesh.hpp"
 
 namespace graycube::figures {
 

@@ -80,8 +80,6 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
                  [&](const control::Goodbye&) { nodes_.has_left(rank); },
                  // A pong tells only that the node was heard.
                  [](const control::Pong&) {},
-                 // Only the first epoch is ever begun.
-                 [](const control::EpochAck&) {},
                  [](const control::Hello&) {},
                  [&](const FromNode auto& m) { jobs_.on_node(rank, m); },
                  [](const FromClient auto&) {},

@@ -179,6 +179,10 @@ void Jobs::on_light(std::span<const std::byte> batch) {
   finish_when_complete();
 }
 
+void Jobs::on_node(Rank rank, const control::EpochAck& m) {
+  if (running_ && running_->is_loaded()) running_->on_epoch_ack(rank, m, post_);
+}
+
 void Jobs::on_node(Rank, const control::TokenRound& m) {
   if (is_rendered() && running_->on_round(m)) tell_progress();
 }

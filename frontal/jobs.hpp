@@ -51,6 +51,7 @@ class Jobs {
   [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
   /// `incarnations`: the nodes' start numbers, indexed by rank.
   void start(std::vector<std::uint32_t> incarnations);
+  void on_node(Rank rank, const control::EpochAck& m);
   void on_node(Rank rank, const control::TokenRound& m);
   void on_node(Rank rank, const control::Terminated& m);
   void on_node(Rank rank, const control::NodeReport& m);

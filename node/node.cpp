@@ -35,6 +35,7 @@ void Node::on_control(const Message& message) {
   std::visit(Overloaded{
                  [&](const control::Welcome& m) { on_welcome(m); },
                  [&](const control::Load& m) { on_load(m, message.payload); },
+                 [&](const control::HandOn& m) { on_hand_on(m, message.payload); },
                  [&](const control::Prepare& m) { on_prepare(m); },
                  [&](control::Start& m) { on_start(std::move(m)); },
                  [&](const control::Finish& m) { on_finish(m); },
@@ -74,9 +75,10 @@ void Node::on_welcome(const control::Welcome& m) {
 
 void Node::on_load(const control::Load& m, const SharedBytes& slice) {
   if (!membership_.has_joined()) return mail_.drop("load", "before welcome");
-  const Hypercube& cube = membership_.seat().cube;
-  if (m.grid.columns != std::uint64_t{cube.columns()} * m.grid.scatter ||
-      m.grid.rows != std::uint64_t{cube.rows()} * m.grid.scatter) {
+  const NodeMesh mesh(membership_.seat().cube, m.mesh);
+  if (m.grid.columns != std::uint64_t{mesh.columns()} * m.grid.scatter ||
+      m.grid.rows != std::uint64_t{mesh.rows()} * m.grid.scatter ||
+      m.grid.slab_depths.size() + 1 != mesh.slabs()) {
     return mail_.drop("load", "the grid is not the hypercube's");
   }
   load_ = m;
@@ -85,8 +87,34 @@ void Node::on_load(const control::Load& m, const SharedBytes& slice) {
   has_job_ = true;
   is_ready_sent_ = false;
   rendering_.reset();
+  relay_ = SliceRelay::of(seat(), load_);
+  unbuilt_slice_.reset();
+  if (!relay_ || seat().rank == Rank{0}) take_slice(slice);
+  is_load_acknowledged_ = !relay_;
+  acknowledge_load_when_greeted();
+}
+
+void Node::take_slice(const SharedBytes& slice) {
   unbuilt_slice_ = slice;
   slice_bytes_ = slice.size();
+}
+
+/// Slices may come from neighbours as soon as all nodes have said so. To neighbours that haven't
+/// greeted nothing can be sent.
+void Node::acknowledge_load_when_greeted() {
+  if (!has_job_ || is_load_acknowledged_ || !membership_.have_all_greeted()) return;
+  is_load_acknowledged_ = true;
+  mail_.to_frontal(control::EpochAck{membership_.job(), membership_.epoch()});
+}
+
+void Node::on_hand_on(const control::HandOn& m, const SharedBytes& slice) {
+  if (!membership_.is_now(m.job, m.epoch) || !has_job_) return;
+  if (!relay_) return mail_.drop("hand_on", "slices don't come over links");
+  relay_->hand_on(Rank{m.rank}, slice.bytes(), mail_);
+}
+
+void Node::on_slice_part(std::uint32_t bit, std::span<const std::byte> batch) {
+  if (const auto slice = relay_->on_part(bit, batch, mail_)) take_slice(*slice);
 }
 
 void Node::on_prepare(const control::Prepare& m) {
@@ -107,12 +135,14 @@ void Node::on_finish(const control::Finish& m) {
   if (m.job != membership_.job() || !has_job_) return;
   control::NodeStats stats;
   if (rendering_) rendering_->report(stats);
+  if (relay_) relay_->report(stats);
   membership_.report(stats);
   stats.malformed_drops = mail_.drops();
   if (measure) measure(stats);
   mail_.to_frontal(control::NodeReport{m.job, membership_.epoch(), stats});
   // Late grants of credit are of no use from here on.
   has_job_ = false;
+  relay_.reset();
   unbuilt_slice_.reset();
   rendering_.reset();
 }
@@ -150,7 +180,9 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
   if (bit == membership_.seat().links()) return mail_.drop("batch", "not from a neighbour");
   if (header.type == BatchType::kGreeting || header.type == BatchType::kGreetingAck)
     return on_signal(bit, header.type);
-  if (!rendering_ || !membership_.is_of_now(header.stamp)) return;
+  const bool is_slice_part = header.type == BatchType::kSlicePart;
+  const bool is_expected = is_slice_part ? relay_.has_value() : rendering_.has_value();
+  if (!is_expected || !membership_.is_of_now(header.stamp)) return;
   if (mail_.is_next_from(bit, header.stamp.sequence)) return on_batch(bit, header.type, batch);
   mail_.fail("a batch from node " + std::to_string(header.stamp.sender) + " was lost on its link");
 }
@@ -158,6 +190,7 @@ void Node::on_neighbour(std::span<const std::byte> batch) {
 void Node::on_signal(std::uint32_t bit, BatchType type) {
   if (type == BatchType::kGreeting) mail_.signal(bit, BatchType::kGreetingAck);
   membership_.has_greeted(bit);
+  acknowledge_load_when_greeted();
   send_ready_when_complete();
 }
 
@@ -165,6 +198,7 @@ void Node::on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte
   switch (type) {
     case BatchType::kRays:
     case BatchType::kClassRays: return on_rays(bit, type, batch);
+    case BatchType::kSlicePart: return on_slice_part(bit, batch);
     case BatchType::kAssignment: return rendering_->on_tiles(bit, batch, mail_);
     case BatchType::kContributions: return rendering_->on_sums(bit, batch, mail_);
     case BatchType::kAnswers: return rendering_->on_answers(bit, batch, mail_);
@@ -231,10 +265,16 @@ BuildWork Node::build_work() {
                   {},
                   {}};
   if (load_.algorithm == Algorithm::kMacro) {
-    build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges};
-    build.share = membership_.seat().share();
+    build.edges = GridEdges{load_.grid.column_edges, load_.grid.row_edges, load_.grid.slab_depths};
+    build.share = seat().share();
   }
   return build;
+}
+
+Seat Node::seat() const {
+  Seat seat = membership_.seat();
+  seat.mode = load_.mesh;
+  return seat;
 }
 
 void Node::give_result(WorkResult result) {
@@ -246,8 +286,7 @@ void Node::give_result(WorkResult result) {
 void Node::adopt(Built& built, double build_s) {
   if (!built.domain) return mail_.fail(built.error);
   build_s_ = build_s;
-  rendering_.emplace(Holding::of(membership_.seat(), load_, std::move(built.domain)), load_,
-                     slice_bytes_);
+  rendering_.emplace(Holding::of(seat(), load_, std::move(built.domain)), load_, slice_bytes_);
   send_ready_when_complete();
 }
 

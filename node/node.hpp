@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "node/parts/distribution/slice_relay.hpp"
 #include "node/parts/mail.hpp"
 #include "node/parts/membership.hpp"
 #include "node/rendering.hpp"
@@ -72,6 +73,9 @@ class Node {
   void on_control(const Message& message);
   void on_welcome(const control::Welcome& m);
   void on_load(const control::Load& m, const SharedBytes& slice);
+  void take_slice(const SharedBytes& slice);
+  void on_hand_on(const control::HandOn& m, const SharedBytes& slice);
+  void on_slice_part(std::uint32_t bit, std::span<const std::byte> batch);
   void on_prepare(const control::Prepare& m);
   void on_start(control::Start m);
   void on_finish(const control::Finish& m);
@@ -83,7 +87,10 @@ class Node {
 
   Rendering* rendering_of(std::uint32_t job, std::uint32_t epoch);
   BuildWork build_work();
+  /// The node's seat in the current job's mesh.
+  Seat seat() const;
   void adopt(Built& built, double build_s);
+  void acknowledge_load_when_greeted();
   void send_ready_when_complete();
 
   Membership membership_;
@@ -97,8 +104,10 @@ class Node {
   std::size_t slice_bytes_ = 0;
   /// Nothing until the node's own macro-regions are subdivided.
   std::optional<Rendering> rendering_;
+  /// Nothing unless the job's slices come over links.
+  std::optional<SliceRelay> relay_;
   double build_s_ = 0;
-  bool is_ready_sent_ = false;
+  bool is_ready_sent_ = false, is_load_acknowledged_ = false;
   /// The batch of rays that came last; a member so that its memory serves the next batch.
   std::vector<RayTask> received_;
 };

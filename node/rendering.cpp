@@ -130,8 +130,7 @@ void Rendering::adopt(Borrowed& borrowed, Mail& mail) {
   const std::vector<RayTask> waited =
       borrowing_.came(borrowed.from, borrowed.model->memory_bytes());
   here_.domain =
-      here_.domain->with_borrowed(here_.seat.cube.column_of(borrowed.from),
-                                  here_.seat.cube.row_of(borrowed.from), std::move(borrowed.model));
+      here_.domain->with_borrowed(here_.seat.share_of(borrowed.from), std::move(borrowed.model));
   flow_->release(waited.size());
   queue_.add_own(waited);
 }

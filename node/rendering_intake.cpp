@@ -51,7 +51,7 @@ void Rendering::on_copy(Rank owner, const SharedBytes& slice, std::size_t horizo
   const bool is_neighbours = here_.seat.bit_of(owner) < here_.seat.links();
   if (!is_neighbours || here_.domain->grid() == nullptr)
     return mail.drop("copy", "not a neighbour's");
-  queue_.add_model(CopyWork{owner, share_of(here_.seat.cube, owner), slice, horizon_bytes});
+  queue_.add_model(CopyWork{owner, here_.seat.share_of(owner), slice, horizon_bytes});
 }
 
 void Rendering::on_ping(std::uint64_t ping, Mail& mail) {

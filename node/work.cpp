@@ -73,7 +73,8 @@ Built build(BuildWork work) {
   std::shared_ptr<Domain> domain;
   if (work.edges) {
     const auto frame = CameraFrame::from(slice->model.settings.camera, slice->model.settings.image);
-    MacroGrid grid(frame, std::move(work.edges->columns), std::move(work.edges->rows));
+    MacroGrid grid(frame, std::move(work.edges->columns), std::move(work.edges->rows),
+                   std::move(work.edges->slabs));
     domain = std::make_shared<Domain>(std::move(grid), work.share, std::move(slice->model),
                                       work.subdivision);
   } else {

@@ -18,9 +18,10 @@
 
 namespace graycube {
 
-/// The inner boundaries of the grid of macro-regions, as pixel edges.
+/// The inner boundaries of the grid of macro-regions: pixel edges, and depths between slabs.
 struct GridEdges {
   std::vector<std::int64_t> columns, rows;
+  std::vector<double> slabs;
 };
 
 /// Subdivide the macro-regions that came with `load`.

@@ -33,6 +33,8 @@ inline constexpr std::size_t kMostPixelBytes = 30;
 inline constexpr std::size_t kTokenBytes = 25;
 /// Bytes of an answer without light, and of one with the brightest.
 inline constexpr std::size_t kLeastAnswerBytes = 5, kMostAnswerBytes = 29;
+/// Bytes before those of the slice in a part of it.
+inline constexpr std::size_t kSlicePartHeadBytes = 20;
 
 /// Bytes of the largest message, header included: of contributions, and of every other type.
 inline constexpr std::size_t kMaxContributionBatchBytes = std::size_t{8} << 20;
@@ -42,6 +44,10 @@ inline constexpr std::size_t kMaxTilesPerAssignment = (kMaxBatchBytes - kBatchHe
 inline constexpr std::size_t kMaxClassesPerGrant = (kMaxBatchBytes - kBatchHeaderBytes) / 2;
 inline constexpr std::size_t kMaxAnswersPerBatch =
     (kMaxBatchBytes - kBatchHeaderBytes) / kMostAnswerBytes;
+inline constexpr std::size_t kMaxSlicePartBytes =
+    kMaxBatchBytes - kBatchHeaderBytes - kSlicePartHeadBytes;
+/// Most bytes of a slice that comes in parts: a model of 1 GiB, bounds and horizons.
+inline constexpr std::uint64_t kMaxSliceBytes = std::uint64_t{2} << 30;
 /// Most bytes that one link-credit grant may give back.
 inline constexpr std::uint64_t kMaxLinkCreditBytes = std::uint64_t{1} << 32;
 /// Largest |direction · direction − 1| of a ray.
@@ -66,6 +72,8 @@ enum class BatchType : std::uint8_t {
   kClassCredit = 13,
   /// Light that goes back along the rays' ways (docs/design/returns.md).
   kAnswers = 14,
+  /// A part of a slice, on its way from rank 0 (docs/design/meshes.md).
+  kSlicePart = 15,
 };
 
 /// The sender of a batch, and what the batch belongs to.
@@ -85,10 +93,11 @@ struct BatchStamp {
 struct BatchHeader {
   BatchStamp stamp;
   BatchType type = BatchType::kRays;
-  /// Number of records: rays, tile credits, assigned tiles, classes or answers; 1 for a grant or a
-  /// token, 0 for greetings and goodbyes.
+  /// Number of records: rays, tile credits, assigned tiles, classes or answers; 1 for a grant, a
+  /// token or a part of a slice, 0 for greetings and goodbyes.
   std::uint32_t count = 0;
-  /// Number of pixels in a batch of contributions; 0 in any other.
+  /// Number of pixels in a batch of contributions, of a slice's bytes in a part of it; 0 in any
+  /// other.
   std::uint32_t second_count = 0;
   std::uint32_t payload_bytes = 0;
 
@@ -120,7 +129,7 @@ struct BatchLimits {
   /// The most links that a ray may have crossed, those of the rays before it in its tree included.
   std::uint32_t max_hops = kMaxHops;
   /// The grid of macro-regions, scattered ones included: a receiver sets its job's.
-  std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide;
+  std::uint32_t columns = kMaxGridSide, rows = kMaxGridSide, slabs = kMaxSlabs;
   /// A sender's rank must be below this, unless it is the frontal.
   std::uint32_t nodes = 0;
   /// Rays other than primary ones carry a number of their sender's in place of the pixel.
@@ -137,6 +146,16 @@ struct RayAnswer {
   FixedRgb light;
 
   friend bool operator==(const RayAnswer&, const RayAnswer&) = default;
+};
+
+/// A part of a node's slice.
+struct SlicePart {
+  /// The node's rank.
+  std::uint32_t rank = 0;
+  /// Where the part begins in the slice, and the bytes of the whole slice.
+  std::uint64_t offset = 0, total = 0;
+  /// Not empty; in somebody else's memory.
+  std::span<const std::byte> bytes;
 };
 
 /// Takes at most kMaxRaysPerBatch rays; the type is kRays or kClassRays.
@@ -156,6 +175,8 @@ std::vector<std::byte> encode_token(const BatchStamp& stamp, const Token& token)
 /// Takes at most kMaxTilesPerAssignment tiles.
 std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
                                          std::span<const std::uint32_t> tiles);
+/// Takes at most kMaxSlicePartBytes of a slice.
+std::vector<std::byte> encode_slice_part(const BatchStamp& stamp, const SlicePart& part);
 /// An offer to help, of type kIdle or kIdleWithCopy. `work`: what the sender has done so far in
 /// this epoch, in tests of a primitive (trace/work_cost.hpp).
 std::vector<std::byte> encode_offer(const BatchStamp& stamp, BatchType type, std::uint64_t work);
@@ -205,5 +226,8 @@ bool looks_like_batch(std::span<const std::byte> message);
 [[nodiscard]] BatchResult decode_assignment(std::span<const std::byte> message,
                                             const BatchLimits& limits,
                                             std::vector<std::uint32_t>& tiles);
+/// The part's bytes are those of the message.
+[[nodiscard]] BatchResult decode_slice_part(std::span<const std::byte> message,
+                                            const BatchLimits& limits, SlicePart& part);
 
 }  // namespace graycube

@@ -14,7 +14,7 @@ using namespace batch_layout;
 /// A tile's credit never exceeds its number of primary rays, and so not that of any picture.
 constexpr std::uint64_t kMaxTileUnits = kMaxPixels * kMaxSamples * kMaxSamples;
 
-bool is_known(std::uint8_t type) { return type >= 1 && type <= 14; }
+bool is_known(std::uint8_t type) { return type >= 1 && type <= 15; }
 
 /// Checks the framing, the sender and the type; `payload` becomes the bytes behind the header.
 BatchResult open(std::span<const std::byte> message, const BatchLimits& limits, BatchType type,
@@ -51,7 +51,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.credit_exponent = load_little<std::uint8_t>(at + 93);
   task.depth = load_little<std::uint8_t>(at + 94);
   task.light = load_little<std::uint8_t>(at + 95);
-  task.region = {load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98)};
+  task.region = region_at(load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98));
   task.hops = load_little<std::uint16_t>(at + 100);
   task.ends_at_horizon = (kind & kHorizonFlag) != 0;
   task.kind = static_cast<RayKind>(kind & ~kHorizonFlag);
@@ -64,7 +64,8 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
          is_weight(weight.y) && is_weight(weight.z) && is_pixel_or_number(task, limits) &&
          task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
          task.light < limits.lights && task.hops <= limits.max_hops &&
-         task.region.column < limits.columns && task.region.row < limits.rows;
+         task.region.column < limits.columns && task.region.row < limits.rows &&
+         task.region.slab < limits.slabs;
 }
 
 bool load_credit(const std::byte* at, const BatchLimits& limits, TileCredit& credit) {
@@ -300,6 +301,24 @@ BatchResult decode_assignment(std::span<const std::byte> message, const BatchLim
   const auto* h = std::get_if<BatchHeader>(&result);
   if (h == nullptr) return result;
   if (!load_all(at, h->count, 4, limits, load_tile, tiles)) return BatchError::kBadValue;
+  return result;
+}
+
+BatchResult decode_slice_part(std::span<const std::byte> message, const BatchLimits& limits,
+                              SlicePart& part) {
+  const std::byte* at = nullptr;
+  const BatchResult result = open(message, limits, BatchType::kSlicePart, at);
+  const auto* h = std::get_if<BatchHeader>(&result);
+  if (h == nullptr) return result;
+  const SlicePart read{load_little<std::uint32_t>(at),
+                       load_little<std::uint64_t>(at + 4),
+                       load_little<std::uint64_t>(at + 12),
+                       {at + kSlicePartHeadBytes, h->second_count}};
+  if (read.rank >= limits.nodes || read.total > kMaxSliceBytes || read.offset > read.total ||
+      read.bytes.size() > read.total - read.offset) {
+    return BatchError::kBadValue;
+  }
+  part = read;
   return result;
 }
 

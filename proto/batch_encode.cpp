@@ -58,7 +58,7 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_little(at + 94, static_cast<std::uint8_t>(task.depth));
   store_little(at + 95, static_cast<std::uint8_t>(task.light));
   store_little(at + 96, task.region.column);
-  store_little(at + 98, task.region.row);
+  store_little(at + 98, row_and_slab(task.region));
   store_little(at + 100, task.hops);
 }
 
@@ -192,6 +192,15 @@ std::vector<std::byte> encode_assignment(const BatchStamp& stamp,
   return std::move(w).take();
 }
 
+std::vector<std::byte> encode_slice_part(const BatchStamp& stamp, const SlicePart& part) {
+  ByteWriter w = begin(stamp, BatchType::kSlicePart, 1, part.bytes.size());
+  w.put(part.rank);
+  w.put(part.offset);
+  w.put(part.total);
+  std::ranges::copy(part.bytes, w.room(part.bytes.size()));
+  return std::move(w).take();
+}
+
 std::vector<std::byte> encode_signal(const BatchStamp& stamp, BatchType type) {
   GRAYCUBE_CHECK(is_signal(type), "%s has a payload", to_string(type).data());
   return begin(stamp, type, 0, 0).take();
@@ -226,6 +235,7 @@ std::string_view to_string(BatchType type) {
     case BatchType::kClassRays: return "class_rays";
     case BatchType::kClassCredit: return "class_credit";
     case BatchType::kAnswers: return "answers";
+    case BatchType::kSlicePart: return "slice_part";
   }
   return "unknown";
 }

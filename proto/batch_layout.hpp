@@ -71,12 +71,23 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
     case BatchType::kGoodbyeAck: return {single && count == 0, 0};
     case BatchType::kIdle:
     case BatchType::kIdleWithCopy: return {single && count == 1, 8};
+    case BatchType::kSlicePart: return {count == 1 && second > 0, kSlicePartHeadBytes + second};
   }
   return {false, 0};
 }
 
 /// A bit beside the ray's kind that says RayTask::ends_at_horizon.
 inline constexpr std::uint8_t kHorizonFlag = 4;
+/// A region's row is written with its slab beside it, which is 0 but in 3D meshes.
+inline constexpr int kRowBits = 12;
+static_assert(kMaxGridSide <= 1u << kRowBits && kMaxSlabs <= 1u << (16 - kRowBits));
+constexpr std::uint16_t row_and_slab(const RegionIndex& region) {
+  return static_cast<std::uint16_t>(region.row | region.slab << kRowBits);
+}
+constexpr RegionIndex region_at(std::uint16_t column, std::uint16_t row_and_slab) {
+  return {column, static_cast<std::uint16_t>(row_and_slab & ((1u << kRowBits) - 1)),
+          static_cast<std::uint16_t>(row_and_slab >> kRowBits)};
+}
 /// A bit beside the bytes of a component that says that more answers to the same ray follow.
 inline constexpr std::uint8_t kMoreFlag = 16;
 

@@ -30,6 +30,7 @@ std::string_view to_string(ShadowMode value) { return control_names::name_of(val
 std::string_view to_string(PartitionMode value) { return control_names::name_of(value); }
 std::string_view to_string(FlowMode value) { return control_names::name_of(value); }
 std::string_view to_string(FifoMode value) { return control_names::name_of(value); }
+std::string_view to_string(MeshMode value) { return control_names::name_of(value); }
 std::string_view to_string(SumsMode value) { return control_names::name_of(value); }
 std::string_view to_string(ReturnsMode value) { return control_names::name_of(value); }
 std::string_view to_string(Subdivision value) { return control_names::name_of(value); }

@@ -185,6 +185,17 @@ Fault fault_of_own_edges(const control::GridLayout& grid) {
   return {};
 }
 
+Fault fault_of_slab_depths(const control::GridLayout& grid) {
+  double last = 0;
+  for (const double depth : grid.slab_depths) {
+    if (!(depth > last)) {
+      return ControlError{"grid/slab_depths", "must be above 0 and increase strictly"};
+    }
+    last = depth;
+  }
+  return {};
+}
+
 Fault fault_of(const control::Load& m) {
   if (m.algorithm != Algorithm::kRoth && m.algorithm != Algorithm::kMacro) {
     return ControlError{"algorithm", "must be one of roth, macro"};
@@ -195,6 +206,7 @@ Fault fault_of(const control::Load& m) {
   if (Fault fault = fault_of_edges("grid/column_edges", m.grid.columns, m.grid.column_edges))
     return fault;
   if (Fault fault = fault_of_edges("grid/row_edges", m.grid.rows, m.grid.row_edges)) return fault;
+  if (Fault fault = fault_of_slab_depths(m.grid)) return fault;
   return fault_of_own_edges(m.grid);
 }
 

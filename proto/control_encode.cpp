@@ -58,6 +58,9 @@ class FieldWriter {
     if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
       if (limits.is_rare && value == T{}) return;
     }
+    if constexpr (requires { value.empty(); }) {
+      if (limits.is_rare && value.empty()) return;
+    }
     object_[name] = write(value, limits);
   }
   template <class T>

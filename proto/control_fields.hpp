@@ -21,7 +21,7 @@ namespace control {
 
 /// Messages whose `rank` names the node whose slice is meant.
 template <class M>
-concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
+concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share> || Is<M, HandOn>;
 
 /// Messages that have no field but job and epoch.
 template <class M>
@@ -52,6 +52,7 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("skipped_by_horizon", m.skipped_by_horizon);
   visit("forwarded_shadow", m.forwarded_shadow);
   visit("forwarded_secondary", m.forwarded_secondary);
+  visit("forwarded_primary", m.forwarded_primary, kRare);
   visit("ray_batches", m.ray_batches);
   visit("ray_bytes", m.ray_bytes);
   visit("contribution_batches", m.contribution_batches);
@@ -83,6 +84,8 @@ void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("answers", m.answers, kRare);
   visit("answer_batches", m.answer_batches, kRare);
   visit("answer_bytes", m.answer_bytes, kRare);
+  visit("slice_batches", m.slice_batches, kRare);
+  visit("slice_bytes", m.slice_bytes, kRare);
 }
 
 void each_field(auto& visit, Is<JobOptions> auto& m) {
@@ -105,6 +108,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("subdivision", m.subdivision.way, kRare);
   visit("entry", m.subdivision.entry, kRare);
   visit("returns", m.returns, kRare);
+  visit("mesh", m.mesh, kRare);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -119,6 +123,8 @@ void each_field(auto& visit, Is<GridLayout> auto& m) {
   visit("row_edges", m.row_edges, kEdges);
   visit("own_edges", m.own_edges,
         {.min = 1, .max = kMaxImageSide, .length = kMaxNodes, .has_default = true});
+  visit("slab_depths", m.slab_depths,
+        {.min = 0, .length = kMaxSlabs - 1, .has_default = true, .is_rare = true});
 }
 
 void each_field(auto& visit, Is<TokenProgress> auto& m) {
@@ -249,6 +255,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("subdivision", m.subdivision.way, kRare);
   visit("entry", m.subdivision.entry, kRare);
   visit("returns", m.returns, kRare);
+  visit("mesh", m.mesh, kRare);
 }
 
 void each_field(auto& visit, IsAboutSlice auto& m) {

@@ -38,7 +38,11 @@ struct Names<FifoMode> {
 };
 template <>
 struct Names<SumsMode> {
-  static constexpr std::array<std::string_view, 2> kAll{"direct", "tree"};
+  static constexpr std::array<std::string_view, 3> kAll{"direct", "tree", "ring"};
+};
+template <>
+struct Names<MeshMode> {
+  static constexpr std::array<std::string_view, 4> kAll{"2d", "3d", "ring", "tree"};
 };
 template <>
 struct Names<ReturnsMode> {

@@ -13,14 +13,16 @@
 
 namespace graycube {
 
-using ControlMessage = std::variant<
-    control::Hello, control::Ready, control::EpochAck, control::TokenRound, control::Terminated,
-    control::NodeReport, control::Pong, control::NodeError, control::WaitReport, control::Borrow,
-    control::Share, control::Goodbye, control::Welcome, control::Load, control::Lend, control::Copy,
-    control::Relieved, control::AllWhole, control::Prepare, control::Start, control::Finish,
-    control::Ping, control::Shutdown, control::Submit, control::Status, control::List,
-    control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write, control::Down,
-    control::Accepted, control::JobInfo, control::Jobs, control::Progress, control::NodeList,
-    control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
+using ControlMessage =
+    std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
+                 control::Terminated, control::NodeReport, control::Pong, control::NodeError,
+                 control::WaitReport, control::Borrow, control::Share, control::Goodbye,
+                 control::Welcome, control::Load, control::Lend, control::Copy, control::HandOn,
+                 control::Relieved, control::AllWhole, control::Prepare, control::Start,
+                 control::Finish, control::Ping, control::Shutdown, control::Submit,
+                 control::Status, control::List, control::Watch, control::Cancel, control::Nodes,
+                 control::Fetch, control::Write, control::Down, control::Accepted, control::JobInfo,
+                 control::Jobs, control::Progress, control::NodeList, control::Done,
+                 control::Picture, control::Written, control::Failed, control::Bye>;
 
 }  // namespace graycube

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "regions/macro_grid.hpp"
-#include "topology/hypercube.hpp"
+#include "topology/node_mesh.hpp"
 
 namespace graycube {
 
-/// The regions of which Hypercube::owner_of says that `rank` owns them.
-inline RegionShare share_of(const Hypercube& cube, Rank rank) {
-  return {cube.columns(), cube.rows(), cube.column_of(rank), cube.row_of(rank)};
+/// The regions of which NodeMesh::owner_of says that `rank` owns them.
+inline RegionShare share_of(const NodeMesh& mesh, Rank rank) {
+  const NodeMesh::Place place = mesh.place_of(rank);
+  return {mesh.columns(), mesh.rows(), place.column, place.row, mesh.slabs(), place.slab};
 }
 
 }  // namespace graycube

@@ -109,7 +109,8 @@ std::string statistics_json(const Statistics& s) {
                   {"partition", to_string(s.partition)},
                   {"flow", to_string(s.flow)},
                   {"sums", to_string(s.sums)},
-                  {"returns", to_string(s.returns)}};
+                  {"returns", to_string(s.returns)},
+                  {"mesh", to_string(s.mesh)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
   j["frontal_cpu_s"] = s.frontal_cpu_s;
@@ -124,7 +125,8 @@ std::string statistics_json(const Statistics& s) {
                {"refraction", sum(&NodeStats::refraction)}};
   j["shadow"] = {{"skipped_by_horizon", sum(&NodeStats::skipped_by_horizon)}};
   j["forwarded"] = {{"shadow", sum(&NodeStats::forwarded_shadow)},
-                    {"secondary", sum(&NodeStats::forwarded_secondary)}};
+                    {"secondary", sum(&NodeStats::forwarded_secondary)},
+                    {"primary", sum(&NodeStats::forwarded_primary)}};
   j["messages"] = {{"ray_batches", sum(&NodeStats::ray_batches)},
                    {"ray_bytes", sum(&NodeStats::ray_bytes)},
                    {"contribution_batches", sum(&NodeStats::contribution_batches)},
@@ -133,6 +135,10 @@ std::string statistics_json(const Statistics& s) {
                    {"sum_bytes", sum(&NodeStats::sum_bytes)},
                    {"answer_batches", sum(&NodeStats::answer_batches)},
                    {"answer_bytes", sum(&NodeStats::answer_bytes)}};
+  j["distribution"] = {{"slices", s.slices},
+                       {"slice_bytes", s.slice_bytes},
+                       {"link_batches", sum(&NodeStats::slice_batches)},
+                       {"link_bytes", sum(&NodeStats::slice_bytes)}};
   j["subdivision"] = subdivision_json(s);
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;

@@ -1,7 +1,6 @@
 // The statistics file: one JSON object for each render (docs/statistics.md).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,7 +16,9 @@ struct Statistics {
   std::string failed;
   Algorithm algorithm = Algorithm::kSerial;
   std::uint32_t nodes = 1, threads = 1, dimension = 0;
-  std::array<std::uint32_t, 2> grid{1, 1};
+  /// Columns and rows of the mesh of nodes; in a 3D mesh, slabs too.
+  std::vector<std::uint32_t> grid{1, 1};
+  MeshMode mesh = MeshMode::k2d;
   /// The scatter that was picked, in `macro`.
   std::uint32_t scatter = 1;
   ShadowMode shadows = ShadowMode::kForward;
@@ -36,6 +37,8 @@ struct Statistics {
   double start_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
+  /// Slices that the frontal sent when the job was loaded.
+  std::uint64_t slices = 0, slice_bytes = 0;
   /// The nodes' own reports, indexed by rank. Totals are sums over these.
   std::vector<control::NodeStats> per_node;
 };

@@ -100,6 +100,13 @@ std::vector<Way> ways_of_report(const control::JobOptions& common) {
       ways.push_back(std::move(way));
     }
   }
+  for (const MeshMode mesh : {MeshMode::k3d, MeshMode::kRing, MeshMode::kTree}) {
+    const std::string name(to_string(mesh));
+    Way way{"macro, mesh " + name, "--algorithm macro --mesh " + name, common};
+    way.options.algorithm = Algorithm::kMacro;
+    way.options.mesh = mesh;
+    ways.push_back(std::move(way));
+  }
   return ways;
 }
 

@@ -18,8 +18,8 @@ struct Way {
 std::vector<Way> ways_of_algorithms(const control::JobOptions& common);
 
 /// Each subdivision with `serial`, `roth` by tiles, the report's own distribution (regular
-/// boundaries, every ray forwarded), today's, and that with light going back to senders; the first
-/// way is `serial` as it is today.
+/// boundaries, every ray forwarded), today's, and that with light going back to senders; then
+/// today's with each other mesh. The first way is `serial` as it is today.
 std::vector<Way> ways_of_report(const control::JobOptions& common);
 
 }  // namespace graycube

@@ -44,6 +44,12 @@ void check_draw_options(const DrawCommand& command, const control::JobOptions& o
   if (shows_messages(command.figure) && command.nodes < 2) {
     throw usage_failure("-n", "--figure " + figure + " needs at least 2 nodes");
   }
+  const bool is_grid = options.mesh == MeshMode::k2d || options.mesh == MeshMode::kTree;
+  if (!is_grid && command.figure != FigureName::kToken) {
+    throw usage_failure("--mesh",
+                        "--figure " + figure + " shows columns and rows of nodes, as 2d " +
+                            "and tree have them, not " + std::string(to_string(options.mesh)));
+  }
   const Subdivision way = options.subdivision.way;
   if (shows_leaves(command.figure) && !has_links(way)) {
     throw usage_failure("--subdivision", "--figure " + figure +

@@ -115,7 +115,8 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.partition = command.options.partition;
   s.flow = command.options.flow;
   s.fifo = command.options.fifo;
-  s.sums = command.options.sums;
+  s.sums = sums_of(command.options);
+  s.mesh = command.options.mesh;
   s.subdivision = command.options.subdivision;
   s.returns = command.options.returns;
   s.image = settings.image;

@@ -170,8 +170,12 @@ void add_how(Declaring& options, control::JobOptions& o) {
             names_of(kFifoChoices),
             [&o](const auto& text) { o.fifo = parse_fifo("--fifo", text); });
   add_named(
-      options, "--sums", "direct (default), or tree: nodes add up each other's light on its way",
-      names_of(kSumsChoices), [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
+      options, "--mesh", "2d (default), 3d, ring or tree: how nodes with macro-regions are linked",
+      names_of(kMeshChoices), [&o](const auto& text) { o.mesh = parse_mesh("--mesh", text); });
+  add_named(options, "--sums",
+            "direct (default), tree or ring: nodes add up each other's light on its way",
+            names_of(kSumsChoices),
+            [&o](const auto& text) { o.sums = parse_sums("--sums", text); });
   add_named(options, "--returns",
             "frontal (default), or sender: light goes back along the rays' ways, as in 1983",
             names_of(kReturnsChoices),

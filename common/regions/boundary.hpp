@@ -23,7 +23,7 @@ struct BoundaryPlane {
   double at(const Vec3& q) const { return dot(normal, q) - offset; }
 };
 
-/// One bounding half-space of a column or row, and where it leads.
+/// One bounding half-space of a column, row or slab, and where it leads.
 struct RegionSide {
   BoundaryPlane plane;
   bool far = false;  // the half-space is f ≥ 0, else f < 0
@@ -33,8 +33,8 @@ struct RegionSide {
   std::uint16_t next = 0;
 };
 
-/// The most sides that a region has: those of its column and of its row.
-inline constexpr std::size_t kMostSides = 4;
+/// The most sides that a region has: those of its column, of its row and of its slab.
+inline constexpr std::size_t kMostSides = 6;
 
 /// For each ray of a packet, the first side of its region that it passes.
 struct FirstPassages {

@@ -38,6 +38,15 @@ void check_edges(const std::vector<std::int64_t>& edges, std::uint32_t pixels) {
   }
 }
 
+void check_depths(const std::vector<double>& depths) {
+  GRAYCUBE_CHECK(depths.size() < kMaxSlabs, "%zu boundaries of slabs", depths.size());
+  double last = 0;
+  for (const double depth : depths) {
+    GRAYCUBE_CHECK(depth > last && depth < kInf, "a slab from depth %g to %g", last, depth);
+    last = depth;
+  }
+}
+
 /// The pixels between boundaries `cell` and `cell` + 1, clipped to 0 … pixels.
 std::pair<std::uint32_t, std::uint32_t> pixel_range(const std::vector<std::int64_t>& edges,
                                                     std::size_t cell, std::uint32_t pixels) {
@@ -62,13 +71,15 @@ std::pair<double, double> support(const Aabb& box, const Vec3& eye, const Vec3& 
 
 }  // namespace
 
-MacroGrid MacroGrid::regular(const CameraFrame& frame, std::uint32_t columns, std::uint32_t rows) {
-  return {frame, even_edges(columns, frame.image.width), even_edges(rows, frame.image.height)};
+MacroGrid MacroGrid::regular(const CameraFrame& frame, std::uint32_t columns, std::uint32_t rows,
+                             std::vector<double> slab_depths) {
+  return {frame, even_edges(columns, frame.image.width), even_edges(rows, frame.image.height),
+          std::move(slab_depths)};
 }
 
 MacroGrid::MacroGrid(const CameraFrame& frame, std::vector<std::int64_t> column_edges,
-                     std::vector<std::int64_t> row_edges)
-    : image_(frame.image), eye_(frame.eye) {
+                     std::vector<std::int64_t> row_edges, std::vector<double> slab_depths)
+    : image_(frame.image), eye_(frame.eye), slabs_(make_slabs(frame, slab_depths)) {
   check_edges(column_edges, frame.image.width);
   check_edges(row_edges, frame.image.height);
   columns_ = make_fan(frame, frame.right, 0.5 * frame.image.width, std::move(column_edges));
@@ -90,8 +101,23 @@ MacroGrid::Fan MacroGrid::make_fan(const CameraFrame& frame, const Vec3& axis, d
   return fan;
 }
 
+/// All planes across the view are parallel, with either camera.
+MacroGrid::Fan MacroGrid::make_slabs(const CameraFrame& frame, const std::vector<double>& depths) {
+  check_depths(depths);
+  Fan fan;
+  for (const double depth : depths) fan.planes.push_back({frame.forward, depth, 0});
+  link_cells(fan, false);
+  return fan;
+}
+
+std::vector<double> MacroGrid::slab_depths() const {
+  std::vector<double> depths;
+  for (const BoundaryPlane& plane : slabs_.planes) depths.push_back(plane.offset);
+  return depths;
+}
+
 void MacroGrid::link_cells(Fan& fan, bool wraps) {
-  const std::size_t cells = fan.edges.size() + 1;
+  const std::size_t cells = fan.planes.size() + 1;
   fan.cells.resize(cells);
   if (cells == 1) return;
   const auto number = [](std::size_t cell) { return static_cast<std::uint16_t>(cell); };
@@ -140,7 +166,8 @@ RegionIndex MacroGrid::region_of_pixel(std::uint32_t x, std::uint32_t y) const {
 }
 
 RegionIndex MacroGrid::region_of_point(const Vec3& p) const {
-  return {columns_.cell_of_point(p - eye_), rows_.cell_of_point(p - eye_)};
+  const Vec3 q = p - eye_;
+  return {columns_.cell_of_point(q), rows_.cell_of_point(q), slabs_.cell_of_point(q)};
 }
 
 bool MacroGrid::contains(RegionIndex region, const Vec3& p) const {
@@ -149,7 +176,8 @@ bool MacroGrid::contains(RegionIndex region, const Vec3& p) const {
     return std::ranges::all_of(
         cell.list(), [&](const RegionSide& side) { return (side.plane.at(q) >= 0) == side.far; });
   };
-  return holds(columns_.cells[region.column]) && holds(rows_.cells[region.row]);
+  return holds(columns_.cells[region.column]) && holds(rows_.cells[region.row]) &&
+         holds(slabs_.cells[region.slab]);
 }
 
 /// The parameter at which the ray leaves through the side: −∞ when it runs parallel on the wrong
@@ -177,36 +205,37 @@ std::optional<RegionExit> MacroGrid::exit(RegionIndex region, const Ray& ray, do
   const Ray relative{ray.origin - eye_, ray.direction};
   double first = kInf;
   const RegionSide* through = nullptr;
-  bool in_columns = true;
-  const auto consider = [&](const Cell& cell, bool columns) {
-    for (const RegionSide& side : cell.list()) {
+  const Fan* passed = nullptr;
+  std::uint16_t* number = nullptr;
+  const auto consider = [&](const Fan& fan, std::uint16_t& cell) {
+    for (const RegionSide& side : fan.cells[cell].list()) {
       double at = passage(side, relative);
       if (at < t) at = t;
       if (at < first) {
         first = at;
         through = &side;
-        in_columns = columns;
+        passed = &fan;
+        number = &cell;
       }
     }
   };
-  consider(columns_.cells[region.column], true);
-  consider(rows_.cells[region.row], false);
+  consider(columns_, region.column);
+  consider(rows_, region.row);
+  consider(slabs_, region.slab);
   if (through == nullptr) return std::nullopt;
-  if (in_columns) {
-    region.column = columns_.next_of(*through, relative, first);
-  } else {
-    region.row = rows_.next_of(*through, relative, first);
-  }
+  *number = passed->next_of(*through, relative, first);
   return RegionExit{first, region};
 }
 
 RayPacket::Mask MacroGrid::shorten_to_exits(RegionIndex region, RayPacket& packet,
                                             std::span<RegionExit, RayPacket::kSize> exits) const {
-  const auto columns = columns_.cells[region.column].list(), rows = rows_.cells[region.row].list();
+  const auto columns = columns_.cells[region.column].list(), rows = rows_.cells[region.row].list(),
+             slabs = slabs_.cells[region.slab].list();
   std::array<const RegionSide*, kMostSides> sides;
   std::size_t count = 0;
   for (const RegionSide& side : columns) sides[count++] = &side;
   for (const RegionSide& side : rows) sides[count++] = &side;
+  for (const RegionSide& side : slabs) sides[count++] = &side;
   FirstPassages first;
   find_first_passages({sides.data(), count}, eye_, packet, first);
   RayPacket::Mask leaving = 0;
@@ -221,8 +250,10 @@ RayPacket::Mask MacroGrid::shorten_to_exits(RegionIndex region, RayPacket& packe
     const Ray relative{ray.origin - eye_, ray.direction};
     if (number < columns.size()) {
       exits[i].next.column = columns_.next_of(*sides[number], relative, t);
-    } else {
+    } else if (number < columns.size() + rows.size()) {
       exits[i].next.row = rows_.next_of(*sides[number], relative, t);
+    } else {
+      exits[i].next.slab = sides[number]->next;
     }
   }
   return leaving;
@@ -234,12 +265,15 @@ std::vector<RegionIndex> MacroGrid::neighbours_of(RegionIndex region) const {
     if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
   };
   for (const RegionSide& side : columns_.cells[region.column].list()) {
-    add({side.next, region.row});
-    if (side.forks) add({2, region.row});
+    add({side.next, region.row, region.slab});
+    if (side.forks) add({2, region.row, region.slab});
   }
   for (const RegionSide& side : rows_.cells[region.row].list()) {
-    add({region.column, side.next});
-    if (side.forks) add({region.column, 2});
+    add({region.column, side.next, region.slab});
+    if (side.forks) add({region.column, 2, region.slab});
+  }
+  for (const RegionSide& side : slabs_.cells[region.slab].list()) {
+    add({region.column, region.row, side.next});
   }
   return found;
 }

@@ -59,8 +59,7 @@ class ModelExtract {
   Model to_;
 };
 
-/// Whether a bounded thing may reach into any region of a share: a column of the share and a row of
-/// it.
+/// Whether a bounded thing may reach into any region of a share: a column, a row and a slab of it.
 class ShareTest {
  public:
   ShareTest(const MacroGrid& grid, const RegionShare& share, double grow)
@@ -68,31 +67,39 @@ class ShareTest {
     for (std::uint32_t c = share.column; c < grid.columns(); c += share.columns)
       columns_.push_back(c);
     for (std::uint32_t r = share.row; r < grid.rows(); r += share.rows) rows_.push_back(r);
+    for (std::uint32_t s = share.slab; s < grid.slabs(); s += share.slabs) slabs_.push_back(s);
   }
 
   bool may_touch(const Aabb& box) const {
     return std::ranges::any_of(
                columns_, [&](std::uint32_t c) { return grid_.column_may_touch(c, box, grow_); }) &&
-           std::ranges::any_of(rows_,
-                               [&](std::uint32_t r) { return grid_.row_may_touch(r, box, grow_); });
+           std::ranges::any_of(
+               rows_, [&](std::uint32_t r) { return grid_.row_may_touch(r, box, grow_); }) &&
+           std::ranges::any_of(
+               slabs_, [&](std::uint32_t s) { return grid_.slab_may_touch(s, box, grow_); });
   }
-  /// The box and the sphere must reach into the same column, and into the same row.
+  /// The box and the sphere must reach into the same column, the same row and the same slab.
   bool may_touch(const Aabb& box, const BoundingSphere& s) const {
     return std::ranges::any_of(columns_,
                                [&](std::uint32_t c) {
                                  return grid_.column_may_touch(c, box, grow_) &&
                                         grid_.column_may_touch(c, s.center, s.radius, grow_);
                                }) &&
-           std::ranges::any_of(rows_, [&](std::uint32_t r) {
-             return grid_.row_may_touch(r, box, grow_) &&
-                    grid_.row_may_touch(r, s.center, s.radius, grow_);
+           std::ranges::any_of(rows_,
+                               [&](std::uint32_t r) {
+                                 return grid_.row_may_touch(r, box, grow_) &&
+                                        grid_.row_may_touch(r, s.center, s.radius, grow_);
+                               }) &&
+           std::ranges::any_of(slabs_, [&](std::uint32_t slab) {
+             return grid_.slab_may_touch(slab, box, grow_) &&
+                    grid_.slab_may_touch(slab, s.center, s.radius, grow_);
            });
   }
 
  private:
   const MacroGrid& grid_;
   double grow_;
-  std::vector<std::uint32_t> columns_, rows_;
+  std::vector<std::uint32_t> columns_, rows_, slabs_;
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ inline Model restrict_to_share(const Model& model, const MacroGrid& grid,
 
 /// The share of a single region.
 inline RegionShare only(RegionIndex region, const MacroGrid& grid) {
-  return {grid.columns(), grid.rows(), region.column, region.row};
+  return {grid.columns(), grid.rows(), region.column, region.row, grid.slabs(), region.slab};
 }
 
 }  // namespace graycube

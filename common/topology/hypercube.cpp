@@ -79,8 +79,4 @@ std::vector<Rank> Hypercube::tree_children(Rank rank) const {
   return children;
 }
 
-Rank Hypercube::owner_of(std::uint32_t region_column, std::uint32_t region_row) const {
-  return rank_at(region_column & (columns() - 1), region_row & (rows() - 1));
-}
-
 }  // namespace graycube

@@ -1,5 +1,5 @@
-// The hypercube of nodes, the torus of macro-regions that lies on it, the token's ring, and the
-// tree of sums.
+// The hypercube of nodes, the torus of its columns and rows, the token's ring, and the binomial
+// tree.
 #pragma once
 
 #include <cstdint>
@@ -51,10 +51,6 @@ class Hypercube {
   /// The parent in the binomial spanning tree over links, rooted at rank 0; nothing for the root.
   std::optional<Rank> tree_parent(Rank rank) const;
   std::vector<Rank> tree_children(Rank rank) const;
-
-  /// The node that owns a macro-region; a scattered grid has several times as many columns and rows
-  /// as the hypercube, and nodes of neighbouring regions are linked or the same.
-  Rank owner_of(std::uint32_t region_column, std::uint32_t region_row) const;
 
  private:
   explicit Hypercube(std::uint32_t dimension)

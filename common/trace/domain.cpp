@@ -85,11 +85,10 @@ std::size_t Domain::memory_bytes() const {
 }
 
 std::shared_ptr<const Domain> Domain::with_borrowed(
-    std::uint32_t column, std::uint32_t row, std::shared_ptr<const Territory> territory) const {
-  GRAYCUBE_CHECK(column < share_.columns && row < share_.rows, "place %u, %u", column, row);
+    const RegionShare& theirs, std::shared_ptr<const Territory> territory) const {
   auto wider = std::make_shared<Domain>(*this);
-  wider->borrowed_.resize(std::size_t{share_.columns} * share_.rows);
-  wider->borrowed_[row * share_.columns + column] = std::move(territory);
+  wider->borrowed_.resize(std::size_t{share_.columns} * share_.rows * share_.slabs);
+  wider->borrowed_[place_of_owner(theirs.column, theirs.row, theirs.slab)] = std::move(territory);
   return wider;
 }
 
@@ -118,8 +117,7 @@ std::optional<bool> Domain::pass_light_borrowed(RegionIndex region, const Ray& r
                                                 Rgb& light) const {
   if (holds(region)) return pass_light(ray, t0, t1, scratch, light);
   if (borrowed_.empty()) return std::nullopt;
-  const std::size_t place =
-      region.row % share_.rows * std::size_t{share_.columns} + region.column % share_.columns;
+  const std::size_t place = place_of_owner(region.column, region.row, region.slab);
   if (!borrowed_[place]) return std::nullopt;
   const Territory& lent = *borrowed_[place];
   if (lent.search) return lent.search->pass_light(ray, t0, t1, scratch.mailbox, light);

@@ -98,7 +98,7 @@ class Domain {
   void set_replica() { is_replica_ = true; }
   bool is_replica() const { return is_replica_; }
   /// The same domain, holding also what another node holds: shadow rays may be finished there.
-  std::shared_ptr<const Domain> with_borrowed(std::uint32_t column, std::uint32_t row,
+  std::shared_ptr<const Domain> with_borrowed(const RegionShare& theirs,
                                               std::shared_ptr<const Territory> territory) const;
   /// A domain like this one of a neighbour's regions, without foreign horizons and bounds as yet.
   std::shared_ptr<Domain> of_neighbour(const RegionShare& share, Model model) const;
@@ -179,8 +179,10 @@ class Domain {
   }
   /// The macro-region in which a ray is at `t`, task.t or later.
   RegionIndex region_at(const RayTask& task, double t) const;
-  /// Primary rays stay in their pixel's macro-region, unless they are on its boundary.
+  /// Primary rays stay in their pixel's macro-region, unless they are on its boundary or it ends in
+  /// depth.
   bool primary_rays_may_leave() const {
+    if (grid_ && grid_->slabs() > 1) return true;
     const auto is_inside = [](double at) { return at > 0 && at < 1; };
     return !is_inside(frame_.sample_x) || !is_inside(frame_.sample_y);
   }
@@ -194,7 +196,12 @@ class Domain {
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
   bool is_replica_ = false;
-  /// Indexed by the owner's row · share_.columns + column; empty when nothing is borrowed.
+  /// The place in borrowed_ of what the owner of a region lends.
+  std::size_t place_of_owner(std::uint32_t column, std::uint32_t row, std::uint32_t slab) const {
+    const std::size_t line = slab % share_.slabs * std::size_t{share_.rows} + row % share_.rows;
+    return line * share_.columns + column % share_.columns;
+  }
+  /// Empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_, foreign_horizons_;
   std::shared_ptr<const ForeignBounds> foreign_bounds_;

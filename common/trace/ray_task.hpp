@@ -53,14 +53,17 @@ static_assert(kMaxLights <= kLightMask + 1);
 
 inline constexpr std::uint32_t kMaxHops = 0xFFFF;
 
-/// More links than any ray of such a job can have crossed: a primary ray stays in its macro-region;
-/// each further generation is sent to where it begins, over as many links as the hypercube has
-/// dimensions at most, and passes each boundary once; and what a neighbour traces for its owner
-/// crosses two links for one.
+/// More links than any ray of such a job can have crossed: a primary ray passes the boundaries of
+/// slabs alone; each further generation is sent to where it begins, over as many links as the
+/// hypercube has dimensions at most, and passes each boundary once; and what a neighbour traces for
+/// its owner crosses two links for one.
 constexpr std::uint64_t most_hops(std::uint32_t max_depth, std::uint32_t columns,
-                                  std::uint32_t rows) {
-  const auto dimension = static_cast<std::uint32_t>(std::bit_width(columns) + std::bit_width(rows));
-  return std::uint64_t{2} * (max_depth + 1) * (columns + rows + dimension);
+                                  std::uint32_t rows, std::uint32_t slabs = 1) {
+  const std::uint32_t across = slabs - 1;
+  const auto dimension = static_cast<std::uint32_t>(std::bit_width(columns) + std::bit_width(rows) +
+                                                    std::bit_width(across));
+  return std::uint64_t{2} *
+         (std::uint64_t{max_depth + 1} * (columns + rows + across + dimension) + across);
 }
 
 inline void cross_link(RayTask& ray) {

@@ -86,6 +86,7 @@ std::uint32_t TilePlan::tile_count_of(std::uint32_t area) const {
 
 std::vector<std::uint32_t> TilePlan::tiles_of(const RegionShare& share) const {
   std::vector<std::uint32_t> tiles;
+  if (!share.owns_slab(0)) return tiles;
   for (std::size_t row = share.row; row < first_areas_.size(); row += share.rows) {
     const std::size_t end = row + 1 < first_areas_.size() ? first_areas_[row + 1] : areas_.size();
     for (std::uint32_t area = first_areas_[row]; area < end; ++area) {

@@ -43,7 +43,8 @@ class TilePlan {
   RegionIndex owner_of_tile(std::uint32_t tile) const { return areas_[area_of_tile(tile)].owner; }
   std::uint32_t first_tile(std::uint32_t area) const { return areas_[area].first_tile; }
   std::uint32_t tile_count_of(std::uint32_t area) const;
-  /// The tiles that a share's node traces, area by area.
+  /// The tiles that a share's node traces, area by area; none where it has no region in the first
+  /// slab, in which all primary rays begin.
   std::vector<std::uint32_t> tiles_of(const RegionShare& share) const;
 
  private:

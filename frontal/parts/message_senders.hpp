@@ -24,10 +24,10 @@ concept FromClient =
 
 template <typename M>
 concept FromFrontal =
-    OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
-          control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
-          control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-          control::NodeList, control::Done, control::Picture, control::Written, control::Failed,
-          control::Bye>;
+    OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::HandOn,
+          control::Relieved, control::AllWhole, control::Prepare, control::Start, control::Finish,
+          control::Ping, control::Shutdown, control::Accepted, control::JobInfo, control::Jobs,
+          control::Progress, control::NodeList, control::Done, control::Picture, control::Written,
+          control::Failed, control::Bye>;
 
 }  // namespace graycube

@@ -56,9 +56,10 @@ void RunningJob::prepared(PreparedScene scene) {
     deadlock_watch_.emplace(farm_.cube);
   }
   info_.choices = choices_text(scene);
-  if (options_.sums == SumsMode::kTree) info_.choices += ", sums by tree";
+  const SumsMode sums = sums_of(options_);
+  if (sums != SumsMode::kDirect) info_.choices += ", sums by " + std::string(to_string(sums));
   info_.algorithm = scene.algorithm;
-  render_.emplace(id(), std::move(scene), farm_.cube, threads, farm_.limits, options_.sums);
+  render_.emplace(id(), std::move(scene), farm_.cube, threads, farm_.limits, sums);
   info_.tiles = static_cast<std::uint32_t>(render_->tiles());
   stage_ = JobStage::kPrepared;
 }
@@ -66,7 +67,19 @@ void RunningJob::prepared(PreparedScene scene) {
 void RunningJob::load(double now_s, Post& post) {
   stage_ = JobStage::kBuilding;
   times_.build_began_s = now_s;
-  post.to_each_node(render_->load(), [this](Rank rank) { return render_->slices().take(rank); });
+  const bool over_links = render_->slice_way().has_value();
+  post.to_each_node(render_->load(), [&](Rank rank) {
+    return over_links && rank != Rank{0} ? SharedBytes{} : render_->slices().take(rank);
+  });
+}
+
+void RunningJob::on_epoch_ack(Rank rank, const control::EpochAck& m, Post& post) {
+  const auto way = render_->slice_way();
+  if (!way || stage_ != JobStage::kBuilding || !render_->is_meant(m)) return;
+  if (!render_->knows_of_it(rank)) return;
+  for (const Rank to : way->farthest_first()) {
+    post.to_node(Rank{0}, control::HandOn{m.job, m.epoch, to.value}, render_->slices().take(to));
+  }
 }
 
 bool RunningJob::on_ready(Rank rank, const control::Ready& m) {
@@ -228,7 +241,10 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.nodes = farm_.cube.nodes();
   s.threads = render_->threads();
   s.dimension = farm_.cube.dimension();
-  s.grid = {farm_.cube.columns(), farm_.cube.rows()};
+  const NodeMesh mesh(farm_.cube, scene.mesh);
+  s.grid = {mesh.columns(), mesh.rows()};
+  if (scene.mesh == MeshMode::k3d) s.grid.push_back(mesh.slabs());
+  s.mesh = scene.mesh;
   s.scatter = scene.grid.scatter;
   s.shadows = scene.shadows;
   s.partition = scene.partition;
@@ -248,6 +264,8 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.partition_s = scene.partition_s;
   s.build_s = times_.render_began_s - times_.build_began_s;
   s.render_s = times_.render_ended_s - times_.render_began_s;
+  s.slices = farm_.cube.nodes();
+  s.slice_bytes = render_->slices().own_bytes();
   s.token_rounds = render_->token().round;
   s.token_hops = render_->token().hops;
   s.per_node = render_->reports().stats();

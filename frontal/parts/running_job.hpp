@@ -50,6 +50,8 @@ class RunningJob {
   void prepared(PreparedScene scene);
   /// Sends the nodes their slices, once all nodes are here.
   void load(double now_s, Post& post);
+  /// Where slices come over links: sends them to rank 0, once all nodes know of the job.
+  void on_epoch_ack(Rank rank, const control::EpochAck& m, Post& post);
   /// Whether all nodes are ready, so that it can start.
   [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
   void start(std::vector<std::uint32_t> incarnations, double now_s, Post& post);

@@ -8,6 +8,7 @@
 
 #include "regions/jagged.hpp"
 #include "regions/rectilinear.hpp"
+#include "regions/slab_depths.hpp"
 #include "trace/coarse_load.hpp"
 
 namespace graycube {
@@ -58,9 +59,10 @@ std::vector<std::int64_t> with_ends(const std::vector<std::int64_t>& inner, std:
 }
 
 /// Whether each node's own pixels may be others than its macro-region's: their primary rays must
-/// stay in their pyramid.
-bool may_be_jagged(const Domain& whole, std::uint32_t scatter, Staying staying) {
-  return staying.all() && scatter == 1 && !whole.primary_rays_may_leave();
+/// stay in their pyramid, and this must not be cut in depth.
+bool may_be_jagged(const Domain& whole, const NodeMesh& mesh, std::uint32_t scatter,
+                   Staying staying) {
+  return staying.all() && scatter == 1 && mesh.slabs() == 1 && !whole.primary_rays_may_leave();
 }
 
 Partition jagged_partition(const MacroGrid& cells, const CameraFrame& frame, std::uint32_t columns,
@@ -83,36 +85,46 @@ Partition jagged_partition(const MacroGrid& cells, const CameraFrame& frame, std
 
 }  // namespace
 
-Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
+Partition partition_of(const WholeScene& whole, const NodeMesh& mesh, std::uint32_t scatter,
                        PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons,
                        Staying staying) {
-  const ImageSize& image = whole.model().settings.image;
-  const auto frame = CameraFrame::from(whole.model().settings.camera, image);
-  const std::uint32_t columns = cube.columns() * scatter, rows = cube.rows() * scatter;
+  const Model& model = whole.model();
+  const ImageSize& image = model.settings.image;
+  const auto frame = CameraFrame::from(model.settings.camera, image);
+  const std::uint32_t nodes = mesh.cube().nodes();
+  const std::uint32_t columns = mesh.columns() * scatter, rows = mesh.rows() * scatter;
   const std::uint32_t most = staying.all() ? kMostCells : kMostCellsApart;
   const std::uint32_t fine =
       std::clamp(most / std::max(columns, rows), kLeastFineCells, kFineCells);
-  const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2;
+  const bool too_small = image.width < columns * fine * 2 || image.height < rows * fine * 2 ||
+                         columns * fine > kMaxGridSide;
   const bool too_costly =
       wanted == PartitionMode::kAuto && !whole.has_primary_rays(kPrimaryRaysPerPrimitive);
-  if (wanted == PartitionMode::kRegular || cube.nodes() == 1 || too_small || too_costly) {
-    return {PartitionMode::kRegular, MacroGrid::regular(frame, columns, rows), {}, 0, {}};
+  if (wanted == PartitionMode::kRegular || nodes == 1 || too_small || too_costly) {
+    return {PartitionMode::kRegular,
+            MacroGrid::regular(frame, columns, rows, even_slab_depths(model, frame, mesh.slabs())),
+            {},
+            0,
+            {}};
   }
   const MacroGrid cells = MacroGrid::regular(frame, columns * fine, rows * fine);
   const Domain domain(whole.territory());
   CoarseLoad load = coarse_load(domain, cells, horizons, staying, kCrossingCost / fine,
-                                std::uint64_t{kCoarsePixelsPerNode} * cube.nodes());
-  if (may_be_jagged(domain, scatter, staying))
+                                std::uint64_t{kCoarsePixelsPerNode} * nodes);
+  if (may_be_jagged(domain, mesh, scatter, staying))
     return jagged_partition(cells, frame, columns, rows, std::move(load));
   const RectilinearCuts cuts = balanced_cuts(load.map, columns, rows);
   std::vector<std::int64_t> column_edges, row_edges;
   for (const std::uint32_t c : cuts.columns) column_edges.push_back(cells.column_edges()[c - 1]);
   for (const std::uint32_t r : cuts.rows) row_edges.push_back(cells.row_edges()[r - 1]);
+  MacroGrid grid(frame, std::move(column_edges), std::move(row_edges),
+                 balanced_slab_depths(model, frame, mesh.slabs()));
   for (LeavingLight& light : load.left_by_light) {
-    light.from = {cell_of(light.from.column, cuts.columns), cell_of(light.from.row, cuts.rows)};
+    light.from = {cell_of(light.from.column, cuts.columns), cell_of(light.from.row, cuts.rows),
+                  grid.region_of_point(light.ray.ray.origin).slab};
   }
   return {PartitionMode::kBalanced,
-          MacroGrid(frame, std::move(column_edges), std::move(row_edges)),
+          std::move(grid),
           {},
           load.rays_per_primary,
           std::move(load.left_by_light)};

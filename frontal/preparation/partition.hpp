@@ -8,7 +8,7 @@
 #include "frontal/preparation/whole_scene.hpp"
 #include "proto/messages.hpp"
 #include "regions/macro_grid.hpp"
-#include "topology/hypercube.hpp"
+#include "topology/node_mesh.hpp"
 #include "trace/coarse_load.hpp"
 #include "visibility/light_horizons.hpp"
 
@@ -26,12 +26,13 @@ struct Partition {
   std::vector<LeavingLight> left_by_light;
 };
 
-/// Cuts a scene that `cube` renders into `scatter` × `scatter` macro-regions per node. A picture
-/// too small for a coarse pre-render is cut regularly whatever is `wanted`; kAuto does so, too,
-/// when the pre-render would not be small beside the picture. When all rays stay in the pre-render,
-/// work lies where pixels are: then each row of nodes cuts its part of the picture by itself, and
-/// macro-regions lie about there. `horizons` may be null.
-Partition partition_of(const WholeScene& whole, const Hypercube& cube, std::uint32_t scatter,
+/// Cuts a scene that the nodes of `mesh` render into `scatter` × `scatter` macro-regions per node.
+/// A picture too small for a coarse pre-render is cut regularly whatever is `wanted`; kAuto does
+/// so, too, when the pre-render would not be small beside the picture. When all rays stay in the
+/// pre-render, work lies where pixels are: then each row of nodes cuts its part of the picture by
+/// itself, and macro-regions lie about there, unless there are slabs: these hold equally many
+/// primitives. `horizons` may be null.
+Partition partition_of(const WholeScene& whole, const NodeMesh& mesh, std::uint32_t scatter,
                        PartitionMode wanted, const std::shared_ptr<const LightHorizons>& horizons,
                        Staying staying);
 

@@ -52,7 +52,7 @@ void check_credit_limits(const RenderSettings& s, std::vector<control::ErrorItem
 
 /// Checks the settings with the options' overrides; what doesn't fit is added to `errors`.
 void check_overrides(const control::JobOptions& options, const RenderSettings& settings,
-                     std::vector<control::ErrorItem>& errors) {
+                     const Hypercube& cube, std::vector<control::ErrorItem>& errors) {
   const auto in_range = [&](const char* name, std::uint64_t value, std::uint64_t least,
                             std::uint64_t most) {
     if (value >= least && value <= most) return;
@@ -66,6 +66,11 @@ void check_overrides(const control::JobOptions& options, const RenderSettings& s
   in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
   in_range("--samples", image.samples, 1, kMaxSamples);
   in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+  const NodeMesh mesh(cube, options.mesh);
+  if (options.scatter != 0) {
+    in_range("--scatter", options.scatter, 1,
+             std::min(kMaxScatter, kMaxGridSide / std::max(mesh.columns(), mesh.rows())));
+  }
   if (!parse_aovs(options.aov)) {
     add_error(errors, "--aov", "expected names of AOVs, each once, found " + options.aov);
   }
@@ -93,8 +98,10 @@ std::optional<Model> model_of(std::span<const std::byte> scene,
   }
 }
 
-Algorithm chosen(Algorithm wanted, const Model& model) {
+/// A mesh that is asked for is one of macro-regions.
+Algorithm chosen(Algorithm wanted, MeshMode mesh, const Model& model) {
   if (wanted != Algorithm::kAuto) return wanted;
+  if (mesh != MeshMode::k2d) return Algorithm::kMacro;
   return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
 }
 
@@ -102,7 +109,7 @@ void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out)
   const ImageSize& image = model.settings.image;
   const auto frame = CameraFrame::from(model.settings.camera, image);
   const MacroGrid grid = MacroGrid::regular(frame, cube.columns(), cube.rows());
-  out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges(), {}};
+  out.grid = {grid.columns(), grid.rows(), 1, grid.column_edges(), grid.row_edges(), {}, {}};
   out.plan.emplace(image, tile_shape(out.grain, kTileSide, image));
   out.slices.push_back(encode_model(model));
 }
@@ -160,6 +167,8 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   out.queue = work.options.queue;
   if (out.flow == FlowMode::kBlocking) out.fifo = work.options.fifo;
   out.returns = work.options.returns;
+  out.mesh = work.options.mesh;
+  const NodeMesh mesh(work.cube, out.mesh);
   const bool is_local = out.shadows == ShadowMode::kLocal && out.flow == FlowMode::kCredit;
   out.has_replicas =
       is_local && work.cube.nodes() > 1 && encoded_model_bytes(model) <= work.replica_bytes;
@@ -173,7 +182,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   }
   const bool finishes = finishes_rays(work, whole);
   Partition cut =
-      partition_of(whole, work.cube, k, chosen_partition(work, out.has_replicas), ways.horizons,
+      partition_of(whole, mesh, k, chosen_partition(work, out.has_replicas), ways.horizons,
                    {.shadow_rays = ways.are_held, .secondary_rays = finishes});
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas &&
                      work.cube.nodes() > 1 && out.flow == FlowMode::kCredit &&
@@ -185,13 +194,14 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   } else {
     out.copy_room = copy_room(encoded_model_bytes(model), work.cube.nodes());
     const SurfaceTree* tree = finishes ? &*whole.territory()->tree : nullptr;
-    Slices slices = slices_of(model, work.cube, cut, tree, ways.occluders, horizons);
+    Slices slices = slices_of(model, mesh, cut, tree, ways.occluders, horizons);
     out.slices = std::move(slices.bytes);
     // Rays that begin beside a node's macro-region would all leave it at once.
     if (!slices.have_bounds) cut.own_edges.clear();
   }
   const MacroGrid& grid = cut.grid;
-  out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges(), cut.own_edges};
+  out.grid = {grid.columns(), grid.rows(),       k, grid.column_edges(), grid.row_edges(),
+              cut.own_edges,  grid.slab_depths()};
   out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image),
                    grid, cut.own_edges);
 }
@@ -209,6 +219,7 @@ std::string choices_text(const PreparedScene& scene) {
                      std::string(to_string(scene.shadows)) + " shadows, " +
                      std::string(to_string(scene.partition)) + " partition";
   if (scene.has_replicas || scene.makes_copies) text += ", neighbours help";
+  if (scene.mesh != MeshMode::k2d) text += ", mesh " + std::string(to_string(scene.mesh));
   if (scene.returns == ReturnsMode::kSender) text += ", light back to senders";
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);
@@ -226,7 +237,7 @@ void prepare_into(PreparationResult& result, const PreparationWork& work,
   if (!whole) return;
   Model& model = *whole;
   apply_overrides(work.options, model.settings);
-  check_overrides(work.options, model.settings, result.errors);
+  check_overrides(work.options, model.settings, work.cube, result.errors);
   check_credit_limits(model.settings, result.errors);
   if (result.errors.empty() && !fits_model_limits(model)) {
     add_error(result.errors, "", "the scene is larger than a farm takes; use serial");
@@ -235,7 +246,7 @@ void prepare_into(PreparationResult& result, const PreparationWork& work,
   PreparedScene& scene = result.scene.emplace();
   const double loaded_s = clock_s();
   scene.load_s = loaded_s - began_s;
-  scene.algorithm = chosen(work.options.algorithm, model);
+  scene.algorithm = chosen(work.options.algorithm, work.options.mesh, model);
   scene.grain = scene.algorithm == Algorithm::kRoth ? work.options.grain : Grain::kTile;
   scene.settings = model.settings;
   scene.subdivision = work.options.subdivision;

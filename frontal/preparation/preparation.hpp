@@ -42,6 +42,7 @@ struct PreparedScene {
   FifoMode fifo = FifoMode::kThread;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;
+  MeshMode mesh = MeshMode::k2d;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
   std::optional<TilePlan> plan;

@@ -49,15 +49,15 @@ std::vector<OccluderQuery> together(std::vector<OccluderQuery> queries) {
 }
 
 /// The queries of shadow rays that leave their node, by rank, with those for the texels around.
-std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hypercube& cube,
+std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const NodeMesh& mesh,
                                                    const Partition& cut) {
-  std::vector<std::vector<OccluderQuery>> queries(cube.nodes());
+  std::vector<std::vector<OccluderQuery>> queries(mesh.cube().nodes());
   for (const LeavingLight& light : cut.left_by_light) {
     const RayTask& task = light.ray;
     const RegionIndex owner = owner_of_pixel(task.pixel % model.settings.image.width, light.from,
                                              cut.grid, cut.own_edges);
-    const Rank rank = cube.owner_of(owner.column, owner.row);
-    const RegionShare share = share_of(cube, rank);
+    const Rank rank = mesh.owner_of(owner.column, owner.row, owner.slab);
+    const RegionShare share = share_of(mesh, rank);
     auto exit = share.owns(light.from) ? cut.grid.exit(light.from, task.ray, task.t)
                                        : RegionExit{task.t, light.from};
     while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
@@ -84,24 +84,24 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Hyp
 /// Chooses the objects that nodes hold beside those that their macro-regions need.
 class Contents {
  public:
-  Contents(const Model& model, std::uint64_t model_bytes, const Hypercube& cube,
+  Contents(const Model& model, std::uint64_t model_bytes, const NodeMesh& mesh,
            const Partition& cut, const SurfaceTree* tree, const Occluders& occluders)
       : model_(model),
-        cube_(cube),
+        mesh_(mesh),
         cut_(cut),
         tree_(tree),
         occluders_(occluders),
-        queries_(cube.nodes()) {
-    if (!occluders.is_empty()) queries_ = queries_of(model, cube, cut);
+        queries_(mesh.cube().nodes()) {
+    if (!occluders.is_empty()) queries_ = queries_of(model, mesh, cut);
     for (const Object& object : model.objects)
       bytes_.push_back(encoded_object_bytes(model, object));
-    room_ = std::min(slice_room(model_bytes, cube.nodes()),
+    room_ = std::min(slice_room(model_bytes, mesh.cube().nodes()),
                      static_cast<std::uint64_t>(kMostPart * static_cast<double>(model_bytes)));
   }
 
   ModelContents of(Rank rank) const {
     ModelContents contents =
-        contents_with_own_pixels(model_, cut_.grid, share_of(cube_, rank), cut_.own_edges);
+        contents_with_own_pixels(model_, cut_.grid, share_of(mesh_, rank), cut_.own_edges);
     std::uint64_t held = 0;
     for (std::size_t i = 0; i < bytes_.size(); ++i) held += contents.is_whole[i] ? bytes_[i] : 0;
     for (const ModelContents::Part& part : contents.parts) held += bytes_[part.object];
@@ -125,7 +125,7 @@ class Contents {
   }
 
   const Model& model_;
-  const Hypercube& cube_;
+  const NodeMesh& mesh_;
   const Partition& cut_;
   const SurfaceTree* tree_;
   const Occluders& occluders_;
@@ -152,7 +152,7 @@ std::vector<Bytes> bounds_of(std::span<const ModelContents> contents, const Surf
 
 }  // namespace
 
-Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+Slices slices_of(const Model& model, const NodeMesh& mesh, const Partition& cut,
                  const SurfaceTree* tree, const Occluders& occluders,
                  std::span<const std::byte> horizons) {
   Slices slices;
@@ -163,14 +163,14 @@ Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut
     slices.bytes.push_back(encoder.encode(contents, tails));
   };
   const std::uint64_t model_bytes = encoded_model_bytes(model);
-  const Contents contents_of(model, model_bytes, cube, cut, tree, occluders);
+  const Contents contents_of(model, model_bytes, mesh, cut, tree, occluders);
   std::vector<ModelContents> contents;
-  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank)
+  for (std::uint32_t rank = 0; rank < mesh.cube().nodes(); ++rank)
     contents.push_back(contents_of.of(Rank{rank}));
   const std::vector<Bytes> bounds =
-      bounds_of(contents, tree, bounds_room(model_bytes, cube.nodes()));
+      bounds_of(contents, tree, bounds_room(model_bytes, mesh.cube().nodes()));
   slices.have_bounds = std::ranges::none_of(bounds, &Bytes::empty);
-  for (std::uint32_t rank = 0; rank < cube.nodes(); ++rank) {
+  for (std::uint32_t rank = 0; rank < mesh.cube().nodes(); ++rank) {
     add(contents[rank], bounds[rank],
         occluders.is_empty() ? Bytes{}
                              : encode_horizons(occluders.foreign_horizons(contents[rank], model)));

@@ -47,7 +47,7 @@ struct Slices {
 /// of the whole model, nodes also get objects without bounds, and foreign bounds; with occluders,
 /// unless they are empty, also the objects that the partition's pre-render asks for, as far as
 /// there is room, and foreign horizons. `horizons`, encoded, come last in each slice.
-Slices slices_of(const Model& model, const Hypercube& cube, const Partition& cut,
+Slices slices_of(const Model& model, const NodeMesh& mesh, const Partition& cut,
                  const SurfaceTree* tree, const Occluders& occluders,
                  std::span<const std::byte> horizons);
 

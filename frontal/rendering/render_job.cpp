@@ -14,8 +14,9 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       limits_(limits),
       sums_(sums),
       slices_(cube_, std::move(scene_.slices), {lends(), scene_.makes_copies, scene_.copy_room}),
-      tiles_(cube_, *scene_.plan, way(), {scene_, cube_.nodes(), threads_, limits_}),
+      tiles_({cube_, scene_.mesh}, *scene_.plan, way(), {scene_, cube_.nodes(), threads_, limits_}),
       light_(job_, scene_.settings, *scene_.plan, cube_.nodes()),
+      loaded_(cube_.nodes()),
       ready_(cube_.nodes()),
       reports_(cube_) {}
 
@@ -44,6 +45,7 @@ control::Load RenderJob::load() const {
   m.sums = sums_;
   m.subdivision = scene_.subdivision;
   m.returns = scene_.returns;
+  m.mesh = scene_.mesh;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = tiles_.window().first_size();
   m.batch_bytes = limits_.batch_bytes;
@@ -59,7 +61,8 @@ control::Load RenderJob::load() const {
 
 void RenderJob::set_class_places(control::Load& m) const {
   const std::uint64_t classes =
-      most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows);
+      most_hops(scene_.settings.max_depth, scene_.grid.columns, scene_.grid.rows,
+                static_cast<std::uint32_t>(scene_.grid.slab_depths.size() + 1));
   // Classes beyond the last would share its places and could wait for themselves.
   if (classes < kMaxHops) m.outbox_rays = limits_.outbox_rays;
   m.class_places = static_cast<std::uint32_t>(std::max<std::uint64_t>(

@@ -15,6 +15,7 @@
 #include "frontal/rendering/roll_call.hpp"
 #include "frontal/rendering/slice_stock.hpp"
 #include "frontal/rendering/tile_handout.hpp"
+#include "topology/slice_way.hpp"
 
 namespace graycube {
 
@@ -43,6 +44,10 @@ class RenderJob {
   SliceStock& slices() { return slices_; }
   const SliceStock& slices() const { return slices_; }
 
+  /// The way on which slices come over links; nothing if each node gets its slice from the frontal.
+  std::optional<SpanningTree> slice_way() const { return graycube::slice_way(cube_, scene_.mesh); }
+  /// Notes that a node knows of the job; true for the last one.
+  [[nodiscard]] bool knows_of_it(Rank rank) { return loaded_.note(rank) && loaded_.is_complete(); }
   void set_ready(Rank rank) { ready_.note(rank); }
   bool all_ready() const { return ready_.is_complete(); }
 
@@ -91,7 +96,7 @@ class RenderJob {
   SliceStock slices_;
   TileHandout tiles_;
   LightIntake light_;
-  RollCall ready_;
+  RollCall loaded_, ready_;
   NodeReports reports_;
   std::optional<control::Terminated> verdict_;
   control::TokenProgress token_;

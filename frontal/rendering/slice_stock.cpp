@@ -1,5 +1,6 @@
 #include "frontal/rendering/slice_stock.hpp"
 
+#include <numeric>
 #include <utility>
 
 namespace graycube {
@@ -8,6 +9,11 @@ SliceStock::SliceStock(const Hypercube& cube, std::vector<SharedBytes> slices, c
     : cube_(cube), slices_(std::move(slices)), rules_(rules), copies_(cube.nodes(), 0) {
   for (const SharedBytes& slice : slices_) slice_bytes_.push_back(slice.size());
   held_bytes_ = slice_bytes_;
+}
+
+std::uint64_t SliceStock::own_bytes() const {
+  if (slice_bytes_.size() == 1) return slice_bytes_.front() * cube_.nodes();
+  return std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
 }
 
 SharedBytes SliceStock::take(Rank rank) {

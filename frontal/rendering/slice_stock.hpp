@@ -24,6 +24,8 @@ class SliceStock {
   /// `slices` is indexed by rank, or holds one slice for all nodes.
   SliceStock(const Hypercube& cube, std::vector<SharedBytes> slices, const Rules& rules);
 
+  /// Bytes of all nodes' own slices together.
+  std::uint64_t own_bytes() const;
   /// A node's own slice; forgotten here when no other node can ask for it.
   SharedBytes take(Rank rank);
   /// A slice to be lent; null if slices aren't lent, or there is no such node.

@@ -6,19 +6,19 @@
 
 namespace graycube {
 
-TileHandout::TileHandout(const Hypercube& cube, const TilePlan& plan, Way way,
+TileHandout::TileHandout(const NodeMesh& mesh, const TilePlan& plan, Way way,
                          const TileWindow& window)
-    : cube_(cube),
+    : mesh_(mesh),
       plan_(plan),
       way_(way),
       window_(window),
       holder_(plan.tile_count()),
-      open_(cube.nodes(), 0),
-      relief_(cube.nodes(), 0),
-      batches_(cube.nodes(), 0) {
+      open_(mesh.cube().nodes(), 0),
+      relief_(mesh.cube().nodes(), 0),
+      batches_(mesh.cube().nodes(), 0) {
   if (way_ == Way::kAny) return;
-  for (std::uint32_t rank = 0; rank < cube_.nodes(); ++rank) {
-    const auto tiles = plan_.tiles_of(share_of(cube_, Rank{rank}));
+  for (std::uint32_t rank = 0; rank < mesh_.cube().nodes(); ++rank) {
+    const auto tiles = plan_.tiles_of(share_of(mesh_, Rank{rank}));
     own_tiles_.emplace_back(tiles.begin(), tiles.end());
   }
 }
@@ -53,7 +53,7 @@ void TileHandout::take_own(Rank rank, std::uint32_t& open, std::vector<std::uint
 }
 
 void TileHandout::take_over(Rank helper, std::uint32_t& open, std::vector<std::uint32_t>& tiles) {
-  while (own_tiles_[helper.value].empty() && cube_.dimension() > 0) {
+  while (own_tiles_[helper.value].empty() && mesh_.cube().dimension() > 0) {
     auto& theirs = most_left_beside(helper);
     if (theirs.empty() || open >= window_.size(theirs.size())) break;
     // The helper takes tiles from the far end, as the owner takes them from the front.
@@ -65,8 +65,8 @@ void TileHandout::take_over(Rank helper, std::uint32_t& open, std::vector<std::u
 
 std::deque<std::uint32_t>& TileHandout::most_left_beside(Rank helper) {
   std::deque<std::uint32_t>* most = nullptr;
-  for (std::uint32_t bit = 0; bit < cube_.dimension(); ++bit) {
-    auto& theirs = own_tiles_[cube_.neighbour(helper, bit).value];
+  for (std::uint32_t bit = 0; bit < mesh_.cube().dimension(); ++bit) {
+    auto& theirs = own_tiles_[mesh_.cube().neighbour(helper, bit).value];
     if (most == nullptr || theirs.size() > most->size()) most = &theirs;
   }
   return *most;
@@ -77,13 +77,13 @@ Rank TileHandout::is_whole(std::uint32_t tile) {
   --open_[holder.value];
   if (way_ == Way::kAny) return holder;
   const RegionIndex region = plan_.owner_of_tile(tile);
-  const Rank owner = cube_.owner_of(region.column, region.row);
+  const Rank owner = mesh_.owner_of(region.column, region.row, region.slab);
   if (holder != owner) ++relief_[owner.value];
   return holder;
 }
 
 std::vector<std::uint32_t> TileHandout::take_relief() {
-  return std::exchange(relief_, std::vector<std::uint32_t>(cube_.nodes(), 0));
+  return std::exchange(relief_, std::vector<std::uint32_t>(mesh_.cube().nodes(), 0));
 }
 
 }  // namespace graycube

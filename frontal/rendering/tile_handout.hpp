@@ -21,7 +21,7 @@ class TileHandout {
   };
 
   /// The plan must outlive this.
-  TileHandout(const Hypercube& cube, const TilePlan& plan, Way way, const TileWindow& window);
+  TileHandout(const NodeMesh& mesh, const TilePlan& plan, Way way, const TileWindow& window);
 
   /// Takes tiles to hand to the node now, as many as its window allows.
   std::vector<std::uint32_t> next(Rank rank);
@@ -40,7 +40,7 @@ class TileHandout {
   void take_over(Rank helper, std::uint32_t& open, std::vector<std::uint32_t>& tiles);
   std::deque<std::uint32_t>& most_left_beside(Rank helper);
 
-  Hypercube cube_;
+  NodeMesh mesh_;
   const TilePlan& plan_;
   Way way_;
   TileWindow window_;

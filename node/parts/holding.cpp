@@ -24,9 +24,10 @@ BatchLimits limits_of(const Seat& seat, const Domain& domain, const TilePlan& pl
   limits.lights = std::max(1u, static_cast<std::uint32_t>(settings.lights.size()));
   limits.columns = domain.grid() != nullptr ? domain.grid()->columns() : 1;
   limits.rows = domain.grid() != nullptr ? domain.grid()->rows() : 1;
+  limits.slabs = domain.grid() != nullptr ? domain.grid()->slabs() : 1;
   limits.nodes = seat.cube.nodes();
-  limits.max_hops = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(most_hops(limits.max_depth, limits.columns, limits.rows), kMaxHops));
+  limits.max_hops = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+      most_hops(limits.max_depth, limits.columns, limits.rows, limits.slabs), kMaxHops));
   return limits;
 }
 

@@ -4,15 +4,19 @@
 #include <utility>
 
 #include "check.hpp"
+#include "topology/spanning_tree.hpp"
 
 namespace graycube {
 
 LightOut::LightOut(const Seat& seat, SumsMode sums, std::unique_ptr<LightBack> back)
     : back_(std::move(back)), is_child_(seat.links()) {
-  if (sums != SumsMode::kTree) return;
-  if (const auto parent = seat.cube.tree_parent(seat.rank)) parent_bit_ = seat.bit_of(*parent);
-  for (const Rank child : seat.cube.tree_children(seat.rank)) is_child_[seat.bit_of(child)] = true;
-  has_children_ = !seat.cube.tree_children(seat.rank).empty();
+  if (sums == SumsMode::kDirect) return;
+  const SpanningTree tree(seat.cube, sums == SumsMode::kRing ? SpanningTree::Shape::kChain
+                                                             : SpanningTree::Shape::kBinomial);
+  if (const auto parent = tree.parent(seat.rank)) parent_bit_ = seat.bit_of(*parent);
+  const std::vector<Rank> children = tree.children(seat.rank);
+  for (const Rank child : children) is_child_[seat.bit_of(child)] = true;
+  has_children_ = !children.empty();
   merged_.expect_others(has_children_);
 }
 

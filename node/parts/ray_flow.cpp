@@ -12,7 +12,8 @@ FlowRules FlowRules::of(const control::Load& load, const Holding& here) {
   rules.batch_bytes = load.batch_bytes;
   rules.outbox_rays = load.outbox_rays;
   rules.class_places = load.class_places;
-  rules.classes = most_hops(here.limits.max_depth, here.limits.columns, here.limits.rows);
+  rules.classes =
+      most_hops(here.limits.max_depth, here.limits.columns, here.limits.rows, here.limits.slabs);
   rules.threads = load.threads;
   // A hit sends a shadow ray to each light, a reflected and a refracted ray.
   rules.most_children = static_cast<std::uint32_t>(here.domain->settings().lights.size()) + 2;
@@ -20,13 +21,20 @@ FlowRules FlowRules::of(const control::Load& load, const Holding& here) {
 }
 
 void FlowCounts::count_forwarded(std::span<const RayTask> left) {
-  for (const RayTask& ray : left)
-    ++(ray.kind == RayKind::kShadow ? forwarded_shadow : forwarded_secondary);
+  for (const RayTask& ray : left) {
+    switch (ray.kind) {
+      case RayKind::kPrimary: ++forwarded_primary; break;
+      case RayKind::kShadow: ++forwarded_shadow; break;
+      case RayKind::kReflection:
+      case RayKind::kRefraction: ++forwarded_secondary; break;
+    }
+  }
 }
 
 void FlowCounts::report(control::NodeStats& stats) const {
   stats.forwarded_shadow = forwarded_shadow;
   stats.forwarded_secondary = forwarded_secondary;
+  stats.forwarded_primary = forwarded_primary;
   stats.ray_batches = batches;
   stats.ray_bytes = bytes;
   stats.rays_out = rays;

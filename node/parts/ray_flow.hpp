@@ -37,7 +37,7 @@ struct FlowRules {
 
 /// Counts of the rays that have left this node, for the report.
 struct FlowCounts {
-  std::uint64_t forwarded_shadow = 0, forwarded_secondary = 0;
+  std::uint64_t forwarded_shadow = 0, forwarded_secondary = 0, forwarded_primary = 0;
   std::uint64_t batches = 0, bytes = 0, rays = 0;
   std::uint64_t outbox_peak = 0;
 

@@ -8,7 +8,7 @@
 
 #include "proto/share_of.hpp"
 #include "regions/macro_grid.hpp"
-#include "topology/hypercube.hpp"
+#include "topology/node_mesh.hpp"
 #include "trace/ray_task.hpp"
 
 namespace graycube {
@@ -16,7 +16,10 @@ namespace graycube {
 struct Seat {
   Hypercube cube;
   Rank rank;
+  /// How the job's macro-regions lie on the hypercube.
+  MeshMode mode = MeshMode::k2d;
 
+  NodeMesh mesh() const { return {cube, mode}; }
   std::uint32_t links() const { return cube.dimension(); }
   Rank peer(std::uint32_t bit) const { return cube.neighbour(rank, bit); }
   /// The bit of the link to `peer`; links() for a rank that is no neighbour.
@@ -24,7 +27,7 @@ struct Seat {
     return cube.has(peer) ? cube.link_between(rank, peer).value_or(links()) : links();
   }
   Rank owner_of(const RegionIndex& region) const {
-    return cube.owner_of(region.column, region.row);
+    return mesh().owner_of(region.column, region.row, region.slab);
   }
   /// Whether all these rays are in that node's regions.
   bool owns_all(Rank owner, std::span<const RayTask> rays) const {
@@ -41,7 +44,8 @@ struct Seat {
   std::uint32_t bit_for_helped(Rank owner, Rank next) const {
     return cube.first_bit(rank, next, bit_of(owner));
   }
-  RegionShare share() const { return share_of(cube, rank); }
+  RegionShare share_of(Rank owner) const { return graycube::share_of(mesh(), owner); }
+  RegionShare share() const { return share_of(rank); }
 };
 
 }  // namespace graycube

@@ -17,8 +17,8 @@ struct FieldLimits {
   std::size_t length = kMaxNameBytes;
   /// Whether the field may be missing; the member then keeps its default.
   bool has_default = false;
-  /// Whether the field is written only if it isn't 0 or the first of its names, its default: most
-  /// jobs don't use what it is about.
+  /// Whether the field is written only if it isn't 0, the first of its names, or empty, which is
+  /// its default: most jobs don't use what it is about.
   bool is_rare = false;
 };
 

@@ -31,7 +31,8 @@ struct Ready {
   friend bool operator==(const Ready&, const Ready&) = default;
 };
 
-/// The node has dropped everything of older epochs. A frontal that begins one waits for this.
+/// The node has dropped everything of older epochs. A frontal that begins one waits for this, and
+/// so does one that sends slices over links.
 struct EpochAck {
   static constexpr std::string_view kType = "epoch_ack";
   std::uint32_t job = 0, epoch = 0;

@@ -23,7 +23,8 @@ struct Welcome {
 };
 
 /// A binary frame follows: the node's model slice, and at its end `horizon_bytes` of light
-/// horizons.
+/// horizons. In the meshes ring and tree only rank 0 gets its slice so: the others' come over
+/// links, once all nodes have answered with `epoch_ack`.
 struct Load {
   static constexpr std::string_view kType = "load";
   std::uint32_t job = 0, epoch = 0;
@@ -60,6 +61,7 @@ struct Load {
   /// How nodes find the crossings of rays.
   SubdivisionChoice subdivision{};
   ReturnsMode returns = ReturnsMode::kFrontal;
+  MeshMode mesh = MeshMode::k2d;
   friend bool operator==(const Load&, const Load&) = default;
 };
 
@@ -76,6 +78,14 @@ struct Copy {
   static constexpr std::string_view kType = "copy";
   std::uint32_t job = 0, epoch = 0, rank = 0;
   friend bool operator==(const Copy&, const Copy&) = default;
+};
+
+/// To rank 0, in the meshes ring and tree. A binary frame follows: the slice of node `rank`, which
+/// is to be handed on along the ring or tree.
+struct HandOn {
+  static constexpr std::string_view kType = "hand_on";
+  std::uint32_t job = 0, epoch = 0, rank = 0;
+  friend bool operator==(const HandOn&, const HandOn&) = default;
 };
 
 /// Tells that neighbours have traced so many of the node's own tiles, which are whole.

@@ -11,6 +11,7 @@
 #include "regions/macro_grid.hpp"
 #include "subdivisions/subdivision.hpp"
 #include "topology/hypercube.hpp"
+#include "topology/node_mesh.hpp"
 
 namespace graycube {
 
@@ -44,8 +45,8 @@ enum class FlowMode : std::uint8_t { kCredit, kBlocking };
 /// has threads for links and for evaluators, or in a process apart.
 enum class FifoMode : std::uint8_t { kThread, kProcess };
 /// How contributions reach the frontal: from each node by itself, or added up along the hypercube's
-/// tree.
-enum class SumsMode : std::uint8_t { kDirect, kTree };
+/// tree, or along the ring.
+enum class SumsMode : std::uint8_t { kDirect, kTree, kRing };
 /// How light gets from where it is made to the frontal: straight, weighted by the rays' weights, or
 /// back along the rays' ways to the node that sent the primary ray.
 enum class ReturnsMode : std::uint8_t { kFrontal, kSender };
@@ -81,6 +82,7 @@ std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
 std::string_view to_string(FifoMode value);
 std::string_view to_string(SumsMode value);
+std::string_view to_string(MeshMode value);
 std::string_view to_string(ReturnsMode value);
 std::string_view to_string(Subdivision value);
 std::string_view to_string(Entry value);
@@ -112,6 +114,8 @@ struct NodeStats {
   /// Numbers of rays, counted where the rays are created.
   std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
   std::uint64_t skipped_by_horizon = 0, forwarded_shadow = 0, forwarded_secondary = 0;
+  /// Primary rays that went on to other nodes, before their first hit.
+  std::uint64_t forwarded_primary = 0;
   std::uint64_t ray_batches = 0, ray_bytes = 0, contribution_batches = 0, contribution_bytes = 0;
   /// Contributions sent to the parent in the tree of sums; those above went to the frontal.
   std::uint64_t sum_batches = 0, sum_bytes = 0;
@@ -136,6 +140,8 @@ struct NodeStats {
   std::uint64_t open_peak = 0, open_bytes_peak = 0;
   /// Rays of neighbours that were answered, and what the answers took.
   std::uint64_t answers = 0, answer_batches = 0, answer_bytes = 0;
+  /// Parts of slices that were sent to neighbours.
+  std::uint64_t slice_batches = 0, slice_bytes = 0;
   /// Seconds from the end of the node's last primary ray to its report.
   double endgame_s = 0;
   friend bool operator==(const NodeStats&, const NodeStats&) = default;
@@ -164,8 +170,15 @@ struct JobOptions {
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision{};
   ReturnsMode returns = ReturnsMode::kFrontal;
+  MeshMode mesh = MeshMode::k2d;
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
+
+/// How light is added up in such a job: rings and trees bring their own sums along.
+constexpr SumsMode sums_of(const JobOptions& options) {
+  if (options.mesh == MeshMode::kRing) return SumsMode::kRing;
+  return options.mesh == MeshMode::kTree ? SumsMode::kTree : options.sums;
+}
 
 /// The grid of macro-regions: `scatter` × `scatter` per node, region (i, j) on node
 /// (i mod columns/scatter, j mod rows/scatter).
@@ -176,6 +189,9 @@ struct GridLayout {
   /// Row by row, the boundaries between the pixels whose primary rays the row's nodes trace, one
   /// fewer than columns. Empty if these are the macro-regions' boundaries.
   std::vector<std::int64_t> own_edges{};
+  /// In a 3D mesh, of each slab but the last, where it ends: scene units along the view. Slabs are
+  /// not scattered.
+  std::vector<double> slab_depths{};
   friend bool operator==(const GridLayout&, const GridLayout&) = default;
 };
 

@@ -34,6 +34,23 @@ TEST_CASE("an option that the algorithm has no use for is refused, and no other"
         "graycube: usage: --returns: is for --algorithm macro, not for roth");
 }
 
+TEST_CASE("a mesh is for macro, and its sums don't go together with others") {
+  control::JobOptions o;
+  o.mesh = MeshMode::k3d;
+  o.sums = SumsMode::kRing;
+  CHECK_NOTHROW(check_sense(o));
+  o.mesh = MeshMode::kRing;
+  CHECK_NOTHROW(check_sense(o));
+  o.sums = SumsMode::kTree;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --sums: tree does not go with --mesh ring, which adds light up by ring");
+  o.sums = SumsMode::kDirect;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kRoth;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --mesh: is for --algorithm macro, not for roth");
+}
+
 TEST_CASE("a queue's length is for blocking flow only") {
   control::JobOptions o;
   o.queue = 3;

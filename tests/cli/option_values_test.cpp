@@ -125,6 +125,8 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_sums("--sums", "direct") == SumsMode::kDirect);
   CHECK(parse_sums("--sums", "tree") == SumsMode::kTree);
   CHECK(parse_returns("--returns", "sender") == ReturnsMode::kSender);
+  CHECK(parse_mesh("--mesh", "3d") == MeshMode::k3d);
+  CHECK(parse_sums("--sums", "ring") == SumsMode::kRing);
   CHECK(parse_subdivision("--subdivision", "kaplan") == Subdivision::kKaplan);
   CHECK(parse_entry("--entry", "extremal") == Entry::kExtremal);
   CHECK(parse_scatter("--scatter", "1") == 1);

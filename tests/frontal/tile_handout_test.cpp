@@ -36,7 +36,7 @@ struct Handout {
   }
   Rank owner_of(std::uint32_t tile) const {
     const RegionIndex region = scene.plan->owner_of_tile(tile);
-    return kCube.owner_of(region.column, region.row);
+    return NodeMesh(kCube).owner_of(region.column, region.row);
   }
 };
 

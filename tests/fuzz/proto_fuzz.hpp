@@ -36,6 +36,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
   std::vector<RayAnswer> answers;
   std::uint64_t granted = 0, work = 0;
   Token token;
+  SlicePart part;
   const BatchResult results[] = {decode_rays(bytes, limits, rays),
                                  decode_contributions(bytes, limits, credits, contributions),
                                  decode_link_credit(bytes, limits, granted),
@@ -45,7 +46,8 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
                                  decode_offer(bytes, limits, work),
                                  decode_rays(bytes, limits, class_rays, BatchType::kClassRays),
                                  decode_class_credit(bytes, limits, classes),
-                                 decode_answers(bytes, limits, answers)};
+                                 decode_answers(bytes, limits, answers),
+                                 decode_slice_part(bytes, limits, part)};
   const BatchHeader* header = nullptr;
   for (const BatchResult& result : results) {
     const auto* accepted = std::get_if<BatchHeader>(&result);
@@ -70,6 +72,7 @@ inline bool fuzz_batch(std::span<const std::byte> bytes) {
     case BatchType::kIdleWithCopy: again = encode_offer(header->stamp, header->type, work); break;
     case BatchType::kToken: again = encode_token(header->stamp, token); break;
     case BatchType::kAssignment: again = encode_assignment(header->stamp, tiles); break;
+    case BatchType::kSlicePart: again = encode_slice_part(header->stamp, part); break;
     default: again = encode_signal(header->stamp, header->type); break;
   }
   // Batches have one form only, so even the bytes must come back.

@@ -123,7 +123,9 @@ TEST_CASE("compare --report renders a scene with every subdivision and distribut
     }
   }
   CHECK(o.out.find("TESTS/RAY") != std::string::npos);
-  CHECK(lines_of(o.out).size() == 2 + 5 * std::size(kSubdivisions));
+  for (const char* mesh : {"3d", "ring", "tree"})
+    CHECK(o.out.find("macro, mesh " + std::string(mesh) + " ") != std::string::npos);
+  CHECK(lines_of(o.out).size() == 2 + 5 * std::size(kSubdivisions) + 3);
   CHECK(o.out.find("DIFFERENT") == std::string::npos);
 }
 
@@ -261,6 +263,48 @@ TEST_CASE("a picture does not show which subdivision found its crossings") {
       add({"--subdivision", "arnaldi", "--entry", "descent"});
     }
     check_ways(scene, ways, kSmallSize, {});
+  }
+}
+
+TEST_CASE("a picture does not show which mesh the nodes formed") {
+  for (const char* scene : {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json",
+                            "scatter1000.json"}) {
+    std::vector<Arguments> ways;
+    const auto add = [&](const char* mesh, const char* nodes, const Arguments& options = {}) {
+      ways.push_back({"--algorithm", "macro", "--mesh", mesh, "-n", nodes});
+      ways.back().insert(ways.back().end(), options.begin(), options.end());
+    };
+    for (const char* mesh : {"3d", "ring", "tree"}) {
+      for (const char* nodes : {"1", "2", "4", "8", "16"}) add(mesh, nodes);
+      add(mesh, "8", {"--shadows", "forward", "--partition", "regular", "--scatter", "2"});
+      add(mesh, "16", {"--returns", "sender", "--shadows", "forward"});
+    }
+    add("3d", "16", {"--partition", "balanced", "--sums", "tree", "--threads", "2"});
+    add("3d", "8", {"--shadows", "local"});
+    add("3d", "8", {"--flow", "blocking", "--queue", "65536"});
+    for (const char* subdivision : kSubdivisions) add("3d", "8", {"--subdivision", subdivision});
+    check_ways(scene, ways, kSmallSize, {});
+  }
+}
+
+TEST_CASE("statistics tell the mesh, and what its distribution took") {
+  Sandbox sandbox;
+  for (const char* mesh : {"2d", "3d", "ring", "tree"}) {
+    picture(sandbox, "mirrors.json", kSmallSize,
+            {"--algorithm", "macro", "-n", "8", "--shadows", "forward", "--mesh", mesh, "--stats",
+             "stats.json"});
+    const auto stats = sandbox.json("stats.json");
+    INFO(mesh);
+    CHECK(stats["choices"]["mesh"] == mesh);
+    const bool is_3d = mesh == std::string("3d");
+    CHECK(stats["grid"].size() == (is_3d ? 3 : 2));
+    CHECK((stats["forwarded"]["primary"] > 0) == is_3d);
+    const bool over_links = mesh == std::string("ring") || mesh == std::string("tree");
+    CHECK(stats["distribution"]["slices"] == 8);
+    CHECK(stats["distribution"]["slice_bytes"] > 0);
+    CHECK((stats["distribution"]["link_batches"] > 0) == over_links);
+    CHECK((stats["messages"]["sum_batches"] > 0) == over_links);
+    CHECK(stats["malformed_drops"] == 0);
   }
 }
 

@@ -200,7 +200,7 @@ TEST_CASE("a node traces its own pixels beside its macro-region, and none of it 
   const Model model = ball();
   const TilePlan plan(model.settings.image, {16, 16}, grid(), with_own.grid.own_edges);
   const auto own_of = [&](Rank rank) { return plan.tiles_of(share_of(kCube, rank)); };
-  const Rank first{0}, second = kCube.owner_of(1, 0);
+  const Rank first{0}, second = NodeMesh(kCube).owner_of(1, 0);
   REQUIRE(own_of(first).size() == kTiles + 8);
   REQUIRE(own_of(second).size() == kTiles - 8);
   const ModelContents contents =
@@ -258,7 +258,7 @@ TEST_CASE(
   // Rays that left the copy crossed the bit that leads there from the owner, or stayed here.
   for (const auto& [to, rays] : sent.rays) {
     for (const RayTask& ray : rays) {
-      const Rank next = kCube.owner_of(ray.region.column, ray.region.row);
+      const Rank next = NodeMesh(kCube).owner_of(ray.region.column, ray.region.row);
       CHECK(kCube.link_between(Rank{0}, to) == kCube.link_between(owner, next));
     }
   }

@@ -58,7 +58,7 @@ MacroGrid grid() {
 
 Rank owner_at(const Vec3& p) {
   const RegionIndex region = grid().region_of_point(p);
-  return kCube.owner_of(region.column, region.row);
+  return NodeMesh(kCube).owner_of(region.column, region.row);
 }
 
 /// A slice with both mirrors, and the ball if `has_ball`; and foreign bounds of the rest.

@@ -37,7 +37,8 @@ RayTask some_ray(Random& random) {
   task.depth = static_cast<std::uint16_t>(random.below(10));
   task.light = static_cast<std::uint16_t>(random.below(64) & 63);
   task.region = {static_cast<std::uint16_t>(random.below(4)),
-                 static_cast<std::uint16_t>(random.below(2))};
+                 static_cast<std::uint16_t>(random.below(2)),
+                 static_cast<std::uint16_t>(random.below(kMaxSlabs))};
   task.hops = static_cast<std::uint16_t>(random.below(kMaxHops + 1));
   return task;
 }
@@ -73,29 +74,32 @@ std::vector<Contribution> some_lights(Random& random, std::size_t count) {
   return all;
 }
 
+/// The bytes of a part of a slice.
+const Bytes kSomeBytes(9, std::byte{0x5a});
+
 /// One message of every type.
 std::vector<Bytes> one_of_each(Random& random) {
   std::vector<TileCredit> credits;
   std::vector<Contribution> light;
   for (int i = 0; i < 3; ++i) credits.push_back(some_credit(random));
   light = some_lights(random, 4);
-  return {
-      encode_rays(kStamp, some_rays(random, 3)),
-      encode_contributions(kStamp, credits, light),
-      encode_link_credit(kStamp, 65536),
-      encode_token(kStamp, {true, -12, 3, 20, 99}),
-      encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
-      encode_signal(kStamp, BatchType::kGreeting),
-      encode_signal(kStamp, BatchType::kGreetingAck),
-      encode_signal(kStamp, BatchType::kGoodbye),
-      encode_signal(kStamp, BatchType::kGoodbyeAck),
-      encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
-      encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
-      encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
-      encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF}),
-      encode_answers(kStamp, std::vector<RayAnswer>{{5, false, {1, 0, 300}},
-                                                    {6, true, {}},
-                                                    {1u << 31, true, {kMaxMergedLight, 1, 1}}})};
+  return {encode_rays(kStamp, some_rays(random, 3)),
+          encode_contributions(kStamp, credits, light),
+          encode_link_credit(kStamp, 65536),
+          encode_token(kStamp, {true, -12, 3, 20, 99}),
+          encode_assignment(kStamp, std::vector<std::uint32_t>{0, 7, 63}),
+          encode_signal(kStamp, BatchType::kGreeting),
+          encode_signal(kStamp, BatchType::kGreetingAck),
+          encode_signal(kStamp, BatchType::kGoodbye),
+          encode_signal(kStamp, BatchType::kGoodbyeAck),
+          encode_offer(kStamp, BatchType::kIdle, 1ull << 40),
+          encode_offer(kStamp, BatchType::kIdleWithCopy, 0),
+          encode_rays(kStamp, some_rays(random, 2), BatchType::kClassRays),
+          encode_class_credit(kStamp, std::vector<std::uint16_t>{0, 3, 0xFFFF}),
+          encode_answers(kStamp, std::vector<RayAnswer>{{5, false, {1, 0, 300}},
+                                                        {6, true, {}},
+                                                        {1u << 31, true, {kMaxMergedLight, 1, 1}}}),
+          encode_slice_part(kStamp, {7, 5, 300, kSomeBytes})};
 }
 
 template <class T>
@@ -161,6 +165,9 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.ends_at_horizon = true;
   CHECK(load_little<std::uint8_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 92) == 5);
   CHECK(load_little<std::uint16_t>(at + 98) == 0x090A);
+  task.region.slab = 5;
+  CHECK(load_little<std::uint16_t>(encode_rays(kStamp, std::span(&task, 1)).data() + 44 + 98) ==
+        0x590A);
   CHECK(load_little<std::uint16_t>(at + 100) == 0x0B0C);
 }
 
@@ -177,8 +184,8 @@ TEST_CASE("rays keep every bit on the wire") {
     REQUIRE(again.size() == rays.size());
     // No padding before the last field: memcmp compares all bits.
     constexpr std::size_t kSize = offsetof(RayTask, hops) + sizeof(RayTask::hops);
-    // Depth and light take a byte less each on the wire.
-    static_assert(kSize == kRayBytes + 2);
+    // Depth and light take a byte less each on the wire, and a slab shares two with its row.
+    static_assert(kSize == kRayBytes + 4);
     for (std::size_t i = 0; i < rays.size(); ++i)
       CHECK(std::memcmp(&again[i], &rays[i], kSize) == 0);
   }

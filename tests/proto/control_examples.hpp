@@ -50,6 +50,9 @@ inline control::NodeStats example_stats() {
   s.answers = 1ull << 37;
   s.answer_batches = 90000;
   s.answer_bytes = 1ull << 38;
+  s.forwarded_primary = 1ull << 39;
+  s.slice_batches = 800;
+  s.slice_bytes = 1ull << 40;
   s.models_borrowed = 3;
   s.endgame_s = 0.125;
   return s;
@@ -75,6 +78,7 @@ inline control::JobOptions example_options() {
   o.sums = SumsMode::kTree;
   o.subdivision = {Subdivision::kArnaldi, Entry::kDescent};
   o.returns = ReturnsMode::kSender;
+  o.mesh = MeshMode::kRing;
   return o;
 }
 
@@ -100,7 +104,7 @@ inline control::JobInfo example_job() {
 
 inline std::vector<ControlMessage> example_messages() {
   using namespace control;
-  const GridLayout grid{4, 2, 2, {-1, 16, 40}, {24}, {8, 16, 40, 4, 20, 44}};
+  const GridLayout grid{4, 2, 2, {-1, 16, 40}, {24}, {8, 16, 40, 4, 20, 44}, {0.5, 2.25}};
   const RawObject stats{
       R"({"graycube":"0.1.0","nodes":8,"rays":{"primary":65536},"per_node":[{"rank":0}]})"};
   return {
@@ -139,9 +143,11 @@ inline std::vector<ControlMessage> example_messages() {
            true,
            SumsMode::kTree,
            {Subdivision::kOctree, Entry::kExtremal},
-           ReturnsMode::kSender},
+           ReturnsMode::kSender,
+           MeshMode::k3d},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
+      HandOn{9, 1, 3},
       Relieved{9, 1, 12},
       AllWhole{9, 1},
       Prepare{9, 2},

@@ -149,6 +149,14 @@ TEST_CASE("fields that must fit together are checked together") {
   CHECK(error_of(encode(load)).field == "grid/own_edges");
   load.grid.own_edges = {8, 16, 40, 4, 20, 20};
   CHECK(error_of(encode(load)).field == "grid/own_edges");
+  load.grid.own_edges.clear();
+  for (const std::vector<double>& depths :
+       {std::vector<double>{0}, std::vector<double>{1, 1}, std::vector<double>{2, 1}}) {
+    load.grid.slab_depths = depths;
+    CHECK(error_of(encode(load)).field == "grid/slab_depths");
+  }
+  load.grid.slab_depths = {0.1, 1.0 / 3, 1e300};
+  CHECK(message_of(encode(load)) == ControlMessage(load));
   CHECK(error_of(encode(Welcome{3, "v", {"a", "b"}, 100})).field == "endpoints");
   CHECK(error_of(encode(Picture{1, 10, 10, 5, 6})).field == "rows");
   CHECK(error_of(encode(Picture{1, 16384, 4096, 0, 4096})).field == "rows");

@@ -55,8 +55,9 @@ std::set<std::string> all_pointers(const Json& json) {
 
 /// Fields that rules tie together, which the schemas' words can't express.
 const std::set<std::string> kTiedFields{
-    "grid/scatter", "grid/column_edges", "grid/row_edges",     "grid/own_edges",    "endpoints",
-    "rows",         "tiles_whole",       "jobs/0/tiles_whole", "jobs/1/tiles_whole"};
+    "grid/scatter",       "grid/column_edges", "grid/row_edges", "grid/own_edges",
+    "grid/slab_depths",   "endpoints",         "rows",           "tiles_whole",
+    "jobs/0/tiles_whole", "jobs/1/tiles_whole"};
 
 std::vector<Json> probes() {
   return {nullptr,

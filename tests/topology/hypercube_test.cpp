@@ -70,35 +70,6 @@ TEST_CASE("rank, label and place in the grid name the same node") {
   });
 }
 
-TEST_CASE("neighbours on the torus, scattered grids too, are linked or the same node") {
-  for_each_cube([](const Hypercube& cube) {
-    for (const std::uint32_t scatter : {1u, 2u, 3u}) {
-      const std::uint32_t columns = scatter * cube.columns(), rows = scatter * cube.rows();
-      if (columns * rows > 5000) continue;
-      for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t column = 0; column < columns; ++column) {
-          const Rank here = cube.owner_of(column, row);
-          const Rank right = cube.owner_of((column + 1) % columns, row);
-          const Rank below = cube.owner_of(column, (row + 1) % rows);
-          CHECK((here == right || linked(cube, here, right)));
-          CHECK((here == below || linked(cube, here, below)));
-        }
-      }
-    }
-  });
-}
-
-TEST_CASE("a scattered grid gives every node as many macro-regions") {
-  const auto cube = Hypercube::of_size(8);
-  REQUIRE(cube);
-  std::vector<int> held(8);
-  for (std::uint32_t row = 0; row < 6; ++row) {
-    for (std::uint32_t column = 0; column < 12; ++column) ++held[cube->owner_of(column, row).value];
-  }
-  CHECK(held == std::vector<int>(8, 9));
-  CHECK(cube->owner_of(5, 3) == cube->rank_at(1, 1));
-}
-
 TEST_CASE("links join nodes both ways, one for each bit") {
   for_each_cube([](const Hypercube& cube) {
     for (Rank rank; cube.has(rank); ++rank.value) {

@@ -1,5 +1,5 @@
-// A machine of nodes without wires: domains share out a grid's macro-regions, and rays are handed
-// from one to the other.
+// A machine of nodes without wires: domains share out a grid's macro-regions, a slab of them each,
+// and rays are handed from one to the other.
 #pragma once
 
 #include <deque>
@@ -65,15 +65,12 @@ class Machine {
           const SubdivisionChoice& subdivision = {},
           std::shared_ptr<const LightHorizons> horizons = nullptr)
       : image_(model.settings.image), grid_(grid), columns_(columns), rows_(rows) {
-    for (std::uint32_t row = 0; row < rows; ++row) {
-      for (std::uint32_t column = 0; column < columns; ++column) {
-        const RegionShare share{columns, rows, column, row};
-        domains_.push_back(std::make_unique<Domain>(
-            grid, share, restrict_to_share(model, grid, share), subdivision));
-        domains_.back()->set_horizons(horizons);
-        evaluators_.emplace_back(*domains_.back());
-      }
-    }
+    for_each_share([&](const RegionShare& share) {
+      domains_.push_back(std::make_unique<Domain>(
+          grid, share, restrict_to_share(model, grid, share), subdivision));
+      domains_.back()->set_horizons(horizons);
+      evaluators_.emplace_back(*domains_.back());
+    });
   }
 
   /// Which knowledge nodes have of objects that they don't hold.
@@ -92,29 +89,26 @@ class Machine {
     const Occluders occluders = Occluders::of(model);
     const SurfaceTree whole = SurfaceTree::build(model);
     const ForeignBoundsMaker maker(whole);
-    for (std::uint32_t row = 0; row < rows; ++row) {
-      for (std::uint32_t column = 0; column < columns; ++column) {
-        const RegionShare share{columns, rows, column, row};
-        ModelContents contents = contents_with_own_pixels(model, grid, share, own_edges_);
-        const std::uint64_t one_in = 1 + dice.below(4);
-        std::vector<bool> chosen(model.objects.size());
-        for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
-        contents.hold_whole(chosen);
-        parts += contents.parts.size();
-        const Model slice = extract(model, contents);
-        domains_.push_back(std::make_unique<Domain>(grid, share, slice));
-        if (knows.has_horizons) {
-          domains_.back()->set_foreign_horizons(
-              std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, model)));
-        }
-        auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
-        if (knows.has_bounds && bounds) {
-          domains_.back()->set_foreign_bounds(
-              std::make_shared<const ForeignBounds>(*std::move(bounds)));
-        }
-        evaluators_.emplace_back(*domains_.back());
+    for_each_share([&](const RegionShare& share) {
+      ModelContents contents = contents_with_own_pixels(model, grid, share, own_edges_);
+      const std::uint64_t one_in = 1 + dice.below(4);
+      std::vector<bool> chosen(model.objects.size());
+      for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = dice.one_in(one_in);
+      contents.hold_whole(chosen);
+      parts += contents.parts.size();
+      const Model slice = extract(model, contents);
+      domains_.push_back(std::make_unique<Domain>(grid, share, slice));
+      if (knows.has_horizons) {
+        domains_.back()->set_foreign_horizons(
+            std::make_shared<const LightHorizons>(occluders.foreign_horizons(contents, model)));
       }
-    }
+      auto bounds = maker.bounds(contents, dice.one_in(2) ? kMuchRoom : dice.below(4000));
+      if (knows.has_bounds && bounds) {
+        domains_.back()->set_foreign_bounds(
+            std::make_shared<const ForeignBounds>(*std::move(bounds)));
+      }
+      evaluators_.emplace_back(*domains_.back());
+    });
   }
 
   static constexpr std::size_t kMuchRoom = std::size_t{1} << 20;
@@ -138,14 +132,14 @@ class Machine {
       harvest.handed_over += step.leaving.size();
       step.clear();
     };
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      for (std::uint32_t column = 0; column < columns_; ++column) {
-        for (const std::uint32_t tile : plan.tiles_of({columns_, rows_, column, row})) {
-          evaluators_[row * columns_ + column].trace_pixels(plan.rect(tile), step);
-          finish(row * columns_ + column);
-        }
+    std::size_t node = 0;
+    for_each_share([&](const RegionShare& share) {
+      for (const std::uint32_t tile : plan.tiles_of(share)) {
+        evaluators_[node].trace_pixels(plan.rect(tile), step);
+        finish(node);
       }
-    }
+      ++node;
+    });
     while (!waiting.empty()) {
       const bool front = dice.one_in(2);
       const std::size_t at = number((front ? waiting.front() : waiting.back()).region);
@@ -164,7 +158,20 @@ class Machine {
   }
 
  private:
-  std::size_t number(RegionIndex r) const { return r.row % rows_ * columns_ + r.column % columns_; }
+  /// Calls f(share) for each node, in the order of their numbers.
+  template <class F>
+  void for_each_share(F&& f) const {
+    for (std::uint32_t slab = 0; slab < grid_.slabs(); ++slab) {
+      for (std::uint32_t row = 0; row < rows_; ++row) {
+        for (std::uint32_t column = 0; column < columns_; ++column) {
+          f(RegionShare{columns_, rows_, column, row, grid_.slabs(), slab});
+        }
+      }
+    }
+  }
+  std::size_t number(RegionIndex r) const {
+    return (r.slab * std::size_t{rows_} + r.row % rows_) * columns_ + r.column % columns_;
+  }
 
   ImageSize image_;
   const MacroGrid& grid_;

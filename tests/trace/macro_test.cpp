@@ -124,8 +124,7 @@ TEST_CASE("a shadow ray is finished where it was made, with borrowed models") {
     for (std::uint32_t place = 0; place < 8; ++place) {
       if (place == 1) continue;
       const RegionShare other{4, 2, place % 4, place / 4};
-      domain = domain->with_borrowed(other.column, other.row,
-                                     Territory::of(restrict_to_share(model, grid, other)));
+      domain = domain->with_borrowed(other, Territory::of(restrict_to_share(model, grid, other)));
       step.clear();
       Evaluator(*domain).trace_rays(waiting, step);
       REQUIRE(step.leaving.empty());
