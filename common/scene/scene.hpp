@@ -121,10 +121,23 @@ struct ReferenceNode {
   friend bool operator==(const ReferenceNode&, const ReferenceNode&) = default;
 };
 
+/// Which copies a repeat has: those under up to `depth` maps, or under exactly that many.
+enum class KeptCopies : std::uint8_t { kAll, kLast };
+/// The union of one child under all products of maps, each taken from `maps`, in any order and as
+/// often as one likes (Mandelbrot 1982); the product of no maps is the child as it is.
+struct RepeatNode {
+  /// Exactly one; a vector, as the type isn't complete here.
+  std::vector<CsgNode> child;
+  std::vector<Affine> maps;
+  std::uint32_t depth = 0;
+  KeptCopies kept = KeptCopies::kAll;
+  friend bool operator==(const RepeatNode&, const RepeatNode&);
+};
+
 struct CsgNode {
-  std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
-               TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
+  std::variant<OperationNode, ReferenceNode, RepeatNode, SphereShape, BoxShape, CylinderShape,
+               ConeShape, TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape,
+               EllipticConeShape, EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;
@@ -135,6 +148,9 @@ struct CsgNode {
 };
 inline bool operator==(const OperationNode& a, const OperationNode& b) {
   return a.operation == b.operation && a.children == b.children;
+}
+inline bool operator==(const RepeatNode& a, const RepeatNode& b) {
+  return a.child == b.child && a.maps == b.maps && a.depth == b.depth && a.kept == b.kept;
 }
 
 struct NamedMaterial {

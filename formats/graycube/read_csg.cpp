@@ -85,7 +85,7 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
   if (depth > kMaxTreeDepth)
     return json_.errors.add(at,
                             "the tree is deeper than " + std::to_string(kMaxTreeDepth) + " levels");
-  ++context.summary.nodes;
+  ++context.summary.counts.nodes;
   context.summary.depth = std::max(context.summary.depth, depth);
   const NodeRules* rules = rules_for(json_, at);
   if (rules == nullptr) return;
@@ -114,6 +114,8 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     case NodeType::kRef:
       if (body != 0) out.value = read_reference(body, at, has_material, depth, context);
       return;
+    case NodeType::kRepeat:
+      return read_repeat(member, at, out.value.emplace<RepeatNode>(), has_material, depth, context);
     case NodeType::kMesh:
       read_leaf(at, has_material, rules->owner, context);
       return read_mesh_leaf(at, member, out, context);
@@ -122,17 +124,17 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
       read_leaf_value(json_, rules->type, member, out);
       // A prism counts one leaf per corner, as it is cut into fewer pieces than it has corners.
       if (const auto* prism = std::get_if<PrismShape>(&out.value)) {
-        for (const auto& path : prism->paths) context.summary.leaves += path.size();
-        if (prism->paths.empty()) context.summary.leaves += prism->points.size();
+        for (const auto& path : prism->paths) context.summary.counts.leaves += path.size();
+        if (prism->paths.empty()) context.summary.counts.leaves += prism->points.size();
       }
       if (const auto* polyhedron = std::get_if<PolyhedronShape>(&out.value))
-        context.summary.planes += polyhedron->planes.size();
+        context.summary.counts.planes += polyhedron->planes.size();
   }
 }
 
 void CsgReader::read_leaf(JsonIndex at, bool has_material, std::string_view owner,
                           Context& context) {
-  ++context.summary.leaves;
+  ++context.summary.counts.leaves;
   if (has_material) return;
   if (context.summary.bare_leaf == 0) context.summary.bare_leaf = at;
   if (context.reports_bare_leaves)
@@ -146,7 +148,7 @@ void CsgReader::read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNod
   read_mesh(json_, at, members, load_mesh_, shape);
   mesh_points_read_ += shape.mesh.points.size();
   triangles_read_ += shape.mesh.triangles.size();
-  context.summary.triangles += shape.mesh.triangles.size();
+  context.summary.counts.triangles += shape.mesh.triangles.size();
   if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) return;
   json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) +
                            " points or " + std::to_string(kMaxMeshTriangles) +

@@ -18,6 +18,7 @@ enum class NodeType : std::uint8_t {
   kDifference,
   kComplement,
   kRef,
+  kRepeat,
   kSphere,
   kBox,
   kCylinder,

@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "formats/graycube/json_text.hpp"
+#include "formats/graycube/scene_words.hpp"
 #include "formats/graycube/write_settings.hpp"
 
 namespace graycube {
@@ -89,17 +90,22 @@ class SceneWriter {
     json_.text += "{\"type\": ";
     std::visit([&](const auto& value) { write_value(value); }, node.value);
     if (node.transform) {
-      json_.text += ", \"transform\": [{\"matrix\": ";
-      char before = '[';
-      for (const auto& row : node.transform->m) {
-        json_.text += before;
-        json_.write_numbers({row[0], row[1], row[2], row[3]});
-        before = ',';
-      }
-      json_.text += "]}]";
+      json_.next_key("transform");
+      write(*node.transform);
     }
     if (node.material != kInheritMaterial) json_.member("material", material_name(node.material));
     json_.text += '}';
+  }
+
+  void write(const Affine& map) {
+    json_.text += "[{\"matrix\": ";
+    char before = '[';
+    for (const auto& row : map.m) {
+      json_.text += before;
+      json_.write_numbers({row[0], row[1], row[2], row[3]});
+      before = ',';
+    }
+    json_.text += "]}]";
   }
 
   void write_value(const OperationNode& o) {
@@ -126,6 +132,22 @@ class SceneWriter {
                    scene_.shapes.size());
     json_.text += "\"ref\"";
     json_.member("shape", std::string_view(scene_.shapes[r.shape].name));
+  }
+  void write_value(const RepeatNode& r) {
+    GRAYCUBE_CHECK(r.child.size() == 1, "a repeat of %zu children", r.child.size());
+    json_.text += "\"repeat\"";
+    json_.next_key("child");
+    write(r.child.front());
+    json_.next_key("maps");
+    char before = '[';
+    for (const Affine& map : r.maps) {
+      json_.text += before;
+      write(map);
+      before = ',';
+    }
+    json_.text += ']';
+    json_.member("depth", r.depth);
+    if (r.kept != KeptCopies::kAll) json_.member("keep", word_of(kKeptCopiesWords, r.kept));
   }
   void write_value(const SphereShape& s) {
     json_.text += "\"sphere\"";

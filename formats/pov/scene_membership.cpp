@@ -7,6 +7,7 @@
 #include "geometry/affine.hpp"
 #include "mesh/line.hpp"
 #include "scene/flat_solids.hpp"
+#include "scene/repeat.hpp"
 
 namespace graycube {
 namespace {
@@ -37,6 +38,14 @@ bool value_holds(const Scene& scene, const OperationNode& o, const Vec3& p) {
 }
 bool value_holds(const Scene& scene, const ReferenceNode& r, const Vec3& p) {
   return holds(scene, scene.shapes[r.shape].node, p);
+}
+bool value_holds(const Scene& scene, const RepeatNode& r, const Vec3& p) {
+  bool inside = false;
+  for_each_copy(r, Affine{}, [&](const Affine& map, std::size_t) {
+    const auto inverse = inside ? std::nullopt : map.inverse();
+    inside = inside || (inverse && holds(scene, r.child.front(), inverse->point(p)));
+  });
+  return inside;
 }
 bool value_holds(const Scene&, const SphereShape& s, const Vec3& p) {
   return length(p - s.center) <= s.radius;

@@ -125,11 +125,21 @@ class RandomScene {
   }
 
   void operation(CsgNode& node, int depth) {
+    if (below(5) == 0) return repeat(node, depth);
     OperationNode o;
     o.operation = static_cast<Operation>(below(4));
     const std::size_t children = o.operation == Operation::kComplement ? 1 : 1 + below(4);
     for (std::size_t i = 0; i < children; ++i) o.children.push_back(tree(depth - 1));
     node.value = std::move(o);
+  }
+
+  void repeat(CsgNode& node, int depth) {
+    RepeatNode r;
+    r.child.push_back(tree(depth - 1));
+    r.depth = static_cast<std::uint32_t>(below(3));
+    r.kept = below(2) == 0 ? KeptCopies::kAll : KeptCopies::kLast;
+    for (std::size_t i = 0, count = 1 + below(3); i < count; ++i) r.maps.push_back(transform());
+    node.value = std::move(r);
   }
 
   void leaf(CsgNode& node) {
