@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,7 @@
 #include "csg/tree.hpp"
 #include "geometry/infinity.hpp"
 #include "overloaded.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
 #include "scene/repeat.hpp"
@@ -167,6 +169,7 @@ class Compiler {
                           [&](const ReferenceNode& n) { emit_shape(n, context); },
                           [&](const RepeatNode& n) { emit_repeat(n, context); },
                           [&](const PrismShape& shape) { emit_prism(shape, context); },
+                          [&](const BezierShape& shape) { emit_bezier(shape, context); },
                           [&](const auto& shape) {
                             emit_leaf(node, build(context.to_world.map, shape), context);
                           }},
@@ -215,6 +218,21 @@ class Compiler {
     if (solid) return emit(*solid, context);
     report(context.place, "prism", "goes round no area to working precision");
     emit(CsgNode{SphereShape{{}, 1}, {}, kInheritMaterial}, context);
+  }
+
+  void emit_bezier(const BezierShape& shape, const Context& context) {
+    const auto [known, is_new] = meshes_of_nets_.try_emplace(&shape);
+    CsgNode& mesh = known->second;
+    if (is_new) {
+      auto made = mesh_of(shape);
+      if (auto* surface = std::get_if<TriangleMesh>(&made)) {
+        mesh.value = MeshShape{std::move(*surface), 0};
+      } else {
+        report(context.place, "bezier", "encloses no solid: " + std::get<MeshFault>(made).why);
+        mesh.value = SphereShape{{}, 1};
+      }
+    }
+    emit(mesh, context);
   }
 
   /// Of a leaf that a repeat copies only the first fault is told.
@@ -323,6 +341,8 @@ class Compiler {
   double share_;
   bool has_one_rounded_root_map_ = share_ > kRoundedShare&& has_one_root_map(scene_);
   SceneFaults faults_;
+  /// What stands for each net of patches, which refs and repeats may use often.
+  std::map<const BezierShape*, CsgNode> meshes_of_nets_;
   /// Places of leaves in repeats whose fault has been told.
   std::set<std::string> told_;
   Model model_;

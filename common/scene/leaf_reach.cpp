@@ -75,7 +75,8 @@ LeafReach reach_of(const CsgNode& leaf, const Primitive& built, const Affine& to
         } else if constexpr (std::is_same_v<Shape, OperationNode> ||
                              std::is_same_v<Shape, ReferenceNode> ||
                              std::is_same_v<Shape, RepeatNode> ||
-                             std::is_same_v<Shape, PrismShape>) {
+                             std::is_same_v<Shape, PrismShape> ||
+                             std::is_same_v<Shape, BezierShape>) {
           return {};
         } else {
           return reach(shape);

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bezier/net.hpp"
 #include "flat/polygon.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
@@ -107,6 +108,14 @@ struct MeshShape {
   std::uint32_t digits = 0;  ///< As Scene::digits, of the mesh's own numbers.
   friend bool operator==(const MeshShape&, const MeshShape&) = default;
 };
+/// The solid that a closed net of bicubic Bézier patches encloses, as a mesh within `tolerance` of
+/// it, in the shape's units; 0 means default_tolerance (bezier/division.hpp). The sides meet, as
+/// division_of() has found.
+struct BezierShape {
+  BezierNet net;
+  double tolerance = 0;
+  friend bool operator==(const BezierShape&, const BezierShape&) = default;
+};
 
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
@@ -137,7 +146,8 @@ struct RepeatNode {
 struct CsgNode {
   std::variant<OperationNode, ReferenceNode, RepeatNode, SphereShape, BoxShape, CylinderShape,
                ConeShape, TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape,
-               EllipticConeShape, EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
+               EllipticConeShape, EllipticTorusShape, QuadricShape, PrismShape, MeshShape,
+               BezierShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

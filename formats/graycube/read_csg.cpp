@@ -116,6 +116,9 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
       return;
     case NodeType::kRepeat:
       return read_repeat(member, at, out.value.emplace<RepeatNode>(), has_material, depth, context);
+    case NodeType::kBezier:
+      read_leaf(at, has_material, rules->owner, context);
+      return read_bezier_leaf(at, member, out, context);
     case NodeType::kMesh:
       read_leaf(at, has_material, rules->owner, context);
       return read_mesh_leaf(at, member, out, context);
@@ -146,14 +149,29 @@ void CsgReader::read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNod
                                CsgNode& out, Context& context) {
   auto& shape = out.value.emplace<MeshShape>();
   read_mesh(json_, at, members, load_mesh_, shape);
-  mesh_points_read_ += shape.mesh.points.size();
-  triangles_read_ += shape.mesh.triangles.size();
-  context.summary.counts.triangles += shape.mesh.triangles.size();
-  if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) return;
+  if (!count_mesh(at, shape.mesh.points.size(), shape.mesh.triangles.size(), context)) shape = {};
+}
+
+void CsgReader::read_bezier_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                                 CsgNode& out, Context& context) {
+  auto& shape = out.value.emplace<BezierShape>();
+  const std::uint64_t triangles = read_bezier(json_, members, shape);
+  // A closed mesh has about half as many points as triangles, a net never more.
+  if (!count_mesh(at, shape.net.points.size(), triangles, context)) shape = {};
+}
+
+bool CsgReader::count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles,
+                           Context& context) {
+  mesh_points_read_ += points;
+  triangles_read_ += triangles;
+  if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) {
+    context.summary.counts.triangles += triangles;
+    return true;
+  }
   json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) +
                            " points or " + std::to_string(kMaxMeshTriangles) +
                            " triangles together");
-  shape = {};
+  return false;
 }
 
 void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_material,

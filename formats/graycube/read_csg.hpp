@@ -44,6 +44,10 @@ class CsgReader {
   bool read_repeat_maps(JsonIndex at, std::vector<Affine>& out);
   void read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
                       CsgNode& out, Context& context);
+  void read_bezier_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                        CsgNode& out, Context& context);
+  /// Counts what a mesh takes; false, after reporting, if all of them take too much.
+  bool count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles, Context& context);
   ReferenceNode read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
                                Context& context);
 

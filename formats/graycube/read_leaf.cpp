@@ -75,6 +75,16 @@ constexpr std::array kRules{
                 {"faces"},
                 {"file"},
                 {"digits"}}}},
+    NodeRules{"bezier",
+              "a bezier",
+              NodeType::kBezier,
+              kOwn + 3,
+              {{{"type", true},
+                {"transform"},
+                {"material"},
+                {"points", true},
+                {"patches", true},
+                {"tolerance"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another report.

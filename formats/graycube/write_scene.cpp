@@ -248,15 +248,10 @@ class SceneWriter {
     if (p.base != 0) json_.member("base", p.base);
   }
   void write_value(const MeshShape& m) {
-    json_.text += "\"mesh\", \"points\": ";
+    json_.text += "\"mesh\"";
+    write_points(m.mesh.points);
+    json_.next_key("faces");
     char before = '[';
-    for (const Vec3& p : m.mesh.points) {
-      json_.text += before;
-      json_.write(p);
-      before = ',';
-    }
-    json_.text += "], \"faces\": ";
-    before = '[';
     for (const auto& [a, b, c] : m.mesh.triangles) {
       json_.text += before;
       json_.text +=
@@ -265,6 +260,35 @@ class SceneWriter {
     }
     json_.text += ']';
     if (m.digits != 0) json_.member("digits", m.digits);
+  }
+  void write_value(const BezierShape& b) {
+    json_.text += "\"bezier\"";
+    write_points(b.net.points);
+    json_.next_key("patches");
+    char before = '[';
+    for (const BezierPatch& patch : b.net.patches) {
+      json_.text += before;
+      char inner = '[';
+      for (const std::uint32_t number : patch) {
+        json_.text += inner;
+        json_.write(number);
+        inner = ',';
+      }
+      json_.text += ']';
+      before = ',';
+    }
+    json_.text += ']';
+    if (b.tolerance != 0) json_.member("tolerance", b.tolerance);
+  }
+  void write_points(const std::vector<Vec3>& points) {
+    json_.next_key("points");
+    char before = '[';
+    for (const Vec3& p : points) {
+      json_.text += before;
+      json_.write(p);
+      before = ',';
+    }
+    json_.text += ']';
   }
   void write_value(const PolyhedronShape& p) {
     json_.text += "\"polyhedron\", \"planes\": ";

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 #include "mesh/line.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/repeat.hpp"
 
@@ -117,6 +120,11 @@ bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
       winding += count;
   }
   return winding != 0;
+}
+bool value_holds(const Scene& scene, const BezierShape& s, const Vec3& p) {
+  auto mesh = mesh_of(s);
+  auto* surface = std::get_if<TriangleMesh>(&mesh);
+  return surface != nullptr && value_holds(scene, MeshShape{std::move(*surface), 0}, p);
 }
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),

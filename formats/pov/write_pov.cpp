@@ -13,6 +13,7 @@
 #include "formats/pov/scene_membership.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/repeat.hpp"
 
@@ -354,6 +355,14 @@ class PovWriter {
       text_ += ", <" + std::to_string(a) + ',' + std::to_string(b) + ',' + std::to_string(c) + '>';
     }
     text_ += " } inside_vector <0.7236, 0.3819, 0.5749>";
+  }
+  /// POV-Ray's own patches have no inside.
+  void write_value(const BezierShape& b) {
+    auto mesh = mesh_of(b);
+    if (auto* surface = std::get_if<TriangleMesh>(&mesh))
+      write_value(MeshShape{std::move(*surface), 0});
+    else
+      refuse("bezier that encloses no solid");
   }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bezier/samples.hpp"
 #include "mesh/samples.hpp"
 #include "scene/scene.hpp"
 
@@ -145,7 +146,7 @@ class RandomScene {
   void leaf(CsgNode& node) {
     const Vec3 corner = vector();
     const double major = positive();
-    switch (below(scene_.shapes.empty() ? 12 : 13)) {
+    switch (below(scene_.shapes.empty() ? 13 : 14)) {
       case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
         node.value =
@@ -192,6 +193,7 @@ class RandomScene {
                           corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
                       static_cast<std::uint32_t>(below(18))};
         return;
+      case 12: node.value = BezierShape{cube_net(0.2, random_()), 0.05 + fraction()}; return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};
         return;

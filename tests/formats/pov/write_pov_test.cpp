@@ -10,6 +10,7 @@
 #include "formats/graycube/scene_text.hpp"
 
 using namespace graycube;
+using graycube::testing::cube_net;
 using graycube::testing::RandomScene;
 using graycube::testing::SceneText;
 
@@ -158,6 +159,16 @@ TEST_CASE("the eye may be in a copy of a repeat: then inner surfaces show") {
   };
   require_holds(text("4"), "union {");
   require_holds(text("5"), "merge {");
+}
+
+TEST_CASE("a net of patches is written as its mesh") {
+  Scene scene = *read_scene_text(SceneText().text()).scene;
+  const auto text = [&](double tolerance) {
+    scene.objects = {{"", 0, {BezierShape{cube_net(), tolerance}, {}, kInheritMaterial}}};
+    return write_pov(scene).text;
+  };
+  require_holds(text(0), "mesh2 { vertex_vectors { 8, <");
+  require_holds(text(0), " } face_indices { 12, <");
 }
 
 TEST_CASE("unions are merges where their inner surfaces could be seen") {
