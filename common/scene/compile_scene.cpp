@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,8 +21,10 @@
 #include "csg/tree.hpp"
 #include "geometry/infinity.hpp"
 #include "overloaded.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
+#include "scene/repeat.hpp"
 #include "scene/scene_fault.hpp"
 #include "scene/scene_place.hpp"
 #include "spelling.hpp"
@@ -37,6 +43,8 @@ class LeafCounter {
       for (const CsgNode& child : operation->children) sum += count(child);
       return sum;
     }
+    if (const auto* repeat = std::get_if<RepeatNode>(&node.value))
+      return counts_of(*repeat).copies * count(repeat->child.front());
     const auto* reference = std::get_if<ReferenceNode>(&node.value);
     if (reference == nullptr) return 1;
     std::optional<std::size_t>& known = shapes_[reference->shape];
@@ -96,6 +104,35 @@ class Compiler {
     ScenePlace place;
   };
 
+  /// The children of an operation, in prefix order. One child alone needs no operation, and
+  /// children of the same operation give their own children in their place.
+  class Group {
+   public:
+    Group(std::vector<TreeNode>& nodes, bool is_and, std::uint64_t children)
+        : nodes_(nodes),
+          kind_(is_and ? TreeNode::Kind::kAnd : TreeNode::Kind::kOr),
+          start_(nodes.size()),
+          is_one_(children == 1) {
+      if (!is_one_) nodes_.push_back({kind_, 0, 1});
+    }
+    template <typename Emit>
+    void add(const Emit& emit_child) {
+      const std::size_t at = nodes_.size();
+      emit_child();
+      if (!is_one_ && nodes_[at].kind == kind_)
+        nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    void close() {
+      if (!is_one_) nodes_[start_].size = static_cast<std::uint32_t>(nodes_.size() - start_);
+    }
+
+   private:
+    std::vector<TreeNode>& nodes_;
+    TreeNode::Kind kind_;
+    std::size_t start_;
+    bool is_one_;
+  };
+
   /// Eye and lights keep to the range of solids; the reader has checked all else.
   void check_settings() {
     const Camera& camera = scene_.settings.camera;
@@ -130,7 +167,9 @@ class Compiler {
     if (node.material != kInheritMaterial) context.material = node.material;
     std::visit(Overloaded{[&](const OperationNode& n) { emit_operation(n, context); },
                           [&](const ReferenceNode& n) { emit_shape(n, context); },
+                          [&](const RepeatNode& n) { emit_repeat(n, context); },
                           [&](const PrismShape& shape) { emit_prism(shape, context); },
+                          [&](const BezierShape& shape) { emit_bezier(shape, context); },
                           [&](const auto& shape) {
                             emit_leaf(node, build(context.to_world.map, shape), context);
                           }},
@@ -153,22 +192,25 @@ class Compiler {
     }
     // De Morgan: inversion swaps ∧ and ∨ and goes on to the leaves.
     const bool is_and = (n.operation != Operation::kUnion) != context.inverted;
-    const auto kind = is_and ? TreeNode::Kind::kAnd : TreeNode::Kind::kOr;
-    const std::size_t start = model_.nodes.size();
-    if (n.children.size() > 1) model_.nodes.push_back({kind, 0, 1});
+    Group group(model_.nodes, is_and, n.children.size());
     for (std::size_t i = 0; i < n.children.size(); ++i) {
       Context child = context;
       child.place = {&context.place, ScenePlace::Step::kChild, i};
       if (n.operation == Operation::kDifference && i > 0) child.inverted = !context.inverted;
-      const std::size_t at = model_.nodes.size();
-      emit(n.children[i], child);
-      if (n.children.size() > 1 && model_.nodes[at].kind == kind) {
-        model_.nodes.erase(model_.nodes.begin() + static_cast<std::ptrdiff_t>(at));
-      }
+      group.add([&] { emit(n.children[i], child); });
     }
-    if (n.children.size() > 1) {
-      model_.nodes[start].size = static_cast<std::uint32_t>(model_.nodes.size() - start);
-    }
+    group.close();
+  }
+
+  void emit_repeat(const RepeatNode& n, const Context& context) {
+    Group group(model_.nodes, context.inverted, counts_of(n).copies);
+    for_each_copy(n, context.to_world, [&](const MeasuredMap& to_world, std::size_t level) {
+      Context copy = context;
+      copy.to_world = to_world;
+      copy.place = {&context.place, ScenePlace::Step::kCopy, level};
+      group.add([&] { emit(n.child.front(), copy); });
+    });
+    group.close();
   }
 
   void emit_prism(const PrismShape& shape, const Context& context) {
@@ -178,12 +220,34 @@ class Compiler {
     emit(CsgNode{SphereShape{{}, 1}, {}, kInheritMaterial}, context);
   }
 
+  void emit_bezier(const BezierShape& shape, const Context& context) {
+    const auto [known, is_new] = meshes_of_nets_.try_emplace(&shape);
+    CsgNode& mesh = known->second;
+    if (is_new) {
+      auto made = mesh_of(shape);
+      if (auto* surface = std::get_if<TriangleMesh>(&made)) {
+        mesh.value = MeshShape{std::move(*surface), 0};
+      } else {
+        report(context.place, "bezier", "encloses no solid: " + std::get<MeshFault>(made).why);
+        mesh.value = SphereShape{{}, 1};
+      }
+    }
+    emit(mesh, context);
+  }
+
+  /// Of a leaf that a repeat copies only the first fault is told.
   void report(const ScenePlace& place, std::string_view kind, std::string_view why) {
+    const ScenePlace* copy = place.copy();
+    if (copy && !told_.insert(place.pointer(scene_) + ' ' + root_pointer(place)).second) return;
     if (!faults_.has_room()) return faults_.count();
     const std::string& object = scene_.objects[place.object()].name;
     std::string text = "the " + std::string(kind);
     if (!object.empty()) text += " of " + quoted(object);
     text += " " + std::string(why);
+    if (copy) {
+      text += ", under " + std::to_string(copy->index) + (copy->index == 1 ? " map" : " maps") +
+              " of " + copy->above->pointer(scene_);
+    }
     if (place.is_in_shape()) text += ", where " + root_pointer(place) + " uses it";
     faults_.add(place.pointer(scene_), std::move(text));
   }
@@ -277,6 +341,10 @@ class Compiler {
   double share_;
   bool has_one_rounded_root_map_ = share_ > kRoundedShare&& has_one_root_map(scene_);
   SceneFaults faults_;
+  /// What stands for each net of patches, which refs and repeats may use often.
+  std::map<const BezierShape*, CsgNode> meshes_of_nets_;
+  /// Places of leaves in repeats whose fault has been told.
+  std::set<std::string> told_;
   Model model_;
   CoincidenceUnifier unifier_{model_};
   /// The largest finite coordinate of the primitives' bounds so far.

@@ -74,7 +74,9 @@ LeafReach reach_of(const CsgNode& leaf, const Primitive& built, const Affine& to
           return reach(shape, built, to_world);
         } else if constexpr (std::is_same_v<Shape, OperationNode> ||
                              std::is_same_v<Shape, ReferenceNode> ||
-                             std::is_same_v<Shape, PrismShape>) {
+                             std::is_same_v<Shape, RepeatNode> ||
+                             std::is_same_v<Shape, PrismShape> ||
+                             std::is_same_v<Shape, BezierShape>) {
           return {};
         } else {
           return reach(shape);

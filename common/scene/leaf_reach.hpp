@@ -15,8 +15,8 @@ struct LeafReach {
   double turn = 1;
 };
 
-/// The reach of any kind of leaf but prisms, which become other kinds. `built` is the leaf's
-/// primitive under `to_world`, whose bounds give the reach of a polyhedron.
+/// The reach of any kind of leaf but prisms and Bézier nets, which become other kinds. `built` is
+/// the leaf's primitive under `to_world`, whose bounds give the reach of a polyhedron.
 LeafReach reach_of(const CsgNode& leaf, const Primitive& built, const Affine& to_world);
 
 }  // namespace graycube

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bezier/net.hpp"
 #include "flat/polygon.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
@@ -107,6 +108,14 @@ struct MeshShape {
   std::uint32_t digits = 0;  ///< As Scene::digits, of the mesh's own numbers.
   friend bool operator==(const MeshShape&, const MeshShape&) = default;
 };
+/// The solid that a closed net of bicubic Bézier patches encloses, as a mesh within `tolerance` of
+/// it, in the shape's units; 0 means default_tolerance (bezier/division.hpp). The sides meet, as
+/// division_of() has found.
+struct BezierShape {
+  BezierNet net;
+  double tolerance = 0;
+  friend bool operator==(const BezierShape&, const BezierShape&) = default;
+};
 
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
@@ -121,10 +130,24 @@ struct ReferenceNode {
   friend bool operator==(const ReferenceNode&, const ReferenceNode&) = default;
 };
 
+/// Which copies a repeat has: those under up to `depth` maps, or under exactly that many.
+enum class KeptCopies : std::uint8_t { kAll, kLast };
+/// The union of one child under all products of maps, each taken from `maps`, in any order and as
+/// often as one likes (Mandelbrot 1982); the product of no maps is the child as it is.
+struct RepeatNode {
+  /// Exactly one; a vector, as the type isn't complete here.
+  std::vector<CsgNode> child;
+  std::vector<Affine> maps;
+  std::uint32_t depth = 0;
+  KeptCopies kept = KeptCopies::kAll;
+  friend bool operator==(const RepeatNode&, const RepeatNode&);
+};
+
 struct CsgNode {
-  std::variant<OperationNode, ReferenceNode, SphereShape, BoxShape, CylinderShape, ConeShape,
-               TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape, EllipticConeShape,
-               EllipticTorusShape, QuadricShape, PrismShape, MeshShape>
+  std::variant<OperationNode, ReferenceNode, RepeatNode, SphereShape, BoxShape, CylinderShape,
+               ConeShape, TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape,
+               EllipticConeShape, EllipticTorusShape, QuadricShape, PrismShape, MeshShape,
+               BezierShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;
@@ -135,6 +158,9 @@ struct CsgNode {
 };
 inline bool operator==(const OperationNode& a, const OperationNode& b) {
   return a.operation == b.operation && a.children == b.children;
+}
+inline bool operator==(const RepeatNode& a, const RepeatNode& b) {
+  return a.child == b.child && a.maps == b.maps && a.depth == b.depth && a.kept == b.kept;
 }
 
 struct NamedMaterial {

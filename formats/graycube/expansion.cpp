@@ -1,7 +1,6 @@
 #include "formats/graycube/expansion.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "mesh/triangle_mesh.hpp"
@@ -10,12 +9,6 @@
 
 namespace graycube {
 namespace {
-
-constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
-
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
-  return b > kMany - a ? kMany : a + b;
-}
 
 /// Finds cycles by depth-first search and gives the shapes in an order in which each comes after
 /// all that it uses. Its own stack: chains of refs may be as long as the file.
@@ -98,9 +91,14 @@ class Expander {
   void expand_object(const TreeSummary& summary) {
     const Expanded e = expand(summary, [&](const ShapeUse& use) { report_bare(use); });
     total_.add(e.counts);
+    for (const RepeatUse& repeat : summary.repeats) {
+      has_repeats_ = true;
+      repeated_.add(repeat.added);
+      check_repeated(repeat.at, "repeat");
+    }
     for (const ShapeUse& use : summary.uses) {
-      repeated_.add(expanded_[use.shape].counts);
-      check_repeated(use.at);
+      repeated_.add(expanded_[use.shape].counts.times(use.copies));
+      check_repeated(use.at, "ref");
     }
   }
 
@@ -112,34 +110,26 @@ class Expander {
   }
 
  private:
-  struct Counts {
-    std::uint64_t leaves = 0, nodes = 0, triangles = 0, planes = 0;
-
-    void add(const Counts& o) {
-      leaves = saturating_sum(leaves, o.leaves);
-      nodes = saturating_sum(nodes, o.nodes);
-      triangles = saturating_sum(triangles, o.triangles);
-      planes = saturating_sum(planes, o.planes);
-    }
-  };
   struct Expanded {
-    Counts counts;
+    TreeCounts counts;
     std::uint32_t depth = 0;
     JsonIndex bare_leaf = 0;
   };
 
   static std::string written(std::uint64_t count) {
-    return count == kMany ? "more than 2^64" : std::to_string(count);
+    return count == kCountless ? "more than 2^64" : std::to_string(count);
   }
 
-  /// Reports, once for all refs, that they repeat too much.
-  void check_repeated(JsonIndex at) {
+  /// Reports, once for all refs and repeats, that they add too much.
+  void check_repeated(JsonIndex at, const std::string& what_adds) {
     if (repeats_too_much_) return;
     const auto check = [&](std::uint64_t count, std::uint64_t limit, const char* what) {
       if (count <= limit) return;
       repeats_too_much_ = true;
-      errors_.add(at, "with this ref, refs make " + written(count) + " " + what + ", at most " +
-                          std::to_string(limit) + " are accepted");
+      errors_.add(at, "with this " + what_adds +
+                          (has_repeats_ ? ", refs and repeats make " : ", refs make ") +
+                          written(count) + " " + what + ", at most " + std::to_string(limit) +
+                          " are accepted");
     };
     check(repeated_.leaves, kMaxRepeatedLeaves, "leaves");
     check(repeated_.nodes, kMaxRepeatedNodes, "nodes");
@@ -151,12 +141,10 @@ class Expander {
   /// a material.
   template <typename OnBare>
   Expanded expand(const TreeSummary& summary, const OnBare& on_bare) {
-    Expanded e{{summary.leaves, summary.nodes, summary.triangles, summary.planes},
-               summary.depth,
-               summary.bare_leaf};
+    Expanded e{summary.counts, summary.depth, summary.bare_leaf};
     for (const ShapeUse& use : summary.uses) {
       const Expanded& shape = expanded_[use.shape];
-      e.counts.add(shape.counts);
+      e.counts.add(shape.counts.times(use.copies));
       if (use.depth + shape.depth > kMaxTreeDepth)
         errors_.add(use.at, "the tree is deeper than " + std::to_string(kMaxTreeDepth) +
                                 " levels when its refs are expanded");
@@ -188,11 +176,29 @@ class Expander {
   ErrorReport& errors_;
   const NameTable& names_;
   std::vector<Expanded> expanded_;
-  Counts total_, repeated_;
+  TreeCounts total_, repeated_;
+  bool has_repeats_ = false;
   bool repeats_too_much_ = false;
 };
 
 }  // namespace
+
+void TreeSummary::add_repeat(JsonIndex at, const RepeatCounts& times, TreeSummary child) {
+  // There is one copy at least, as a repeat has a map.
+  const bool countless = times.copies == kCountless;
+  TreeCounts added = child.counts.times(countless ? kCountless : times.copies - 1);
+  added.nodes = saturating_sum(added.nodes, times.products);
+  counts.add(child.counts);
+  counts.add(added);
+  depth = std::max(depth, child.depth);
+  if (bare_leaf == 0) bare_leaf = child.bare_leaf;
+  for (ShapeUse& use : child.uses) {
+    use.copies = saturating_product(use.copies, times.copies);
+    uses.push_back(use);
+  }
+  repeats.insert(repeats.end(), child.repeats.begin(), child.repeats.end());
+  repeats.push_back({at, added});
+}
 
 void check_expansion(const JsonTree& tree, ErrorReport& errors, const NameTable& shape_names,
                      std::vector<TreeSummary>& shapes, const std::vector<TreeSummary>& objects,

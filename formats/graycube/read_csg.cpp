@@ -85,7 +85,7 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
   if (depth > kMaxTreeDepth)
     return json_.errors.add(at,
                             "the tree is deeper than " + std::to_string(kMaxTreeDepth) + " levels");
-  ++context.summary.nodes;
+  ++context.summary.counts.nodes;
   context.summary.depth = std::max(context.summary.depth, depth);
   const NodeRules* rules = rules_for(json_, at);
   if (rules == nullptr) return;
@@ -114,6 +114,11 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     case NodeType::kRef:
       if (body != 0) out.value = read_reference(body, at, has_material, depth, context);
       return;
+    case NodeType::kRepeat:
+      return read_repeat(member, at, out.value.emplace<RepeatNode>(), has_material, depth, context);
+    case NodeType::kBezier:
+      read_leaf(at, has_material, rules->owner, context);
+      return read_bezier_leaf(at, member, out, context);
     case NodeType::kMesh:
       read_leaf(at, has_material, rules->owner, context);
       return read_mesh_leaf(at, member, out, context);
@@ -122,17 +127,17 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
       read_leaf_value(json_, rules->type, member, out);
       // A prism counts one leaf per corner, as it is cut into fewer pieces than it has corners.
       if (const auto* prism = std::get_if<PrismShape>(&out.value)) {
-        for (const auto& path : prism->paths) context.summary.leaves += path.size();
-        if (prism->paths.empty()) context.summary.leaves += prism->points.size();
+        for (const auto& path : prism->paths) context.summary.counts.leaves += path.size();
+        if (prism->paths.empty()) context.summary.counts.leaves += prism->points.size();
       }
       if (const auto* polyhedron = std::get_if<PolyhedronShape>(&out.value))
-        context.summary.planes += polyhedron->planes.size();
+        context.summary.counts.planes += polyhedron->planes.size();
   }
 }
 
 void CsgReader::read_leaf(JsonIndex at, bool has_material, std::string_view owner,
                           Context& context) {
-  ++context.summary.leaves;
+  ++context.summary.counts.leaves;
   if (has_material) return;
   if (context.summary.bare_leaf == 0) context.summary.bare_leaf = at;
   if (context.reports_bare_leaves)
@@ -144,14 +149,29 @@ void CsgReader::read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNod
                                CsgNode& out, Context& context) {
   auto& shape = out.value.emplace<MeshShape>();
   read_mesh(json_, at, members, load_mesh_, shape);
-  mesh_points_read_ += shape.mesh.points.size();
-  triangles_read_ += shape.mesh.triangles.size();
-  context.summary.triangles += shape.mesh.triangles.size();
-  if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) return;
+  if (!count_mesh(at, shape.mesh.points.size(), shape.mesh.triangles.size(), context)) shape = {};
+}
+
+void CsgReader::read_bezier_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                                 CsgNode& out, Context& context) {
+  auto& shape = out.value.emplace<BezierShape>();
+  const std::uint64_t triangles = read_bezier(json_, members, shape);
+  // A closed mesh has about half as many points as triangles, a net never more.
+  if (!count_mesh(at, shape.net.points.size(), triangles, context)) shape = {};
+}
+
+bool CsgReader::count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles,
+                           Context& context) {
+  mesh_points_read_ += points;
+  triangles_read_ += triangles;
+  if (mesh_points_read_ <= kMaxMeshPoints && triangles_read_ <= kMaxMeshTriangles) {
+    context.summary.counts.triangles += triangles;
+    return true;
+  }
   json_.errors.add(at, "the meshes have more than " + std::to_string(kMaxMeshPoints) +
                            " points or " + std::to_string(kMaxMeshTriangles) +
                            " triangles together");
-  shape = {};
+  return false;
 }
 
 void CsgReader::read_children(JsonIndex at, OperationNode& out, bool has_material,

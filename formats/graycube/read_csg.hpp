@@ -1,7 +1,9 @@
 // The CSG trees of a scene file.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "formats/graycube/expansion.hpp"
 #include "formats/graycube/read_leaf.hpp"
@@ -37,8 +39,15 @@ class CsgReader {
   void read_leaf(JsonIndex at, bool has_material, std::string_view owner, Context& context);
   void read_children(JsonIndex at, OperationNode& out, bool has_material, std::uint32_t depth,
                      Context& context);
+  void read_repeat(const std::array<JsonIndex, kMaxNodeKeys>& members, JsonIndex at,
+                   RepeatNode& out, bool has_material, std::uint32_t depth, Context& context);
+  bool read_repeat_maps(JsonIndex at, std::vector<Affine>& out);
   void read_mesh_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
                       CsgNode& out, Context& context);
+  void read_bezier_leaf(JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                        CsgNode& out, Context& context);
+  /// Counts what a mesh takes; false, after reporting, if all of them take too much.
+  bool count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles, Context& context);
   ReferenceNode read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
                                Context& context);
 
@@ -48,6 +57,8 @@ class CsgReader {
   const MeshLoader& load_mesh_;
   /// Nodes written in the file so far, in all trees together; this bounds the memory taken.
   std::uint64_t nodes_read_ = 0;
+  /// Maps of repeats in the file so far, for the same reason.
+  std::uint64_t maps_read_ = 0;
   /// Points and triangles of meshes in the file so far, for the same reason.
   std::uint64_t mesh_points_read_ = 0, triangles_read_ = 0;
 };

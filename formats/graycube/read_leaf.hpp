@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "formats/json/access.hpp"
 #include "formats/mesh/mesh_file.hpp"
@@ -18,6 +19,7 @@ enum class NodeType : std::uint8_t {
   kDifference,
   kComplement,
   kRef,
+  kRepeat,
   kSphere,
   kBox,
   kCylinder,
@@ -31,6 +33,7 @@ enum class NodeType : std::uint8_t {
   kQuadric,
   kPrism,
   kMesh,
+  kBezier,
 };
 
 /// The first keys of every node; those of its type follow.
@@ -53,6 +56,14 @@ std::span<const NodeRules> node_rules();
 /// Reads a leaf's own members (0 where absent, reported already) into `out`.
 void read_leaf_value(JsonAccess& json, NodeType type,
                      const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out);
+
+/// Reads the points of a mesh or net; false, after reporting, if there is anything wrong.
+bool read_points(JsonAccess& json, JsonIndex at, std::vector<Vec3>& out);
+
+/// Reads a net of Bézier patches into `out`. Returns the most triangles that its mesh has, 0 after
+/// reporting that something is wrong.
+std::uint64_t read_bezier(JsonAccess& json, const std::array<JsonIndex, kMaxNodeKeys>& members,
+                          BezierShape& out);
 
 /// Reads a mesh (`at`) into `out`. `load` opens mesh files; null refuses them.
 void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,

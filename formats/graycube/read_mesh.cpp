@@ -8,21 +8,6 @@ namespace {
 
 enum MeshKey : std::size_t { kPoints = kCommonKeys, kFaces, kFile, kDigits };
 
-bool read_points(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
-  if (!json.is_array(at)) return false;
-  const std::uint32_t count = json.tree.size(at);
-  if (count > kMaxMeshPoints)
-    return json.wrong(at, "at most " + std::to_string(kMaxMeshPoints) + " points");
-  out.points.resize(count);
-  bool good = true;
-  JsonIndex child = json.tree.first_child(at);
-  for (Vec3& p : out.points) {
-    good = json.read(child, p) && good;
-    child = json.tree.next(child);
-  }
-  return good;
-}
-
 bool read_face(JsonAccess& json, JsonIndex at, std::uint32_t points,
                std::vector<std::uint32_t>& face) {
   if (!json.is_array(at)) return false;
@@ -69,7 +54,7 @@ void take(JsonAccess& json, JsonIndex at, std::variant<Mesh, MeshFault> read, Me
 
 void read_polygons(JsonAccess& json, JsonIndex points, JsonIndex faces, TriangleMesh& out) {
   PolygonMesh polygons;
-  if (read_points(json, points, polygons) && read_faces(json, faces, polygons)) {
+  if (read_points(json, points, polygons.points) && read_faces(json, faces, polygons)) {
     take(json, faces, closed_mesh(polygons), out);
   }
 }
@@ -83,6 +68,21 @@ void read_named_file(JsonAccess& json, JsonIndex file, const MeshLoader& load, M
 }
 
 }  // namespace
+
+bool read_points(JsonAccess& json, JsonIndex at, std::vector<Vec3>& out) {
+  if (!json.is_array(at)) return false;
+  const std::uint32_t count = json.tree.size(at);
+  if (count > kMaxMeshPoints)
+    return json.wrong(at, "at most " + std::to_string(kMaxMeshPoints) + " points");
+  out.resize(count);
+  bool good = true;
+  JsonIndex child = json.tree.first_child(at);
+  for (Vec3& p : out) {
+    good = json.read(child, p) && good;
+    child = json.tree.next(child);
+  }
+  return good;
+}
 
 void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,
                const MeshLoader& load, MeshShape& out) {

@@ -169,19 +169,18 @@ class SceneReader {
     // When read in pieces, the array's size is only a claim that may be too large.
     if (pieces_ && tree_.size(list) > text_.size() / kLeastObjectBytes) return give_up(list);
     scene_.objects.reserve(tree_.size(list));
-    // Objects without refs need no expansion of their own: one summary holds them all.
+    // Objects without refs and repeats need no expansion of their own: one summary holds them all.
     TreeSummary plain;
     JsonIndex at = tree_.first_child(list);
     for (std::uint32_t i = 0; i < tree_.size(list); ++i) {
       if (pieces_ && (!errors_.empty() || !pieces_->read_element(at))) return give_up(list);
       TreeSummary summary = read_object(csg, at, scene_.objects.emplace_back());
       at = tree_.next(at);
-      if (!summary.uses.empty()) {
+      if (!summary.uses.empty() || !summary.repeats.empty()) {
         objects.push_back(std::move(summary));
         continue;
       }
-      plain.leaves += summary.leaves;
-      plain.nodes += summary.nodes;
+      plain.counts.add(summary.counts);
     }
     objects.push_back(std::move(plain));
     check_expansion(tree_, errors_, shape_names_, shapes, objects, list);

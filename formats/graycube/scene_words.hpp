@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "formats/json/access.hpp"
+#include "scene/scene.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"
 
@@ -28,6 +29,8 @@ inline constexpr std::array<Word<InsideView>, 2> kInsideViewWords{
     {{"exit", InsideView::kExit}, {"entry", InsideView::kEntry}}};
 inline constexpr std::array<Word<Falloff>, 2> kFalloffWords{
     {{"none", Falloff::kNone}, {"inverse_square", Falloff::kInverseSquare}}};
+inline constexpr std::array<Word<KeptCopies>, 2> kKeptCopiesWords{
+    {{"all", KeptCopies::kAll}, {"last", KeptCopies::kLast}}};
 
 /// The word that stands for a value.
 template <typename T, std::size_t N>

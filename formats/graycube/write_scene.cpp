@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "formats/graycube/json_text.hpp"
+#include "formats/graycube/scene_words.hpp"
 #include "formats/graycube/write_settings.hpp"
 
 namespace graycube {
@@ -89,17 +90,22 @@ class SceneWriter {
     json_.text += "{\"type\": ";
     std::visit([&](const auto& value) { write_value(value); }, node.value);
     if (node.transform) {
-      json_.text += ", \"transform\": [{\"matrix\": ";
-      char before = '[';
-      for (const auto& row : node.transform->m) {
-        json_.text += before;
-        json_.write_numbers({row[0], row[1], row[2], row[3]});
-        before = ',';
-      }
-      json_.text += "]}]";
+      json_.next_key("transform");
+      write(*node.transform);
     }
     if (node.material != kInheritMaterial) json_.member("material", material_name(node.material));
     json_.text += '}';
+  }
+
+  void write(const Affine& map) {
+    json_.text += "[{\"matrix\": ";
+    char before = '[';
+    for (const auto& row : map.m) {
+      json_.text += before;
+      json_.write_numbers({row[0], row[1], row[2], row[3]});
+      before = ',';
+    }
+    json_.text += "]}]";
   }
 
   void write_value(const OperationNode& o) {
@@ -126,6 +132,22 @@ class SceneWriter {
                    scene_.shapes.size());
     json_.text += "\"ref\"";
     json_.member("shape", std::string_view(scene_.shapes[r.shape].name));
+  }
+  void write_value(const RepeatNode& r) {
+    GRAYCUBE_CHECK(r.child.size() == 1, "a repeat of %zu children", r.child.size());
+    json_.text += "\"repeat\"";
+    json_.next_key("child");
+    write(r.child.front());
+    json_.next_key("maps");
+    char before = '[';
+    for (const Affine& map : r.maps) {
+      json_.text += before;
+      write(map);
+      before = ',';
+    }
+    json_.text += ']';
+    json_.member("depth", r.depth);
+    if (r.kept != KeptCopies::kAll) json_.member("keep", word_of(kKeptCopiesWords, r.kept));
   }
   void write_value(const SphereShape& s) {
     json_.text += "\"sphere\"";
@@ -226,15 +248,10 @@ class SceneWriter {
     if (p.base != 0) json_.member("base", p.base);
   }
   void write_value(const MeshShape& m) {
-    json_.text += "\"mesh\", \"points\": ";
+    json_.text += "\"mesh\"";
+    write_points(m.mesh.points);
+    json_.next_key("faces");
     char before = '[';
-    for (const Vec3& p : m.mesh.points) {
-      json_.text += before;
-      json_.write(p);
-      before = ',';
-    }
-    json_.text += "], \"faces\": ";
-    before = '[';
     for (const auto& [a, b, c] : m.mesh.triangles) {
       json_.text += before;
       json_.text +=
@@ -243,6 +260,35 @@ class SceneWriter {
     }
     json_.text += ']';
     if (m.digits != 0) json_.member("digits", m.digits);
+  }
+  void write_value(const BezierShape& b) {
+    json_.text += "\"bezier\"";
+    write_points(b.net.points);
+    json_.next_key("patches");
+    char before = '[';
+    for (const BezierPatch& patch : b.net.patches) {
+      json_.text += before;
+      char inner = '[';
+      for (const std::uint32_t number : patch) {
+        json_.text += inner;
+        json_.write(number);
+        inner = ',';
+      }
+      json_.text += ']';
+      before = ',';
+    }
+    json_.text += ']';
+    if (b.tolerance != 0) json_.member("tolerance", b.tolerance);
+  }
+  void write_points(const std::vector<Vec3>& points) {
+    json_.next_key("points");
+    char before = '[';
+    for (const Vec3& p : points) {
+      json_.text += before;
+      json_.write(p);
+      before = ',';
+    }
+    json_.text += ']';
   }
   void write_value(const PolyhedronShape& p) {
     json_.text += "\"polyhedron\", \"planes\": ";

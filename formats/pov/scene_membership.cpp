@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 #include "mesh/line.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
+#include "scene/repeat.hpp"
 
 namespace graycube {
 namespace {
@@ -37,6 +41,14 @@ bool value_holds(const Scene& scene, const OperationNode& o, const Vec3& p) {
 }
 bool value_holds(const Scene& scene, const ReferenceNode& r, const Vec3& p) {
   return holds(scene, scene.shapes[r.shape].node, p);
+}
+bool value_holds(const Scene& scene, const RepeatNode& r, const Vec3& p) {
+  bool inside = false;
+  for_each_copy(r, Affine{}, [&](const Affine& map, std::size_t) {
+    const auto inverse = inside ? std::nullopt : map.inverse();
+    inside = inside || (inverse && holds(scene, r.child.front(), inverse->point(p)));
+  });
+  return inside;
 }
 bool value_holds(const Scene&, const SphereShape& s, const Vec3& p) {
   return length(p - s.center) <= s.radius;
@@ -108,6 +120,11 @@ bool value_holds(const Scene&, const MeshShape& m, const Vec3& p) {
       winding += count;
   }
   return winding != 0;
+}
+bool value_holds(const Scene& scene, const BezierShape& s, const Vec3& p) {
+  auto mesh = mesh_of(s);
+  auto* surface = std::get_if<TriangleMesh>(&mesh);
+  return surface != nullptr && value_holds(scene, MeshShape{std::move(*surface), 0}, p);
 }
 bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
   return std::all_of(s.planes.begin(), s.planes.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -12,7 +13,9 @@
 #include "formats/pov/scene_membership.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
+#include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
+#include "scene/repeat.hpp"
 
 namespace graycube {
 namespace {
@@ -37,6 +40,7 @@ class PovWriter {
     declared_.resize(scene_.shapes.size(), false);
     for (std::uint32_t s = 0; s < scene_.shapes.size(); ++s) declare_shape(s);
     for (const auto& object : scene_.objects) {
+      declare_used(object.csg);
       write_node(object.csg, object.material);
       text_ += '\n';
     }
@@ -203,6 +207,17 @@ class PovWriter {
     if (const auto* ref = std::get_if<ReferenceNode>(&node.value)) declare_shape(ref->shape);
     if (const auto* operation = std::get_if<OperationNode>(&node.value))
       for (const auto& child : operation->children) declare_used(child);
+    if (const auto* repeat = std::get_if<RepeatNode>(&node.value)) declare_repeated(*repeat);
+  }
+
+  /// Writes the child of a repeat, whose copies refer to it.
+  void declare_repeated(const RepeatNode& repeat) {
+    declare_used(repeat.child.front());
+    const auto number_of_child = std::to_string(repeated_.size());
+    repeated_.emplace(&repeat, number_of_child);
+    text_ += "#declare R" + number_of_child + " =\n";
+    write_node(repeat.child.front(), kInheritMaterial);
+    text_ += '\n';
   }
 
   /// Writes a node as one POV-Ray object; `outer` is its material if it has none of its own.
@@ -223,10 +238,12 @@ class PovWriter {
   bool is_covered(const CsgNode& node) const {
     const auto* ref = std::get_if<ReferenceNode>(&node.value);
     const auto* operation = std::get_if<OperationNode>(&node.value);
-    const CsgNode* same = ref != nullptr ? &scene_.shapes[ref->shape].node
-                          : operation != nullptr && operation->children.size() == 1
-                              ? &operation->children.front()
-                              : nullptr;
+    const auto* repeat = std::get_if<RepeatNode>(&node.value);
+    const CsgNode* same =
+        ref != nullptr                                            ? &scene_.shapes[ref->shape].node
+        : repeat != nullptr && counts_of(*repeat).copies == 1     ? &repeat->child.front()
+        : operation != nullptr && operation->children.size() == 1 ? &operation->children.front()
+                                                                  : nullptr;
     return same != nullptr && (same->material != kInheritMaterial || is_covered(*same));
   }
 
@@ -254,12 +271,22 @@ class PovWriter {
     }
     text_ += o.operation == Operation::kIntersection ? "intersection {"
              : o.operation == Operation::kDifference ? "difference {"
-             : merges_                               ? "merge {"
-                                                     : "union {";
+                                                     : union_of_solids();
     for (const auto& child : o.children) {
       text_ += '\n';
       write_node(child, kInheritMaterial);
     }
+  }
+  const char* union_of_solids() const { return merges_ ? "merge {" : "union {"; }
+  void write_value(const RepeatNode& r) {
+    const std::string child = "object { R" + repeated_.at(&r);
+    const bool is_one = counts_of(r).copies == 1;
+    if (!is_one) text_ += union_of_solids();
+    for_each_copy(r, Affine{}, [&](const Affine& map, std::size_t level) {
+      text_ += is_one ? child : '\n' + child;
+      if (level > 0) write_matrix(map);
+      if (!is_one) text_ += " }";
+    });
   }
   void write_value(const ReferenceNode& r) { text_ += "object { S" + std::to_string(r.shape); }
   void write_value(const SphereShape& s) {
@@ -329,6 +356,14 @@ class PovWriter {
     }
     text_ += " } inside_vector <0.7236, 0.3819, 0.5749>";
   }
+  /// POV-Ray's own patches have no inside.
+  void write_value(const BezierShape& b) {
+    auto mesh = mesh_of(b);
+    if (auto* surface = std::get_if<TriangleMesh>(&mesh))
+      write_value(MeshShape{std::move(*surface), 0});
+    else
+      refuse("bezier that encloses no solid");
+  }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());
     text_ += "intersection {";
@@ -342,6 +377,8 @@ class PovWriter {
   const Scene& scene_;
   const bool merges_;
   std::vector<bool> declared_;
+  /// The numbers under which the children of repeats are declared.
+  std::map<const RepeatNode*, std::string> repeated_;
   std::string text_;
   std::vector<std::string> warnings_, errors_;
   std::set<std::string> refused_;

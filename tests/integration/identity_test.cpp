@@ -355,6 +355,12 @@ TEST_CASE("each solid that is read from BRL-CAD looks the same whatever computes
 TEST_CASE("a model from OpenSCAD looks the same whatever computes it") {
   check_model("openscad/bracket.csg");
 }
+TEST_CASE("solids that repeat themselves look the same whatever computes them") {
+  for (const char* scene : {"sponge.json", "tetrahedra.json", "tree.json"}) check_model(scene);
+}
+TEST_CASE("solids of Bézier patches look the same whatever computes them") {
+  check_model("pot.json");
+}
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");
 }

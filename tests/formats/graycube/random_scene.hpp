@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bezier/samples.hpp"
 #include "mesh/samples.hpp"
 #include "scene/scene.hpp"
 
@@ -125,6 +126,7 @@ class RandomScene {
   }
 
   void operation(CsgNode& node, int depth) {
+    if (below(5) == 0) return repeat(node, depth);
     OperationNode o;
     o.operation = static_cast<Operation>(below(4));
     const std::size_t children = o.operation == Operation::kComplement ? 1 : 1 + below(4);
@@ -132,10 +134,19 @@ class RandomScene {
     node.value = std::move(o);
   }
 
+  void repeat(CsgNode& node, int depth) {
+    RepeatNode r;
+    r.child.push_back(tree(depth - 1));
+    r.depth = static_cast<std::uint32_t>(below(3));
+    r.kept = below(2) == 0 ? KeptCopies::kAll : KeptCopies::kLast;
+    for (std::size_t i = 0, count = 1 + below(3); i < count; ++i) r.maps.push_back(transform());
+    node.value = std::move(r);
+  }
+
   void leaf(CsgNode& node) {
     const Vec3 corner = vector();
     const double major = positive();
-    switch (below(scene_.shapes.empty() ? 12 : 13)) {
+    switch (below(scene_.shapes.empty() ? 13 : 14)) {
       case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
         node.value =
@@ -182,6 +193,7 @@ class RandomScene {
                           corner, corner + Vec3{1 + positive(), 1 + positive(), 1 + positive()})),
                       static_cast<std::uint32_t>(below(18))};
         return;
+      case 12: node.value = BezierShape{cube_net(0.2, random_()), 0.05 + fraction()}; return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};
         return;

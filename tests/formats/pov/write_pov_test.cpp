@@ -10,6 +10,7 @@
 #include "formats/graycube/scene_text.hpp"
 
 using namespace graycube;
+using graycube::testing::cube_net;
 using graycube::testing::RandomScene;
 using graycube::testing::SceneText;
 
@@ -128,6 +129,46 @@ TEST_CASE("a use doesn't paint over a shape's own material") {
                  .with("objects", R"([{"material": "red", "csg": {"type": "ref", "shape": "t"}}])"))
           .text;
   require_holds(text, "\nobject { S1 }\n");
+}
+
+TEST_CASE("a repeat's child is declared once, and used under each product of its maps") {
+  const std::string text = csg_text(
+      R"({"type": "repeat", "depth": 2, "maps": [[{"translate": [1,0,0]}], [{"scale": 2}]],
+          "child": {"type": "sphere", "center": [0,0,0], "radius": 0.25}})");
+  require_holds(text, "#declare R0 =\nsphere { <0,0,0>, 0.25 }\n");
+  require_holds(text,
+                "union {\nobject { R0 }\n"
+                "object { R0 matrix <1,0,0,0,1,0,0,0,1,1,0,0> }\n"
+                "object { R0 matrix <1,0,0,0,1,0,0,0,1,2,0,0> }\n"
+                "object { R0 matrix <2,0,0,0,2,0,0,0,2,1,0,0> }\n"
+                "object { R0 matrix <2,0,0,0,2,0,0,0,2,0,0,0> }\n"
+                "object { R0 matrix <2,0,0,0,2,0,0,0,2,2,0,0> }\n"
+                "object { R0 matrix <4,0,0,0,4,0,0,0,4,0,0,0> } texture { M0 } }");
+  // One copy needs no union, and keeps the texture that its child has.
+  require_holds(
+      csg_text(R"({"type": "repeat", "depth": 2, "keep": "last", "maps": [[{"scale": 2}]], "child":
+          {"type": "sphere", "center": [0,0,0], "radius": 0.25, "material": "glass"}})"),
+      "object { R0 matrix <4,0,0,0,4,0,0,0,4,0,0,0> }\n");
+}
+
+TEST_CASE("the eye may be in a copy of a repeat: then inner surfaces show") {
+  const auto text = [](const std::string& depth) {
+    return csg_text(R"({"type": "repeat", "maps": [[{"translate": [0,0,-1]}]], "child":
+        {"type": "sphere", "center": [0,0,0], "radius": 0.75}, "depth": )" +
+                    depth + "}");
+  };
+  require_holds(text("4"), "union {");
+  require_holds(text("5"), "merge {");
+}
+
+TEST_CASE("a net of patches is written as its mesh") {
+  Scene scene = *read_scene_text(SceneText().text()).scene;
+  const auto text = [&](double tolerance) {
+    scene.objects = {{"", 0, {BezierShape{cube_net(), tolerance}, {}, kInheritMaterial}}};
+    return write_pov(scene).text;
+  };
+  require_holds(text(0), "mesh2 { vertex_vectors { 8, <");
+  require_holds(text(0), " } face_indices { 12, <");
 }
 
 TEST_CASE("unions are merges where their inner surfaces could be seen") {
