@@ -64,6 +64,11 @@ struct OnFour {
     sliding.has_worked(rank, {1, 0, cost * count, count});
     for (std::uint32_t i = 0; i < count; ++i) sliding.is_whole(tiles[i]);
   }
+  /// Traces a quarter of each node's tiles, which took rank 0 that much each, and the others 100.
+  void trace_quarters(std::uint64_t cost_of_first) {
+    for (std::uint32_t rank = 0; rank < kNodes; ++rank)
+      trace(Rank{rank}, 16, rank == 0 ? cost_of_first : 100);
+  }
   /// Gets to the end of the slide that was decided: whether there was one.
   bool slide(double began_s = 0, double ended_s = 0) {
     sliding.look(began_s);
@@ -83,11 +88,10 @@ struct OnFour {
 
 TEST_CASE("boundaries slide when a node has more left to do than its neighbours") {
   OnFour even;
-  for (std::uint32_t rank = 0; rank < kNodes; ++rank) even.trace(Rank{rank}, 16, 100);
+  even.trace_quarters(100);
   CHECK_FALSE(even.slide());
   OnFour uneven;
-  for (std::uint32_t rank = 0; rank < kNodes; ++rank)
-    uneven.trace(Rank{rank}, 16, rank == 0 ? 400 : 100);
+  uneven.trace_quarters(400);
   const std::size_t before = uneven.tiles_of(Rank{0}).size();
   CHECK(uneven.slide(3, 5));
   CHECK(uneven.sliding.generation() == 1);
@@ -104,10 +108,9 @@ TEST_CASE("boundaries slide when a node has more left to do than its neighbours"
 
 TEST_CASE("the next slide waits until no tile of the boundaries before is open") {
   OnFour on;
-  on.sliding.was_handed_out(on.tiles_of(Rank{3}).front(), Rank{3});
-  const std::uint32_t open = on.tiles_of(Rank{3}).front();
-  on.trace(Rank{0}, 16, 400);
-  on.trace(Rank{1}, 16, 100);
+  const std::uint32_t open = on.tiles_of(Rank{3}).back();
+  on.sliding.was_handed_out(open, Rank{3});
+  on.trace_quarters(400);
   REQUIRE(on.slide());
   CHECK(on.sliding.oldest() == 0);
   CHECK_FALSE(on.sliding.take_closed());
@@ -122,8 +125,7 @@ TEST_CASE("the next slide waits until no tile of the boundaries before is open")
 
 TEST_CASE("tiles that change hands keep the cost that they had where they were") {
   OnFour on;
-  for (std::uint32_t rank = 0; rank < kNodes; ++rank)
-    on.trace(Rank{rank}, 16, rank == 0 ? 900 : 100);
+  on.trace_quarters(900);
   int slides = 0;
   std::size_t left = 0;
   do {
@@ -138,22 +140,23 @@ TEST_CASE("tiles that change hands keep the cost that they had where they were")
 
 TEST_CASE("between two looks a part of the picture must have become whole") {
   OnFour on({.part_between = 0.25});
-  on.trace(Rank{0}, 32, 900);
+  on.trace(Rank{0}, 16, 900);
+  on.trace(Rank{1}, 16, 100);
+  on.trace(Rank{2}, 16, 100);
   CHECK_FALSE(on.slide());
-  on.trace(Rank{1}, 32, 100);
+  on.trace(Rank{3}, 16, 100);
   CHECK(on.slide());
 }
 
 TEST_CASE("a slide comes too late when all tiles have been handed out") {
   OnFour on;
-  on.trace(Rank{0}, 16, 900);
+  on.trace_quarters(900);
   on.sliding.look(0);
   auto work = on.sliding.take_recut();
   REQUIRE(work);
   for (std::uint32_t rank = 0; rank < kNodes; ++rank) {
     const auto tiles = on.tiles_of(Rank{rank});
-    for (std::size_t i = rank == 0 ? 16 : 0; i < tiles.size(); ++i)
-      on.sliding.was_handed_out(tiles[i], Rank{rank});
+    for (std::size_t i = 16; i < tiles.size(); ++i) on.sliding.was_handed_out(tiles[i], Rank{rank});
   }
   CHECK(on.sliding.all_handed_out());
   CHECK_FALSE(on.sliding.was_recut(recut(*work, [] { return 0.0; })));
