@@ -15,11 +15,23 @@ struct Use {
   bool is_for_roth, is_for_macro;
 };
 
+void check_sliding(const control::JobOptions& o) {
+  if (o.shadows == ShadowMode::kLocal)
+    throw usage_failure("--boundaries",
+                        "sliding goes with --shadows horizon and forward, not local");
+  if (o.scatter > 1)
+    throw usage_failure("--boundaries",
+                        "sliding goes with one macro-region for each node, not with --scatter");
+  if (o.mesh != MeshMode::k2d)
+    throw usage_failure("--boundaries",
+                        "sliding goes with --mesh 2d, not " + std::string(to_string(o.mesh)));
+}
+
 }  // namespace
 
 void check_sense(const control::JobOptions& o) {
   const control::JobOptions usual;
-  const std::array<Use, 8> uses{{
+  const std::array<Use, 9> uses{{
       {"--grain", o.grain != usual.grain, true, false},
       {"--shadows", o.shadows != usual.shadows, false, true},
       {"--partition", o.partition != usual.partition, false, true},
@@ -28,6 +40,7 @@ void check_sense(const control::JobOptions& o) {
       {"--sums", o.sums != usual.sums, true, true},
       {"--returns", o.returns != usual.returns, false, true},
       {"--mesh", o.mesh != usual.mesh, false, true},
+      {"--boundaries", o.boundaries != usual.boundaries, false, true},
   }};
   const bool is_auto = o.algorithm == Algorithm::kAuto;
   for (const Use& use : uses) {
@@ -47,6 +60,7 @@ void check_sense(const control::JobOptions& o) {
     throw usage_failure("--sums", std::string(to_string(o.sums)) + " does not go with --mesh " +
                                       std::string(to_string(o.mesh)) + ", which adds light up by " +
                                       std::string(to_string(sums_of(o))));
+  if (o.boundaries == BoundariesMode::kSliding) check_sliding(o);
   if (o.queue != usual.queue && o.flow != FlowMode::kBlocking)
     throw usage_failure("--queue", "is for --flow blocking, which is not asked for");
   // Whether `auto` picks macro is decided only when the scene is known.

@@ -49,6 +49,7 @@ inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree, Sum
 inline constexpr std::array kMeshChoices{MeshMode::k2d, MeshMode::k3d, MeshMode::kRing,
                                          MeshMode::kTree};
 inline constexpr std::array kReturnsChoices{ReturnsMode::kFrontal, ReturnsMode::kSender};
+inline constexpr std::array kBoundariesChoices{BoundariesMode::kFixed, BoundariesMode::kSliding};
 inline constexpr std::array kSubdivisionChoices{Subdivision::kSurfaces, Subdivision::kRoth,
                                                 Subdivision::kLinked,   Subdivision::kArnaldi,
                                                 Subdivision::kOctree,   Subdivision::kKaplan};
@@ -78,6 +79,7 @@ FifoMode parse_fifo(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
 MeshMode parse_mesh(std::string_view option, std::string_view text);
 ReturnsMode parse_returns(std::string_view option, std::string_view text);
+BoundariesMode parse_boundaries(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);
 Entry parse_entry(std::string_view option, std::string_view text);
 figures::FigureName parse_figure(std::string_view option, std::string_view text);

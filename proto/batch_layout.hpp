@@ -88,6 +88,8 @@ constexpr RegionIndex region_at(std::uint16_t column, std::uint16_t row_and_slab
   return {column, static_cast<std::uint16_t>(row_and_slab & ((1u << kRowBits) - 1)),
           static_cast<std::uint16_t>(row_and_slab >> kRowBits)};
 }
+/// A bit beside them that says RayTask::generation.
+inline constexpr std::uint8_t kGenerationFlag = 8;
 /// A bit beside the bytes of a component that says that more answers to the same ray follow.
 inline constexpr std::uint8_t kMoreFlag = 16;
 

@@ -8,21 +8,21 @@
 
 #include "proto/messages/clients.hpp"
 #include "proto/messages/from_nodes.hpp"
+#include "proto/messages/sliding.hpp"
 #include "proto/messages/to_nodes.hpp"
 #include "proto/messages/values.hpp"
 
 namespace graycube {
 
-using ControlMessage =
-    std::variant<control::Hello, control::Ready, control::EpochAck, control::TokenRound,
-                 control::Terminated, control::NodeReport, control::Pong, control::NodeError,
-                 control::WaitReport, control::Borrow, control::Share, control::Goodbye,
-                 control::Welcome, control::Load, control::Lend, control::Copy, control::HandOn,
-                 control::Relieved, control::AllWhole, control::Prepare, control::Start,
-                 control::Finish, control::Ping, control::Shutdown, control::Submit,
-                 control::Status, control::List, control::Watch, control::Cancel, control::Nodes,
-                 control::Fetch, control::Write, control::Down, control::Accepted, control::JobInfo,
-                 control::Jobs, control::Progress, control::NodeList, control::Done,
-                 control::Picture, control::Written, control::Failed, control::Bye>;
+using ControlMessage = std::variant<
+    control::Hello, control::Ready, control::EpochAck, control::TokenRound, control::Terminated,
+    control::NodeReport, control::Pong, control::NodeError, control::WaitReport, control::Borrow,
+    control::Share, control::Goodbye, control::Welcome, control::Load, control::Lend, control::Copy,
+    control::HandOn, control::Relieved, control::AllWhole, control::Prepare, control::Start,
+    control::Finish, control::Ping, control::Shutdown, control::Submit, control::Status,
+    control::List, control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write,
+    control::Down, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
+    control::NodeList, control::Done, control::Picture, control::Written, control::Failed,
+    control::Bye, control::Slide, control::Slid, control::Turn, control::Dealt, control::Worked>;
 
 }  // namespace graycube

@@ -109,6 +109,16 @@ class Domain {
     domain.share_ = share;
     return domain;
   }
+  /// The same domain in a generation of the grid, where boundaries slide: rays that begin here
+  /// belong to it.
+  Domain of_generation(std::uint32_t generation) const {
+    Domain domain = *this;
+    domain.generation_ = generation % kMostGenerations;
+    return domain;
+  }
+  /// RayTask::generation of the rays that begin here.
+  std::uint16_t generation() const { return generation_; }
+  const std::shared_ptr<const Territory>& territory() const { return territory_; }
   /// From now on the domain's regions are those of `share`; not to be called while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
@@ -196,6 +206,7 @@ class Domain {
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
   bool is_replica_ = false;
+  std::uint16_t generation_ = 0;
   /// The place in borrowed_ of what the owner of a region lends.
   std::size_t place_of_owner(std::uint32_t column, std::uint32_t row, std::uint32_t slab) const {
     const std::size_t line = slab % share_.slabs * std::size_t{share_.rows} + row % share_.rows;

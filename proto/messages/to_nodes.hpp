@@ -62,6 +62,7 @@ struct Load {
   SubdivisionChoice subdivision{};
   ReturnsMode returns = ReturnsMode::kFrontal;
   MeshMode mesh = MeshMode::k2d;
+  BoundariesMode boundaries = BoundariesMode::kFixed;
   friend bool operator==(const Load&, const Load&) = default;
 };
 

@@ -51,6 +51,30 @@ TEST_CASE("a mesh is for macro, and its sums don't go together with others") {
         "graycube: usage: --mesh: is for --algorithm macro, not for roth");
 }
 
+TEST_CASE("boundaries slide only where nodes hold what their own macro-region needs") {
+  control::JobOptions o;
+  o.boundaries = BoundariesMode::kSliding;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kRoth;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: is for --algorithm macro, not for roth");
+  o.algorithm = Algorithm::kMacro;
+  o.shadows = ShadowMode::kLocal;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: sliding goes with --shadows horizon and forward, not "
+        "local");
+  o.shadows = ShadowMode::kForward;
+  o.scatter = 2;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: sliding goes with one macro-region for each node, not with "
+        "--scatter");
+  o.scatter = 1;
+  CHECK_NOTHROW(check_sense(o));
+  o.mesh = MeshMode::k3d;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: sliding goes with --mesh 2d, not 3d");
+}
+
 TEST_CASE("a queue's length is for blocking flow only") {
   control::JobOptions o;
   o.queue = 3;

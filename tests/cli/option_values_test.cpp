@@ -127,6 +127,7 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_returns("--returns", "sender") == ReturnsMode::kSender);
   CHECK(parse_mesh("--mesh", "3d") == MeshMode::k3d);
   CHECK(parse_sums("--sums", "ring") == SumsMode::kRing);
+  CHECK(parse_boundaries("--boundaries", "sliding") == BoundariesMode::kSliding);
   CHECK(parse_subdivision("--subdivision", "kaplan") == Subdivision::kKaplan);
   CHECK(parse_entry("--entry", "extremal") == Entry::kExtremal);
   CHECK(parse_scatter("--scatter", "1") == 1);

@@ -79,6 +79,7 @@ inline control::JobOptions example_options() {
   o.subdivision = {Subdivision::kArnaldi, Entry::kDescent};
   o.returns = ReturnsMode::kSender;
   o.mesh = MeshMode::kRing;
+  o.boundaries = BoundariesMode::kSliding;
   return o;
 }
 
@@ -144,7 +145,8 @@ inline std::vector<ControlMessage> example_messages() {
            SumsMode::kTree,
            {Subdivision::kOctree, Entry::kExtremal},
            ReturnsMode::kSender,
-           MeshMode::k3d},
+           MeshMode::k3d,
+           BoundariesMode::kSliding},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       HandOn{9, 1, 3},
@@ -174,6 +176,11 @@ inline std::vector<ControlMessage> example_messages() {
       Written{9, 640, 480, 0.25},
       Failed{9, FailureCode::kDeadlock, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
+      Slide{9, 1, 3, {16, 40, 48}, {24}},
+      Slid{9, 1, 3, 0.25},
+      Turn{9, 1, 3, 2},
+      Dealt{9, 1},
+      Worked{9, 1, 1ull << 40, 77},
   };
 }
 
