@@ -158,8 +158,7 @@ void Farm::in_frontals_background(double seconds, std::function<void()> call) {
   const double now_s = std::min(seconds, kTimeSlice_s);
   cores_of({}).ask({process_of({}), [now_s] { return now_s; },
                     [this, left_s = seconds - now_s, call = std::move(call)] {
-                      if (left_s > 0) return in_frontals_background(left_s, call);
-                      in_frontal({}, call);
+                      left_s > 0 ? in_frontals_background(left_s, call) : in_frontal({}, call);
                     }});
 }
 
