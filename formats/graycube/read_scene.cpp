@@ -7,6 +7,7 @@
 
 #include "formats/graycube/expansion.hpp"
 #include "formats/graycube/read_csg.hpp"
+#include "formats/graycube/read_material.hpp"
 #include "formats/graycube/read_settings.hpp"
 #include "formats/json/access.hpp"
 #include "formats/json/cbor_fast_reader.hpp"

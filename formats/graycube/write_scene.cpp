@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "formats/graycube/json_text.hpp"
+#include "formats/graycube/write_material.hpp"
 #include "formats/graycube/write_settings.hpp"
 
 namespace graycube {
