@@ -35,8 +35,8 @@ struct RayTask {
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
   /// For shadow rays, the index of their light in the settings, and whether t_max is where they
-  /// reach that light's horizon.
-  std::uint16_t light : 15 = 0;
+  /// reach that light's horizon; for all others, the medium that they are in (see Media).
+  std::uint16_t light_or_medium : 15 = 0;
   bool ends_at_horizon : 1 = false;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
@@ -47,7 +47,7 @@ struct RayTask {
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
 
-/// The largest number that RayTask::light can hold.
+/// The largest number that RayTask::light_or_medium can hold.
 inline constexpr std::uint32_t kLightMask = (1u << 15) - 1;
 static_assert(kMaxLights <= kLightMask + 1);
 

@@ -37,6 +37,21 @@ void write_pattern(JsonText& json, const Pattern& p) {
   json.text += '}';
 }
 
+/// A number if all colours have it, else a list of three.
+void write_by_colour(JsonText& json, const char* key, const Rgb& c) {
+  if (c == Rgb{c.r, c.r, c.r}) return json.member(key, c.r);
+  json.member(key, c);
+}
+
+/// What only Torrance–Sparrow's and Hall–Greenberg's models have.
+void write_optics(JsonText& json, const Material& m) {
+  const Optics& o = m.optics;
+  if (o.absorption != Rgb{0, 0, 0}) write_by_colour(json, "absorption", o.absorption);
+  if (m.model == ShadingModel::kTorranceSparrow) return json.member("roughness", o.roughness);
+  json.member("transmit_shininess", o.transmit_shininess);
+  if (o.attenuation != Rgb{0, 0, 0}) write_by_colour(json, "attenuation", o.attenuation);
+}
+
 }  // namespace
 
 void write_material(JsonText& json, const Material& m) {
@@ -45,11 +60,12 @@ void write_material(JsonText& json, const Material& m) {
   json.member("ambient", m.ambient);
   json.member("diffuse", m.diffuse);
   json.member("specular", m.specular);
-  json.member("shininess", m.shininess);
+  if (m.model != ShadingModel::kTorranceSparrow) json.member("shininess", m.shininess);
   json.member("reflect", m.reflect);
   json.member("transmit", m.transmit);
-  json.member("ior", m.ior);
+  write_by_colour(json, "ior", has_fresnel(m) ? m.optics.index : Rgb{m.ior, m.ior, m.ior});
   json.member("model", word_of(kShadingModelWords, m.model));
+  if (has_fresnel(m)) write_optics(json, m);
   if (m.pattern.kind != PatternKind::kNone) {
     json.next_key("pattern");
     write_pattern(json, m.pattern);

@@ -13,6 +13,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
 #include "scene/flat_solids.hpp"
+#include "shading/nearest_phong.hpp"
 
 namespace graycube {
 namespace {
@@ -154,10 +155,11 @@ class PovWriter {
   }
 
   void write_material(std::size_t index) {
-    const auto& [name, m] = scene_.materials[index];
-    if (m.model != ShadingModel::kPhong)
+    const auto& [name, written] = scene_.materials[index];
+    const Material m = nearest_phong(written);
+    if (written.model != ShadingModel::kPhong)
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
-                          std::string(word_of(kShadingModelWords, m.model)) +
+                          std::string(word_of(kShadingModelWords, written.model)) +
                           " model; written as phong");
     if (m.pattern.kind != PatternKind::kNone)
       warnings_.push_back("material \"" + name + "\": its pattern is left out, it has one colour");
