@@ -17,7 +17,6 @@
 #include "formats/brlcad/brlcad.hpp"
 #include "formats/brlcad/database/database.hpp"
 #include "formats/graycube/read_scene.hpp"
-#include "formats/graycube/unbuilt.hpp"
 #include "formats/graycube/write_scene.hpp"
 #include "formats/mesh/mesh_file.hpp"
 #include "formats/openscad/language/exact.hpp"
@@ -315,11 +314,6 @@ SceneInput read_scene_input(const fs::path& path, const control::JobOptions& opt
     throw bad_scene(path, "expected a name ending in " + scene_endings_text());
   }
   return input;
-}
-
-void check_is_built(const fs::path& path, const Scene& scene) {
-  std::vector<Problem> problems = problems_of(path, unbuilt_parts(scene));
-  if (!problems.empty()) throw Failure(ExitStatus::kBadInput, std::move(problems));
 }
 
 Model compile_input(const SceneInput& input) {

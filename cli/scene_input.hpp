@@ -68,10 +68,6 @@ bool is_brlcad(const std::filesystem::path& path);
 /// A line for each top-level object of a database, with its number of primitives; throws as above.
 std::string brlcad_tops_text(const std::filesystem::path& path);
 
-/// Throws a Failure of status 2 when the scene asks for something that the format has but this
-/// version can't compute.
-void check_is_built(const std::filesystem::path& path, const Scene& scene);
-
 /// Compiles the scene; throws a Failure of status 2 with a problem for each solid, light or setting
 /// that can't be computed. These are named by JSON pointers for scene files, and by their objects,
 /// which importers name after their places, for others.

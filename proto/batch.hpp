@@ -13,6 +13,7 @@
 
 #include "coordination/termination.hpp"
 #include "regions/macro_grid.hpp"
+#include "shading/optics.hpp"
 #include "shading/settings.hpp"
 #include "trace/contribution.hpp"
 #include "trace/ray_task.hpp"
@@ -21,7 +22,7 @@ namespace graycube {
 
 /// "GCB1", read as a little-endian integer.
 inline constexpr std::uint32_t kBatchMagic = 0x31424347;
-inline constexpr std::uint16_t kBatchVersion = 2;
+inline constexpr std::uint16_t kBatchVersion = 3;
 inline constexpr std::size_t kBatchHeaderBytes = 44;
 /// The sender "rank" of the frontal.
 inline constexpr std::uint32_t kFrontalRank = 0xFFFFFFFF;
@@ -123,8 +124,9 @@ struct BatchLimits {
   std::uint64_t pixel_count = 0;
   std::uint32_t tile_count = 0;
   std::uint32_t max_depth = 0;
-  /// A ray of a scene without lights still has the number 0.
   std::uint32_t lights = kMaxCreditLights;
+  /// The largest number of a medium.
+  std::uint32_t media = kMaxMedia;
   std::uint32_t max_exponent = 255;
   /// The most links that a ray may have crossed, those of the rays before it in its tree included.
   std::uint32_t max_hops = kMaxHops;

@@ -40,6 +40,11 @@ bool is_pixel_or_number(const RayTask& task, const BatchLimits& limits) {
   return is_number || task.pixel < limits.pixel_count;
 }
 
+bool has_light_or_medium(const RayTask& task, const BatchLimits& limits) {
+  return task.kind == RayKind::kShadow ? task.light_or_medium < limits.lights
+                                       : task.light_or_medium <= limits.media;
+}
+
 bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   task.ray = {load_vec(at), load_vec(at + 24)};
   task.t = load_little<double>(at + 48);
@@ -52,7 +57,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   if (limits.may_slide) kind &= static_cast<std::uint8_t>(~kGenerationFlag);
   task.credit_exponent = load_little<std::uint8_t>(at + 93);
   task.depth = load_little<std::uint8_t>(at + 94);
-  task.light = load_little<std::uint8_t>(at + 95);
+  task.light_or_medium = load_little<std::uint8_t>(at + 95);
   task.region = region_at(load_little<std::uint16_t>(at + 96), load_little<std::uint16_t>(at + 98));
   task.hops = load_little<std::uint16_t>(at + 100);
   task.ends_at_horizon = (kind & kHorizonFlag) != 0;
@@ -65,7 +70,7 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
          std::isfinite(task.t) && task.t >= 0 && task.t_max >= 0 && is_weight(weight.x) &&
          is_weight(weight.y) && is_weight(weight.z) && is_pixel_or_number(task, limits) &&
          task.credit_exponent <= limits.max_exponent && task.depth <= limits.max_depth &&
-         task.light < limits.lights && task.hops <= limits.max_hops &&
+         has_light_or_medium(task, limits) && task.hops <= limits.max_hops &&
          task.region.column < limits.columns && task.region.row < limits.rows &&
          task.region.slab < limits.slabs;
 }

@@ -57,7 +57,7 @@ void store_ray(std::byte* at, const RayTask& task) {
                                                   (task.generation != 0 ? kGenerationFlag : 0)));
   store_little(at + 93, task.credit_exponent);
   store_little(at + 94, static_cast<std::uint8_t>(task.depth));
-  store_little(at + 95, static_cast<std::uint8_t>(task.light));
+  store_little(at + 95, static_cast<std::uint8_t>(task.light_or_medium));
   store_little(at + 96, task.region.column);
   store_little(at + 98, row_and_slab(task.region));
   store_little(at + 100, task.hops);

@@ -16,6 +16,8 @@ inline constexpr std::size_t kLightBytes = 81;
 /// Set beside a light's falloff when it casts no shadows.
 inline constexpr std::uint8_t kShadowlessBit = 0x80;
 inline constexpr std::size_t kMaterialBytes = 82;
+/// The numbers of Torrance–Sparrow's and Hall–Greenberg's models; other materials have none.
+inline constexpr std::size_t kOpticsBytes = (3 + 3 + 3 + 2) * 8;
 /// The numbers of a pattern: its map, colours, thresholds and octaves; those without one have none.
 inline constexpr std::size_t kPatternBytes = (12 + 9 + 2 + 3) * 8;
 inline constexpr std::size_t kPlaneBytes = 32;

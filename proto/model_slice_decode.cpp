@@ -6,7 +6,8 @@
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
-#include "shading/rt_model.hpp"
+#include "proto/slices/material_bytes.hpp"
+#include "proto/slices/values.hpp"
 
 namespace graycube {
 namespace {
@@ -17,25 +18,11 @@ struct Counts {
   std::uint32_t lights, materials, planes, primitives, nodes, objects, meshes;
 };
 
-Vec3 get_vec(ByteReader& r) {
-  const auto x = r.get<double>(), y = r.get<double>(), z = r.get<double>();
-  return {x, y, z};
-}
-
-Rgb get_rgb(ByteReader& r) {
-  const Vec3 v = get_vec(r);
-  return {v.x, v.y, v.z};
-}
-
 Aabb get_box(ByteReader& r) {
   const Vec3 lo = get_vec(r);
   return {lo, get_vec(r)};
 }
 
-bool is_coefficient(double v) { return std::isfinite(v) && v >= 0; }
-bool is_color(const Rgb& c) {
-  return is_coefficient(c.r) && is_coefficient(c.g) && is_coefficient(c.b);
-}
 /// Bounds may be infinite, and "nothing" has lo > hi; only NaN is wrong.
 bool is_box(const Aabb& box) {
   for (int a = 0; a < 3; ++a) {
@@ -191,42 +178,9 @@ class ModelReader {
   }
 
   const char* material(Material& m) {
-    m.color = get_rgb(r_);
-    bool valid = is_color(m.color);
-    for (double* v :
-         {&m.ambient, &m.diffuse, &m.specular, &m.shininess, &m.reflect, &m.transmit, &m.ior}) {
-      *v = r_.get<double>();
-      valid = valid && is_coefficient(*v);
-    }
-    m.model = static_cast<ShadingModel>(r_.get<std::uint8_t>());
-    if (m.model > ShadingModel::kHallGreenberg && !is_rt_model(m)) return "unknown shading model";
-    if (!valid || m.transmit > 1 || !(m.ior > 0)) return "a coefficient out of range";
-    const auto kind = r_.get<std::uint8_t>();
-    if (kind >= kPatternKinds) return "unknown pattern";
-    m.pattern.kind = static_cast<PatternKind>(kind);
-    return m.pattern.kind == PatternKind::kNone ? nullptr : pattern(m.pattern);
-  }
-
-  const char* pattern(Pattern& p) {
-    for (auto& row : p.to_pattern.m) {
-      for (double& v : row) v = r_.get<double>();
-    }
-    bool valid = p.to_pattern.is_finite();
-    for (Rgb& c : p.colors) {
-      c = get_rgb(r_);
-      valid = valid && is_color(c);
-    }
-    for (double& v : p.thresholds) {
-      v = r_.get<double>();
-      valid = valid && std::isfinite(v);
-    }
-    NoiseOctaves& o = p.octaves;
-    for (double* v : {&o.count, &o.lacunarity, &o.decay}) {
-      *v = r_.get<double>();
-      valid = valid && std::isfinite(*v);
-    }
-    valid = valid && o.count >= 0 && o.count <= kMaxOctaves && o.lacunarity > 0;
-    return valid ? nullptr : "a pattern out of range";
+    if (const char* why = get_material(r_, m)) return why;
+    media_ += attenuates(m) ? 1 : 0;
+    return media_ > kMaxMedia ? "more media than there may be" : nullptr;
   }
 
   const char* plane(Plane& plane) {
@@ -372,6 +326,7 @@ class ModelReader {
   ByteReader r_;
   std::size_t size_;
   std::uint64_t mesh_points_ = 0, mesh_triangles_ = 0;
+  std::size_t media_ = 0;
   Model model_;
   std::optional<ModelError> error_;
 };

@@ -4,24 +4,14 @@
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
+#include "proto/slices/material_bytes.hpp"
+#include "proto/slices/values.hpp"
 #include "regions/kept_trees.hpp"
 
 namespace graycube {
 namespace {
 
 using namespace model_layout;
-
-void put_vec(ByteWriter& w, const Vec3& v) {
-  w.put(v.x);
-  w.put(v.y);
-  w.put(v.z);
-}
-
-void put_rgb(ByteWriter& w, const Rgb& c) {
-  w.put(c.r);
-  w.put(c.g);
-  w.put(c.b);
-}
 
 void put_box(ByteWriter& w, const Aabb& box) {
   put_vec(w, box.lo);
@@ -56,26 +46,6 @@ void put_light(ByteWriter& w, const PointLight& light) {
   w.put(static_cast<std::uint8_t>(falloff | (light.shadows ? 0 : kShadowlessBit)));
   put_vec(w, light.direction);
   w.put(light.angle_degrees);
-}
-
-void put_pattern(ByteWriter& w, const Pattern& p) {
-  for (const auto& row : p.to_pattern.m) {
-    for (const double v : row) w.put(v);
-  }
-  for (const Rgb& c : p.colors) put_rgb(w, c);
-  for (const double v : p.thresholds) w.put(v);
-  for (const double v : {p.octaves.count, p.octaves.lacunarity, p.octaves.decay}) w.put(v);
-}
-
-void put_material(ByteWriter& w, const Material& m) {
-  put_rgb(w, m.color);
-  for (const double v :
-       {m.ambient, m.diffuse, m.specular, m.shininess, m.reflect, m.transmit, m.ior}) {
-    w.put(v);
-  }
-  w.put(static_cast<std::uint8_t>(m.model));
-  w.put(static_cast<std::uint8_t>(m.pattern.kind));
-  if (m.pattern.kind != PatternKind::kNone) put_pattern(w, m.pattern);
 }
 
 void put_primitive(ByteWriter& w, const Primitive& p, unsigned flags) {
@@ -135,12 +105,9 @@ struct Counts {
 };
 
 std::size_t beginning_bytes(const Model& model) {
-  const auto patterns =
-      std::count_if(model.materials.begin(), model.materials.end(),
-                    [](const Material& m) { return m.pattern.kind != PatternKind::kNone; });
-  return kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes +
-         model.materials.size() * kMaterialBytes +
-         static_cast<std::size_t>(patterns) * kPatternBytes;
+  std::size_t bytes = kHeaderBytes + kSettingsBytes + model.settings.lights.size() * kLightBytes;
+  for (const Material& m : model.materials) bytes += material_bytes(m);
+  return bytes;
 }
 
 /// Writes the header, settings, lights and materials.

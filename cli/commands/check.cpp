@@ -31,7 +31,6 @@ void print_regions(const Scene& scene, const Model& model) {
 
 /// The scene compiled. What is fine is fine for every algorithm; else throws a Failure.
 Model compiled(const CheckCommand& command, const SceneInput& input) {
-  check_is_built(command.scene, input.scene);
   Model model = compile_input(input);
   check_farm_limits(input, model.settings);
   if (!fits_model_limits(model)) {

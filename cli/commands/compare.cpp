@@ -135,7 +135,6 @@ ExitStatus run(const CompareCommand& command) {
   if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
   check_ending("--plot", command.plot, ".svg", "SVG");
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
-  check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
   prepare_for_farm(scene, command.options);
   ProgressDisplay display(stderr, command.is_quiet);

@@ -88,7 +88,6 @@ class Subject {
       : command_(command),
         options_(job_of(command)),
         scene_(read_scene_input(command.scene, command.options, command.choice)) {
-    check_is_built(command.scene, scene_.scene);
     if (!command.is_quiet) {
       for (const Problem& warning : scene_.warnings) print(warning);
     }

@@ -119,7 +119,6 @@ ExitStatus run(const RenderCommand& command) {
   const auto reading = Clock::now();
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
   double load_s = seconds_since(reading);
-  check_is_built(command.scene, scene.scene);
   const std::string name = scene.name;
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);

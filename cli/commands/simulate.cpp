@@ -240,7 +240,6 @@ ExitStatus run(const SimulateCommand& command) {
   if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
   check_ending("--plot", command.plot, ".svg", "SVG");
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
-  check_is_built(command.scene, scene.scene);
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);
   }

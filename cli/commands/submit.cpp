@@ -93,7 +93,6 @@ ExitStatus run(const SubmitCommand& command) {
   catch_interrupts("submit", 0);
   check_sense(command);
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
-  check_is_built(command.scene, scene.scene);
   for (const Problem& warning : scene.warnings) print(warning);
   prepare_for_farm(scene, command.options);
   FarmClient farm(command.connect, [] { throw_if_interrupted(); });

@@ -189,6 +189,27 @@ double exp2_of(const Double2& x) {
   return result < kSmallestNormal ? 0 : result;
 }
 
+// ---- Arc cosine
+
+/// The terms of asin x = x + x³ Σ terms[i] · x^2i; up to |x| = ½ the first one left out is below
+/// 1e-17 of the sum.
+constexpr std::array<double, 24> arc_sine_terms() {
+  std::array<double, 24> terms{};
+  double share = 1;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto k = static_cast<double>(i + 1);
+    share *= (2 * k - 1) / (2 * k);
+    terms[i] = share / (2 * k + 1);
+  }
+  return terms;
+}
+
+/// For |x| ≤ ½.
+double arc_sine(double x) {
+  static constexpr std::array kTerms = arc_sine_terms();
+  return x + x * x * x * polynomial(kTerms, x * x);
+}
+
 }  // namespace
 
 double sin_degrees(double angle_degrees) { return sine_cosine(angle_degrees).sine; }
@@ -215,6 +236,24 @@ double portable_pow(double base, double exponent) {
   if (estimate < -1100) return 0;
   const Double2 product = two_product(exponent, log2.high);
   return exp2_of({product.high, product.low + exponent * log2.low});
+}
+
+double portable_exp(double x) {
+  if (std::isnan(x)) return x;
+  if (x > 750) return kInf;
+  if (x < -750) return 0;
+  constexpr Double2 kLog2OfE{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
+  const Double2 product = two_product(x, kLog2OfE.high);
+  return exp2_of({product.high, product.low + x * kLog2OfE.low});
+}
+
+double portable_acos(double cosine) {
+  constexpr double kHalfPi = 0x1.921fb54442d18p+0, kHalfPiRest = 0x1.1a62633145c07p-54;
+  if (std::isnan(cosine)) return cosine;
+  if (std::fabs(cosine) <= 0.5) return kHalfPi - (arc_sine(cosine) - kHalfPiRest);
+  // 2 asin √((1 − c) / 2); 1 − c is exact there.
+  const double folded = 2 * arc_sine(std::sqrt(0.5 * std::fmax(0, 1 - std::fabs(cosine))));
+  return cosine > 0 ? folded : 2 * kHalfPi - (folded - 2 * kHalfPiRest);
 }
 
 }  // namespace graycube

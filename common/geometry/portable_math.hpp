@@ -15,5 +15,11 @@ double tan_degrees(double angle_degrees);
 /// base^exponent for base ≥ 0 and exponent ≥ 0; 0^0 = 1. Relative error below 1e-13 where the
 /// result is a normal number; results below the smallest normal number become 0.
 double portable_pow(double base, double exponent);
+/// e^x. Relative error below 1e-15 where the result is a normal number; results below the smallest
+/// normal number become 0.
+double portable_exp(double x);
+/// The angle in radians, 0 … π, whose cosine is given; what is beyond ±1 counts as ±1. Error below
+/// 4 ulp.
+double portable_acos(double cosine);
 
 }  // namespace graycube

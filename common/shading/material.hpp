@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "geometry/vec.hpp"
+#include "shading/optics.hpp"
 #include "shading/pattern.hpp"
 
 namespace graycube {
@@ -28,8 +29,20 @@ struct Material {
   ShadingModel model = ShadingModel::kPhong;
   /// Takes the place of the colour where there is one, but not in what shines through.
   Pattern pattern = {};
+  /// Of Torrance–Sparrow's and Hall–Greenberg's models. Where light goes through, all three indices
+  /// are `ior` and nothing is absorbed.
+  Optics optics = {};
 
   friend bool operator==(const Material&, const Material&) = default;
 };
+
+/// Whether Fresnel's equations say how much a surface of the material reflects.
+inline bool has_fresnel(const Material& m) {
+  return m.model == ShadingModel::kTorranceSparrow || m.model == ShadingModel::kHallGreenberg;
+}
+/// Whether light is dimmed on its way through the material.
+inline bool attenuates(const Material& m) {
+  return m.model == ShadingModel::kHallGreenberg && max_component(m.optics.attenuation) > 0;
+}
 
 }  // namespace graycube

@@ -23,6 +23,7 @@ std::shared_ptr<const Territory> Territory::of(std::shared_ptr<const Model> mode
   auto territory = std::make_shared<Territory>();
   territory->model = std::move(model);
   territory->subdivision = subdivision;
+  territory->media = Media(territory->model->materials);
   if (subdivision.way == Subdivision::kSurfaces) {
     territory->tree = SurfaceTree::build(*territory->model);
   } else {

@@ -14,6 +14,7 @@
 #include "csg/model.hpp"
 #include "regions/camera.hpp"
 #include "regions/macro_grid.hpp"
+#include "shading/media.hpp"
 #include "subdivisions/crossing_search.hpp"
 #include "trace/ray_task.hpp"
 #include "visibility/foreign_bounds.hpp"
@@ -25,6 +26,7 @@ namespace graycube {
 struct Territory {
   std::shared_ptr<const Model> model;
   SubdivisionChoice subdivision;
+  Media media;
   /// Only with the subdivision kSurfaces.
   std::optional<SurfaceTree> tree;
   /// With all others.
@@ -74,6 +76,7 @@ class Domain {
   const RenderSettings& settings() const { return territory_->model->settings; }
   const CameraFrame& frame() const { return frame_; }
   const Model& model() const { return *territory_->model; }
+  const Media& media() const { return territory_->media; }
   const SubdivisionChoice& subdivision() const { return territory_->subdivision; }
   /// The number of leaf regions; of items, where a surface tree stands for them.
   std::size_t cell_count() const;
@@ -132,9 +135,9 @@ class Domain {
   /// Whether the domain holds all that a shadow ray can meet from `t`, in one of its regions, on;
   /// has_foreign_horizons() only.
   bool holds_way_to_light(const RayTask& task, double t) const {
-    const Vec3 to_light = settings().lights[task.light].position - task.ray.origin;
+    const Vec3 to_light = settings().lights[task.light_or_medium].position - task.ray.origin;
     return is_beyond(task.ray.origin, length(to_light) - t,
-                     foreign_horizons_->distance(task.light, -task.ray.direction));
+                     foreign_horizons_->distance(task.light_or_medium, -task.ray.direction));
   }
   bool has_foreign_bounds() const { return foreign_bounds_ != nullptr; }
   /// Bit i: the domain may lack something that ray i of the packet meets at t0 ≤ t ≤ t1;

@@ -40,8 +40,8 @@ struct RayTask {
   /// Generation: 0 for primary rays; a shadow ray has that of the surface it left.
   std::uint16_t depth = 0;
   /// For shadow rays, the index of their light in the settings, and whether t_max is where they
-  /// reach that light's horizon.
-  std::uint16_t light : 14 = 0;
+  /// reach that light's horizon; for all others, the medium that they are in (see Media).
+  std::uint16_t light_or_medium : 14 = 0;
   bool ends_at_horizon : 1 = false;
   /// Where boundaries slide: the generation of the grid that is the ray's for life, modulo
   /// kMostGenerations (docs/design/sliding.md).
@@ -55,7 +55,7 @@ struct RayTask {
   friend bool operator==(const RayTask&, const RayTask&) = default;
 };
 
-/// The largest number that RayTask::light can hold.
+/// The largest number that RayTask::light_or_medium can hold.
 inline constexpr std::uint32_t kLightMask = (1u << 14) - 1;
 static_assert(kMaxLights <= kLightMask + 1);
 

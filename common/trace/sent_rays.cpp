@@ -6,8 +6,11 @@
 #include <span>
 
 #include "geometry/infinity.hpp"
+#include "shading/fresnel.hpp"
+#include "shading/hall_greenberg.hpp"
 #include "shading/phong.hpp"
 #include "shading/rt_model.hpp"
+#include "shading/torrance_sparrow.hpp"
 #include "trace/first_hit.hpp"
 #include "trace/step.hpp"
 #include "visibility/cube_texels.hpp"
@@ -76,9 +79,9 @@ bool is_traceable(const Vec3& origin, const Vec3& direction, const Rgb& weight) 
   return is_finite(origin) && dot(direction, direction) > 0.5 && is_finite(weight);
 }
 
-/// What of unit white light from l a surface of the material reflects along the ray.
-Rgb reflected_light(const Material& m, double n_dot_l, const Vec3& mirror, const Vec3& l) {
-  return is_rt_model(m) ? rt_reflected(m, n_dot_l, mirror, l) : phong(m, n_dot_l, mirror, l);
+/// The share of light that is sent on where nothing goes through.
+double totally_reflected(const Material& m) {
+  return has_fresnel(m) ? std::max(m.reflect, m.transmit) : 1;
 }
 
 /// The surface of a solid that is seen from within: rt lights only its outside.
@@ -87,8 +90,8 @@ constexpr Material kUnlit{.color = {0, 0, 0}, .ambient = 0, .diffuse = 0};
 }  // namespace
 
 /// `is_beyond` tells that the ray had left its macro-region before the hit.
-void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step) {
-  const RayTask& task = ray.task;
+void Evaluator::shade(OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step) {
+  RayTask& task = ray.task;
   const Model& model = domain_.model();
   const Primitive& solid = model.primitives[hit.primitive];
   const Material& m = model.materials[solid.material];
@@ -109,9 +112,10 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
     point_[a][index] = p[static_cast<int>(a)];
     normal_[a][index] = n[static_cast<int>(a)];
   }
-  SurfacePoint& at =
-      surfaces_.emplace_back(SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond});
-  if (task.depth < model.settings.max_depth) send_secondary_rays(at, p, n, hit.entering, step);
+  SurfacePoint& at = surfaces_.emplace_back(
+      SurfacePoint{&ray, &m, reflected(d, n), hit.t, is_beyond, !hit.entering});
+  if (!domain_.media().empty()) cross_media(task, hit, at);
+  if (task.depth < model.settings.max_depth) send_secondary_rays(at, n, step);
   if (m.model == ShadingModel::kRt && m.transmit > 0 && !hit.entering) {
     at.material = &kUnlit;
   } else if (m.pattern.kind != PatternKind::kNone) {
@@ -120,6 +124,24 @@ void Evaluator::shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, S
     at.material = &patterned_[index];
   }
   contribute(ray, task.weight * ambient_light(*at.material, -dot(n, d)), step);
+}
+
+/// Finds the media on both sides of a surface, and dims what the ray brings by that through which
+/// it came. Only a primary ray doesn't know where it is: if it meets a solid from within, there.
+void Evaluator::cross_media(RayTask& task, const Crossing& hit, SurfacePoint& at) const {
+  const Media& media = domain_.media();
+  const Medium of_solid = media.of(domain_.model().primitives[hit.primitive].material);
+  const bool starts_within = task.kind == RayKind::kPrimary && at.is_within && hit.t > 0;
+  at.before = starts_within ? of_solid : task.light_or_medium;
+  at.behind = at.is_within ? Medium{0} : of_solid;
+  if (at.before != 0) task.weight = task.weight * media.left_after(at.before, hit.t);
+}
+
+/// What a ray brings that meets nothing: through a medium without end no light comes.
+Rgb Evaluator::background(const RayTask& task) const {
+  const Rgb light = task.weight * domain_.settings().background;
+  return task.light_or_medium == 0 ? light
+                                   : light * domain_.media().left_after(task.light_or_medium, kInf);
 }
 
 /// What the surface sends out of the scene's ambient light; `cosine` is that of the viewing angle.
@@ -134,44 +156,57 @@ RegionIndex Evaluator::region_of(const SurfacePoint& at) const {
   return at.is_beyond ? domain_.region_at(at.ray->task, at.t) : at.ray->task.region;
 }
 
-void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
-                                    Step& step) {
+/// Sends a ray from the newest surface, unless it would bring too little.
+void Evaluator::send_secondary_ray(SurfacePoint& at, RayKind kind, const Vec3& direction,
+                                   const Rgb& weight, Step& step) {
+  if (!(max_component(weight) > 0)) return;
+  if (max_component(weight) < domain_.settings().min_weight) return;
+  const std::size_t surface = surfaces_.size() - 1;
+  const Vec3 p{point_[0][surface], point_[1][surface], point_[2][surface]};
+  const Vec3 unit = normalized(direction);
+  if (!is_traceable(p, unit, weight)) {
+    ++step.rounding.non_finite;
+    return;
+  }
+  ++step.rays.created[static_cast<std::size_t>(kind)];
+  ++at.secondary_rays;
+  OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
+  spawn(at.ray->task, kind, region_of(at), p, unit, weight, sent.task);
+  sent.task.light_or_medium = (kind == RayKind::kReflection ? at.before : at.behind) & kLightMask;
+  sent.slot = at.ray->slot;
+  sent.surface = static_cast<std::uint32_t>(surface);
+}
+
+void Evaluator::send_secondary_rays(SurfacePoint& at, const Vec3& n, Step& step) {
   const Material& m = *at.material;
+  const bool entering = !at.is_within;
   const RayTask& task = at.ray->task;
   if (m.model == ShadingModel::kRtLamp) return;
   const auto send = [&](RayKind kind, const Vec3& direction, double coefficient,
                         const Rgb& tint = {1, 1, 1}) {
-    const Rgb weight = coefficient * task.weight * tint;
-    if (!(max_component(weight) > 0)) return;
-    if (max_component(weight) < domain_.settings().min_weight) return;
-    const Vec3 unit = normalized(direction);
-    if (!is_traceable(p, unit, weight)) {
-      ++step.rounding.non_finite;
-      return;
-    }
-    ++step.rays.created[static_cast<std::size_t>(kind)];
-    ++at.secondary_rays;
-    OpenRay& sent = secondary_[kind == RayKind::kRefraction ? 0 : 1].emplace_back();
-    spawn(task, kind, region_of(at), p, unit, weight, sent.task);
-    sent.slot = at.ray->slot;
-    sent.surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
+    send_secondary_ray(at, kind, direction, coefficient * task.weight * tint, step);
   };
   const bool is_rt = m.model == ShadingModel::kRt;
+  Rgb mirrored{1, 1, 1}, passing{1, 1, 1};
+  if (has_fresnel(m)) {
+    mirrored = fresnel(m, -dot(n, task.ray.direction), at.is_within);
+    passing = {1 - mirrored.r, 1 - mirrored.g, 1 - mirrored.b};
+  }
   if (m.transmit > 0) {
     const auto through = refracted(task.ray.direction, n, entering ? 1 / m.ior : m.ior);
     // rt takes glass as one thing: it colours and splits light where this enters, and mirrors
     // nothing from within but what can't leave.
     if (is_rt && through && !entering) return send(RayKind::kRefraction, *through, 1);
     if (is_rt && through) send(RayKind::kRefraction, *through, m.transmit, m.color);
-    if (!through) return send(RayKind::kReflection, at.mirror, 1);
-    if (!is_rt) send(RayKind::kRefraction, *through, m.transmit);
+    if (!through) return send(RayKind::kReflection, at.mirror, totally_reflected(m));
+    if (!is_rt) send(RayKind::kRefraction, *through, m.transmit, passing);
   }
-  if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect);
+  if (m.reflect > 0) send(RayKind::kReflection, at.mirror, m.reflect, mirrored);
 }
 
-/// Sends a shadow ray to a light from every surface of the wave that faces it, within its beam. The
-/// first loop is written to be vectorized: its expressions are those of length(), scaling and
-/// dot().
+/// Sends a shadow ray to a light from every surface of the wave that faces it, or that shows lights
+/// behind it, within its beam. The first loop is written to be vectorized: its expressions are
+/// those of length(), scaling and dot().
 void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
   const Vec3 at = domain_.settings().lights[light].position;
   const std::size_t count = surfaces_.size();
@@ -195,7 +230,9 @@ void Evaluator::send_light_rays(std::uint32_t light, Step& step) {
     // A light that lies in the surface's plane to within rounding lights nothing: else highlights
     // would come and go at random.
     const double above = cosine_[i] * distance_[i];
-    if (above > 0 && above > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]}))
+    const bool is_behind = above < 0 && has_light_from_behind(*surfaces_[i].material);
+    if (!(above > 0) && !is_behind) continue;
+    if (std::fabs(above) > origin_epsilon({point_[0][i], point_[1][i], point_[2][i]}))
       send_light_ray(light, i, step);
   }
 }
@@ -213,6 +250,30 @@ void Evaluator::look_up_horizons(std::uint32_t light) {
   if (has_foreign) domain_.foreign_horizons().distances_at(light, used, all_held_);
 }
 
+SurfaceView Evaluator::view_of(const SurfacePoint& at, std::size_t surface) const {
+  return {{normal_[0][surface], normal_[1][surface], normal_[2][surface]},
+          -at.ray->task.ray.direction,
+          at.is_within};
+}
+
+/// What of unit white light from unit direction l a surface of the wave sends back along its ray.
+Rgb Evaluator::light_share(std::size_t surface, const Vec3& l) const {
+  const SurfacePoint& at = surfaces_[surface];
+  const Material& m = *at.material;
+  const double n_dot_l = cosine_[surface];
+  switch (m.model) {
+    case ShadingModel::kPhong: return phong(m, n_dot_l, at.mirror, l);
+    case ShadingModel::kTorranceSparrow:
+      return torrance_sparrow(m, view_of(at, surface), n_dot_l, l);
+    case ShadingModel::kHallGreenberg:
+      return n_dot_l > 0 ? hall_greenberg(m, view_of(at, surface), n_dot_l, l)
+                         : hall_greenberg_from_behind(m, view_of(at, surface), l);
+    case ShadingModel::kRt:
+    case ShadingModel::kRtLamp: return rt_reflected(m, n_dot_l, at.mirror, l);
+  }
+  return {0, 0, 0};
+}
+
 void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& step) {
   const PointLight& source = domain_.settings().lights[light];
   SurfacePoint& at = surfaces_[surface];
@@ -223,8 +284,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   Rgb intensity = source.color;
   if (source.falloff == Falloff::kInverseSquare)
     intensity = (1 / (distance * distance)) * intensity;
-  const Rgb weight =
-      task.weight * (intensity * reflected_light(*at.material, cosine_[surface], at.mirror, l));
+  const Rgb weight = task.weight * (intensity * light_share(surface, l));
   if (!(max_component(weight) > 0)) return;
   if (!is_finite(weight)) [[unlikely]] {
     ++step.rounding.non_finite;
@@ -252,7 +312,7 @@ void Evaluator::send_light_ray(std::uint32_t light, std::size_t surface, Step& s
   sent.slot = at.ray->slot;
   sent.surface = static_cast<std::uint32_t>(surface);
   sent.task.t_max = way.t_max;
-  sent.task.light = static_cast<std::uint16_t>(light & kLightMask);
+  sent.task.light_or_medium = static_cast<std::uint16_t>(light & kLightMask);
   sent.task.ends_at_horizon = way.ends_at_horizon;
   ++at.lights;
 }

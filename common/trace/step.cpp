@@ -155,13 +155,13 @@ void Evaluator::trace_wave(Step& step) {
   if (wave_.front().task.kind == RayKind::kShadow) {
     in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_light_rays(rays, step); });
   } else {
-    in_packets(wave_, [&](std::span<const OpenRay> rays) { trace_viewing_rays(rays, step); });
+    in_packets(wave_, [&](std::span<OpenRay> rays) { trace_viewing_rays(rays, step); });
     trace_sent_rays(step);
   }
 }
 
 template <typename Trace>
-void Evaluator::in_packets(std::span<const OpenRay> rays, Trace&& trace) {
+void Evaluator::in_packets(std::span<OpenRay> rays, Trace&& trace) {
   while (!rays.empty()) {
     const std::size_t count = std::min(rays.size(), RayPacket::kSize);
     trace(rays.first(count));
@@ -341,7 +341,7 @@ void Evaluator::trace_light_rays(std::span<const OpenRay> rays, Step& step) {
 }
 
 /// Traces primary, reflected or refracted rays: one packet at most.
-void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
+void Evaluator::trace_viewing_rays(std::span<OpenRay> rays, Step& step) {
   RayPacket packet;
   std::array<RegionExit, RayPacket::kSize> exits;
   for (const OpenRay& ray : rays) packet.add(ray.task.ray, ray.task.t, kInf);
@@ -361,7 +361,7 @@ void Evaluator::trace_viewing_rays(std::span<const OpenRay> rays, Step& step) {
     } else if ((hits >> i & 1) != 0) {
       shade(rays[i], found[i], (leaving >> i & 1) != 0 && found[i].t >= exits[i].t, step);
     } else {
-      contribute(rays[i], rays[i].task.weight * domain_.settings().background, step);
+      contribute(rays[i], background(rays[i].task), step);
       open_[rays[i].slot].credit.add_power(rays[i].task.credit_exponent);
     }
   }

@@ -11,6 +11,8 @@
 #include "coordination/credit.hpp"
 #include "film/fixed_point.hpp"
 #include "shading/light_beam.hpp"
+#include "shading/media.hpp"
+#include "shading/surface_view.hpp"
 #include "trace/domain.hpp"
 #include "trace/ray_task.hpp"
 
@@ -100,12 +102,18 @@ class Evaluator {
     /// The ray's parameter, and whether it had left its macro-region by then.
     double t;
     bool is_beyond;
+    /// Whether the solid is seen from within, and the media before and behind its surface.
+    bool is_within;
+    Medium before = 0, behind = 0;
     std::uint32_t lights = 0, secondary_rays = 0;
   };
   /// One number for each surface of a wave.
   using Coordinates = std::array<double, kWaveRays>;
 
   Rgb ambient_light(const Material& m, double cosine) const;
+  Rgb background(const RayTask& task) const;
+  SurfaceView view_of(const SurfacePoint& at, std::size_t surface) const;
+  Rgb light_share(std::size_t surface, const Vec3& to_light) const;
   void trace_block(const PixelRect& block, Step& step);
   void finish_pixels(Step& step);
   void trace_all(Step& step);
@@ -116,9 +124,9 @@ class Evaluator {
   void take_wave(std::vector<OpenRay>& stack);
   void trace_wave(Step& step);
   template <typename Trace>
-  static void in_packets(std::span<const OpenRay> rays, Trace&& trace);
+  static void in_packets(std::span<OpenRay> rays, Trace&& trace);
   void trace_sent_rays(Step& step);
-  void trace_viewing_rays(std::span<const OpenRay> rays, Step& step);
+  void trace_viewing_rays(std::span<OpenRay> rays, Step& step);
   RayPacket::Mask shorten_to_exits(std::span<const OpenRay> rays, RayPacket& packet,
                                    std::span<RegionExit, RayPacket::kSize> exits) const;
   RayPacket::Mask must_leave(RayPacket::Mask leaving, const RayPacket& packet,
@@ -132,10 +140,12 @@ class Evaluator {
   void go_on_to_light(const OpenRay& ray, const Rgb& light, const RegionExit& exit, Step& step);
   void finish_light_ray(const OpenRay& ray, Step& step);
   void light_arrives(const OpenRay& ray, const Rgb& light, Step& step);
-  void shade(const OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step);
+  void shade(OpenRay& ray, const Crossing& hit, bool is_beyond, Step& step);
+  void cross_media(RayTask& task, const Crossing& hit, SurfacePoint& at) const;
   RegionIndex region_of(const SurfacePoint& at) const;
-  void send_secondary_rays(SurfacePoint& at, const Vec3& p, const Vec3& n, bool entering,
-                           Step& step);
+  void send_secondary_ray(SurfacePoint& at, RayKind kind, const Vec3& direction, const Rgb& weight,
+                          Step& step);
+  void send_secondary_rays(SurfacePoint& at, const Vec3& n, Step& step);
   void send_light_rays(std::uint32_t light, Step& step);
   void send_light_ray(std::uint32_t light, std::size_t surface, Step& step);
   /// The fate of a new shadow ray at its light's horizon.

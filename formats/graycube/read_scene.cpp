@@ -1,5 +1,6 @@
 #include "formats/graycube/read_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <system_error>
@@ -7,6 +8,7 @@
 
 #include "formats/graycube/expansion.hpp"
 #include "formats/graycube/read_csg.hpp"
+#include "formats/graycube/read_material.hpp"
 #include "formats/graycube/read_settings.hpp"
 #include "formats/json/access.hpp"
 #include "formats/json/cbor_fast_reader.hpp"
@@ -150,6 +152,13 @@ class SceneReader {
       named.name = tree_.key(at);
       read_material(json_, at, named.material);
     }
+    const auto media = static_cast<std::size_t>(
+        std::count_if(scene_.materials.begin(), scene_.materials.end(),
+                      [](const NamedMaterial& m) { return attenuates(m.material); }));
+    if (media > kMaxMedia)
+      errors_.add(root_[kMaterials], "expected at most " + std::to_string(kMaxMedia) +
+                                         " materials with \"attenuation\", found " +
+                                         std::to_string(media));
   }
 
   void read_trees(const std::vector<JsonIndex>& shapes_at) {

@@ -1,10 +1,9 @@
-// The parts of a scene file that are not solids: picture, camera, lights, materials.
+// The parts of a scene file that are not solids: picture, camera, lights.
 #pragma once
 
 #include <vector>
 
 #include "formats/json/access.hpp"
-#include "shading/material.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
@@ -12,6 +11,5 @@ namespace graycube {
 void read_image(JsonAccess& json, JsonIndex at, ImageSize& out);
 void read_camera(JsonAccess& json, JsonIndex at, Camera& out);
 void read_lights(JsonAccess& json, JsonIndex at, std::vector<PointLight>& out);
-void read_material(JsonAccess& json, JsonIndex at, Material& out);
 
 }  // namespace graycube

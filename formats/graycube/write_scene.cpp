@@ -9,6 +9,7 @@
 #include "check.hpp"
 #include "formats/graycube/json_text.hpp"
 #include "formats/graycube/scene_words.hpp"
+#include "formats/graycube/write_material.hpp"
 #include "formats/graycube/write_settings.hpp"
 
 namespace graycube {

@@ -3,13 +3,11 @@
 #pragma once
 
 #include "formats/graycube/json_text.hpp"
-#include "shading/material.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
 
 void write_camera(JsonText& json, const Camera& camera);
 void write_light(JsonText& json, const PointLight& light);
-void write_material(JsonText& json, const Material& material);
 
 }  // namespace graycube

@@ -16,6 +16,7 @@
 #include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/repeat.hpp"
+#include "shading/nearest_phong.hpp"
 
 namespace graycube {
 namespace {
@@ -158,10 +159,11 @@ class PovWriter {
   }
 
   void write_material(std::size_t index) {
-    const auto& [name, m] = scene_.materials[index];
-    if (m.model != ShadingModel::kPhong)
+    const auto& [name, written] = scene_.materials[index];
+    const Material m = nearest_phong(written);
+    if (written.model != ShadingModel::kPhong)
       warnings_.push_back("material \"" + name + "\": POV-Ray has no " +
-                          std::string(word_of(kShadingModelWords, m.model)) +
+                          std::string(word_of(kShadingModelWords, written.model)) +
                           " model; written as phong");
     if (m.pattern.kind != PatternKind::kNone)
       warnings_.push_back("material \"" + name + "\": its pattern is left out, it has one colour");

@@ -6,7 +6,6 @@
 
 #include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
-#include "formats/graycube/unbuilt.hpp"
 #include "frontal/preparation/partition.hpp"
 #include "frontal/preparation/slices.hpp"
 #include "proto/horizon_bytes.hpp"
@@ -101,7 +100,6 @@ std::optional<Model> model_of(std::span<const std::byte> scene,
   const ReadResult read = read_scene_text(text_of(scene));
   for (const SceneError& e : read.errors) add_error(errors, e.pointer, e.message);
   if (!read.scene) return std::nullopt;
-  for (const SceneError& e : unbuilt_parts(*read.scene)) add_error(errors, e.pointer, e.message);
   try {
     return compile_scene(*read.scene);
   } catch (const UnrenderableScene& e) {

@@ -62,10 +62,11 @@ std::vector<std::vector<OccluderQuery>> queries_of(const Model& model, const Nod
                                        : RegionExit{task.t, light.from};
     while (exit && share.owns(exit->next)) exit = cut.grid.exit(exit->next, task.ray, exit->t);
     if (!exit || exit->t >= task.t_max) continue;
-    const double distance = length(model.settings.lights[task.light].position - task.ray.origin);
+    const double distance =
+        length(model.settings.lights[task.light_or_medium].position - task.ray.origin);
     const auto texel = static_cast<std::uint32_t>(
         cube_texel(cube_place(-task.ray.direction), LightHorizons::kSide));
-    queries[rank.value].push_back({task.light, texel, distance, 1});
+    queries[rank.value].push_back({task.light_or_medium, texel, distance, 1});
   }
   for (std::vector<OccluderQuery>& q : queries) {
     q = together(std::move(q));

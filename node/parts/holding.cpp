@@ -22,6 +22,7 @@ BatchLimits limits_of(const Seat& seat, const Domain& domain, const TilePlan& pl
   limits.tile_count = plan.tile_count();
   limits.max_depth = settings.max_depth;
   limits.lights = std::max(1u, static_cast<std::uint32_t>(settings.lights.size()));
+  limits.media = static_cast<std::uint32_t>(domain.media().count());
   limits.columns = domain.grid() != nullptr ? domain.grid()->columns() : 1;
   limits.rows = domain.grid() != nullptr ? domain.grid()->rows() : 1;
   limits.slabs = domain.grid() != nullptr ? domain.grid()->slabs() : 1;

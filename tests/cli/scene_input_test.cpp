@@ -236,16 +236,6 @@ TEST_CASE("every ending that is told of is read, and no other") {
         ".asc, .stl, .off, .obj, .ply, .3mf, .gltf, .glb, .dae, .3ds, .amf or .x3d");
 }
 
-TEST_CASE("what is not built is refused at a pointer that any material's name can be read from") {
-  Scene scene;
-  scene.materials.resize(2);
-  scene.materials[1].name = "glass/~old";
-  scene.materials[1].material.model = ShadingModel::kHallGreenberg;
-  CHECK(refusal([&] { check_is_built("a.json", scene); }) ==
-        "graycube: scene: a.json:/materials/glass~1~0old/model: not built yet; \"phong\" and "
-        "\"rt\" are");
-}
-
 TEST_CASE("solids that can't be computed are told by pointers in scenes, by names in models") {
   SceneInput input;
   input.path = "far.json";

@@ -156,8 +156,17 @@ class RandomModel {
       m.transmit = dice_.between(0.2, 1);
       m.ior = dice_.one_in(3) ? 1 : dice_.between(0.6, 2);
     }
-    // The glossiest have a pattern. No dice: the scenes of the seeds stay what they are.
-    if (m.shininess > 50) m.pattern.kind = PatternKind::kMarble;
+    // The glossiest have a pattern, those before them another model. No dice: the scenes of the
+    // seeds stay what they are.
+    if (m.shininess > 50)
+      m.pattern.kind = PatternKind::kMarble;
+    else if (m.shininess > 30) {
+      m.model = m.shininess > 35 ? ShadingModel::kHallGreenberg : ShadingModel::kTorranceSparrow;
+      if (m.transmit == 0) m.ior = 1.5;
+      m.optics.index = {m.ior, m.ior, m.ior};
+      m.optics.transmit_shininess = 8;
+      m.optics.attenuation = {0.05, 0, 0.2};
+    }
     return m;
   }
 

@@ -90,16 +90,6 @@ TEST_CASE("what a farm does not take is refused where it stands, whoever asked b
         control::ErrorItem{"/max_depth", "roth and macro take at most 120; use serial"});
   CHECK(deep.errors[1] ==
         control::ErrorItem{"/lights", "roth and macro take at most 64 lights; use serial"});
-  scene = RandomModel(3).scene();
-  REQUIRE_FALSE(scene.materials.empty());
-  scene.materials.front().name = "a/b";
-  scene.materials.front().material.model = ShadingModel::kTorranceSparrow;
-  const std::string text = write_scene_text(scene);
-  const auto bytes = std::as_bytes(std::span(text));
-  const PreparationResult unbuilt = cut(Bytes(bytes.begin(), bytes.end()), {});
-  REQUIRE(unbuilt.errors.size() == 1);
-  CHECK(unbuilt.errors[0] ==
-        control::ErrorItem{"/materials/a~1b/model", "not built yet; \"phong\" and \"rt\" are"});
 }
 
 TEST_CASE(

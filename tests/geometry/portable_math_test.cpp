@@ -206,7 +206,43 @@ TEST_CASE("a power does not fall while its base rises") {
   }
 }
 
-TEST_CASE("known bits of sines and powers are the same on every machine") {
+TEST_CASE("powers of e are within 1e-15 wherever they are normal numbers") {
+  RandomNumbers random(11);
+  long double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = i % 2 == 0 ? random.between(-708, 709) : random.between(-2, 2);
+    worst = std::max(worst, relative_error(portable_exp(x), std::exp(static_cast<long double>(x))));
+  }
+  CHECK(worst < 1e-15L);
+  CHECK(portable_exp(0) == 1);
+  CHECK(portable_exp(1) == 0x1.5bf0a8b145769p+1);
+  CHECK(portable_exp(-1e-300) == 1);
+  CHECK(portable_exp(-708.5) == 0);
+  for (const double x : {-750.5, -1e300, -kInf}) CHECK(portable_exp(x) == 0);
+  for (const double x : {710.0, 750.5, 1e300, kInf}) CHECK(portable_exp(x) == kInf);
+  CHECK(std::isnan(portable_exp(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST_CASE("arc cosines are within 4 ulp, and nothing is beyond the ends") {
+  RandomNumbers random(12);
+  long double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    double cosine = random.between(-1, 1);
+    if (i % 4 == 0) cosine = 1 - std::ldexp(random.between(0.5, 1), -(i / 4 % 50));
+    worst =
+        std::max(worst, ulps(portable_acos(cosine), std::acos(static_cast<long double>(cosine))));
+  }
+  CHECK(worst < 4);
+  CHECK(portable_acos(0) == static_cast<double>(kPi / 2));
+  CHECK(portable_acos(0.5) == Approx(static_cast<double>(kPi / 3)).epsilon(1e-15));
+  for (const double beyond : {1.0, 1.0000001, kInf}) {
+    CHECK(portable_acos(beyond) == 0);
+    CHECK(portable_acos(-beyond) == static_cast<double>(kPi));
+  }
+  CHECK(std::isnan(portable_acos(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST_CASE("known bits of sines, powers and arc cosines are the same on every machine") {
   // Values of this implementation, recorded: another machine, compiler or option must not change a
   // bit.
   CHECK(std::bit_cast<std::uint64_t>(sin_degrees(20)) == 0x3fd5e3a8748a0bf5u);
@@ -214,4 +250,7 @@ TEST_CASE("known bits of sines and powers are the same on every machine") {
   CHECK(std::bit_cast<std::uint64_t>(portable_pow(0.97, 40)) == 0x3fd2ecf33ad9e56bu);
   CHECK(std::bit_cast<std::uint64_t>(portable_pow(0.97, 40.5)) == 0x3fd2a3b8f42a453au);
   CHECK(std::bit_cast<std::uint64_t>(portable_pow(0.9993, 5000)) == 0x3f9ee25dfb6db647u);
+  CHECK(std::bit_cast<std::uint64_t>(portable_exp(-0.7)) == 0x3fdfc80db9dd5542u);
+  CHECK(std::bit_cast<std::uint64_t>(portable_acos(0.3)) == 0x3ff441f5ecbeef59u);
+  CHECK(std::bit_cast<std::uint64_t>(portable_acos(0.97)) == 0x3fcf6eb0dd607284u);
 }

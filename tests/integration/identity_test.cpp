@@ -253,7 +253,7 @@ TEST_CASE("a picture does not show which subdivision found its crossings") {
                                   {"--algorithm", "macro", "-n", "8", "--returns", "sender"},
                                   {"--algorithm", "macro", "-n", "16", "--shadows", "forward"}};
   for (const char* scene : {"mirrors.json", "glass.json", "tori.json", "first.json", "ortho.json",
-                            "scatter1000.json"}) {
+                            "scatter1000.json", "spheres.json"}) {
     std::vector<Arguments> ways;
     for (const Arguments& algorithm : algorithms) {
       const auto add = [&](const Arguments& options) {
@@ -328,6 +328,9 @@ TEST_CASE("statistics tell the subdivision, and what its search did") {
 
 TEST_CASE("mirrors look the same whatever computes them") { check_identity("mirrors.json"); }
 TEST_CASE("glass looks the same whatever computes it") { check_identity("glass.json", kSmallSize); }
+TEST_CASE("rough metal and glass that dims light look the same whatever computes them") {
+  check_identity("spheres.json", kSmallSize);
+}
 TEST_CASE("AOVs are the same whatever computes them") {
   check_identity("first.json", kSize, {"--aov", "depth,normal,albedo,object"});
 }
@@ -373,7 +376,7 @@ TEST_CASE("an orthographic picture is the same whatever computes it") {
 TEST_CASE("a picture does not show which vector instructions computed it") {
   Sandbox sandbox;
   for (const char* scene :
-       {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json"}) {
+       {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json", "spheres.json"}) {
     std::string reference;
     for (const std::string& name : simd_names()) {
       INFO(scene << " with " << name);

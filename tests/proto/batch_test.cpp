@@ -35,7 +35,9 @@ RayTask some_ray(Random& random) {
   task.ends_at_horizon = task.kind == RayKind::kShadow && random.chance(2);
   task.credit_exponent = static_cast<std::uint8_t>(random.below(256));
   task.depth = static_cast<std::uint16_t>(random.below(10));
-  task.light = static_cast<std::uint16_t>(random.below(64) & 63);
+  const bool is_shadow = task.kind == RayKind::kShadow;
+  task.light_or_medium =
+      static_cast<std::uint16_t>(random.below(is_shadow ? kMaxCreditLights : kMaxMedia + 1) & 0xFF);
   task.region = {static_cast<std::uint16_t>(random.below(4)),
                  static_cast<std::uint16_t>(random.below(2)),
                  static_cast<std::uint16_t>(random.below(kMaxSlabs))};
@@ -125,7 +127,7 @@ TEST_CASE("a batch's header lies at the offsets that FORMAT.md gives") {
   const Bytes bytes = encode_rays(kStamp, some_rays(random, 2));
   REQUIRE(bytes.size() == 44 + 2 * 102);
   CHECK(std::memcmp(bytes.data(), "GCB1", 4) == 0);
-  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 2);
+  CHECK(load_little<std::uint16_t>(bytes.data() + 4) == 3);
   CHECK(load_little<std::uint8_t>(bytes.data() + 6) == 1);
   CHECK(load_little<std::uint8_t>(bytes.data() + 7) == 0);
   CHECK(load_little<std::uint32_t>(bytes.data() + 8) == 3);
@@ -148,7 +150,7 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   task.kind = RayKind::kReflection;
   task.credit_exponent = 130;
   task.depth = 0x05;
-  task.light = 0x06;
+  task.light_or_medium = 0x06;
   task.region = {0x0708, 0x090A};
   task.hops = 0x0B0C;
   const Bytes bytes = encode_rays(kStamp, std::span(&task, 1));
@@ -326,7 +328,7 @@ TEST_CASE("a damaged header is refused, and the error says what is wrong") {
   const Bytes good = encode_rays(kStamp, some_rays(random, 2));
   REQUIRE(peek_header(good).index() == 0);
   CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
-  CHECK(error_of(peek_header(with(good, 4, std::uint16_t{3}))) == BatchError::kBadVersion);
+  CHECK(error_of(peek_header(with(good, 4, std::uint16_t{4}))) == BatchError::kBadVersion);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{15}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
@@ -391,7 +393,11 @@ TEST_CASE("rays with values that no ray can have are refused") {
          r.ends_at_horizon = true;
        }},
       {"depth is beyond the job's", [](RayTask& r) { r.depth = 10; }},
-      {"there is no such light", [](RayTask& r) { r.light = 64; }},
+      {"there is no such light",
+       [](RayTask& r) {
+         r.kind = RayKind::kShadow;
+         r.light_or_medium = 64;
+       }},
       {"column is outside the grid", [](RayTask& r) { r.region.column = 4; }},
       {"row is outside the grid", [](RayTask& r) { r.region.row = 2; }},
   };
@@ -407,6 +413,17 @@ TEST_CASE("rays with values that no ray can have are refused") {
   narrow.max_exponent = 100;
   good[0].credit_exponent = 101;
   std::vector<RayTask> rays;
+  CHECK(error_of(decode_rays(encode_rays(kStamp, good), narrow, rays)) == BatchError::kBadValue);
+  narrow = kLimits;
+  narrow.media = 2;
+  good = some_rays(random, 2);
+  for (RayTask& ray : good) {
+    ray.kind = RayKind::kRefraction;
+    ray.ends_at_horizon = false;
+    ray.light_or_medium = 2;
+  }
+  CHECK(decode_rays(encode_rays(kStamp, good), narrow, rays).index() == 0);
+  good[1].light_or_medium = 3;
   CHECK(error_of(decode_rays(encode_rays(kStamp, good), narrow, rays)) == BatchError::kBadValue);
   narrow = kLimits;
   narrow.max_hops = 120;

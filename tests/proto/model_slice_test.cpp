@@ -114,6 +114,23 @@ Pattern some_pattern(Random& random) {
   return p;
 }
 
+/// Gives a material of Torrance–Sparrow's or Hall–Greenberg's model its optics.
+void add_optics(Random& random, Material& m) {
+  for (double* share : {&m.diffuse, &m.specular, &m.reflect}) *share = random.uniform(0, 1);
+  const auto colour = [&](double lo, double hi) {
+    return Rgb{random.uniform(lo, hi), random.uniform(lo, hi), random.uniform(lo, hi)};
+  };
+  m.optics = {{m.ior, m.ior, m.ior},
+              {0, 0, 0},
+              random.rgb(),
+              random.uniform(0.01, 1),
+              random.not_negative()};
+  if (random.chance(2)) return;
+  m.transmit = 0;
+  m.optics.index = colour(0.1, 3);
+  m.optics.absorption = colour(0, 9);
+}
+
 Model some_model(std::uint64_t seed) {
   Random random(seed);
   Model model;
@@ -124,6 +141,7 @@ Model some_model(std::uint64_t seed) {
                                random.not_negative(), random.not_negative(), random.not_negative(),
                                random.uniform(0, 1), random.uniform(0.1, 3),
                                kModels[random.below(5)], some_pattern(random)});
+    if (has_fresnel(model.materials.back())) add_optics(random, model.materials.back());
   }
   for (std::uint64_t n = random.below(5); n > 0; --n)
     model.planes.push_back({random.vec(), random.any_finite()});
@@ -233,6 +251,12 @@ TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives"
   CHECK(load_little<double>(primitive + 7 + 24) == 0.5);
 }
 
+/// Makes the first material one of Hall–Greenberg's model, whose index isn't its `ior`.
+Material& glaze(Model& m) {
+  m.materials[0].model = ShadingModel::kHallGreenberg;
+  return m.materials[0];
+}
+
 TEST_CASE("a broken model is refused, and the error names the part") {
   using Change = std::function<void(Model&)>;
   const std::tuple<const char*, const char*, Change> changes[] = {
@@ -282,6 +306,18 @@ TEST_CASE("a broken model is refused, and the error names the part") {
       {"material 0", "range", [](Model& m) { m.materials[0].diffuse = std::nan(""); }},
       {"material 0", "shading",
        [](Model& m) { m.materials[0].model = static_cast<ShadingModel>(3); }},
+      {"material 0", "optics", [](Model& m) { glaze(m).optics.roughness = 0; }},
+      {"material 0", "optics", [](Model& m) { glaze(m).optics.index.g = 2000; }},
+      {"material 0", "optics", [](Model& m) { glaze(m).optics.absorption.b = std::nan(""); }},
+      {"material 0", "optics", [](Model& m) { glaze(m).optics.attenuation.r = kInf; }},
+      {"material 0", "optics", [](Model& m) { glaze(m).optics.transmit_shininess = -1; }},
+      {"material 0", "optics", [](Model& m) { glaze(m).specular = 1.25; }},
+      {"material 0", "optics", [](Model& m) { glaze(m).transmit = 0.5; }},
+      {"material 255", "media",
+       [](Model& m) {
+         glaze(m).optics.attenuation = {0, 1, 0};
+         m.materials.resize(kMaxMedia + 1, m.materials[0]);
+       }},
       {"material 0", "unknown pattern",
        [](Model& m) { m.materials[0].pattern.kind = static_cast<PatternKind>(kPatternKinds); }},
       {"material 0", "pattern out of range",

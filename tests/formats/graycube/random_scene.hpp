@@ -90,8 +90,31 @@ class RandomScene {
     constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranceSparrow,
                                         ShadingModel::kHallGreenberg, ShadingModel::kRt,
                                         ShadingModel::kRtLamp};
-    return {color(),    positive(), positive(), positive(),        positive(),
-            positive(), fraction(), positive(), kModels[below(5)], pattern()};
+    Material m{color(),    positive(), positive(), positive(),        positive(),
+               positive(), fraction(), positive(), kModels[below(5)], pattern()};
+    if (has_fresnel(m)) optics(m);
+    return m;
+  }
+  /// What the model doesn't use keeps its default: it isn't written.
+  void optics(Material& m) {
+    for (double* share : {&m.diffuse, &m.specular, &m.reflect}) *share = fraction();
+    const auto each = [&] { return Rgb{0.1 + fraction(), 0.1 + fraction(), 0.1 + fraction()}; };
+    Optics& o = m.optics;
+    o.index = each();
+    if (below(2) == 0) {
+      m.transmit = 0;
+      o.absorption = each();
+    } else {
+      o.index = {o.index.r, o.index.r, o.index.r};
+    }
+    m.ior = o.index.r;
+    if (m.model == ShadingModel::kTorranceSparrow) {
+      m.shininess = 1;
+      o.roughness = kLeastRoughness + fraction() * (kMostRoughness - kLeastRoughness);
+    } else {
+      o.transmit_shininess = positive();
+      if (below(2) == 0) o.attenuation = color();
+    }
   }
   /// What the kind doesn't use keeps its default: it isn't written.
   Pattern pattern() {

@@ -99,8 +99,9 @@ TEST_CASE("every setting is read") {
           .with(
               "materials",
               R"({"all": {"color": [1,2,3], "ambient": 4, "diffuse": 5, "specular": 6, "shininess": 7,
-                                 "reflect": 8, "transmit": 0.5, "ior": 1.5, "model": "torrance_sparrow"},
-                                 "hall": {"model": "hall_greenberg"},
+                                 "reflect": 8, "transmit": 0.5, "ior": 1.5},
+                                 "hall": {"model": "hall_greenberg", "transmit": 0.5, "ior": 1.7,
+                                          "shininess": 30, "attenuation": [0.1,0,2]},
                                  "rt": {"model": "rt"}, "lamp": {"model": "rt_lamp"},
                                  "camo": {"pattern": {"type": "camouflage",
                                    "colors": [[1,0,0], [0,1,0], [0,0,1]],
@@ -136,10 +137,32 @@ TEST_CASE("every setting is read") {
   CHECK(marble.colors[0] == Rgb{1, 0, 0});
   CHECK(marble.octaves == NoiseOctaves{});
   CHECK(scene.materials[0].material ==
-        Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kTorranceSparrow});
-  CHECK(scene.materials[1].material.model == ShadingModel::kHallGreenberg);
+        Material{{1, 2, 3}, 4, 5, 6, 7, 8, 0.5, 1.5, ShadingModel::kPhong});
+  const Material& hall = scene.materials[1].material;
+  CHECK(hall.model == ShadingModel::kHallGreenberg);
+  CHECK(hall.ior == 1.7);
+  CHECK(hall.optics == Optics{{1.7, 1.7, 1.7}, {0, 0, 0}, {0.1, 0, 2}, 0.2, 30});
   CHECK(scene.materials[2].material.model == ShadingModel::kRt);
   CHECK(scene.materials[3].material.model == ShadingModel::kRtLamp);
+}
+
+TEST_CASE("models with Fresnel's equations have an index by colour, and defaults of their own") {
+  const auto material = [](const std::string& text) {
+    return read(SceneText().with("materials", "{\"m\": " + text + "}")).materials.at(0).material;
+  };
+  const Material plain = material(R"({"model": "torrance_sparrow"})");
+  CHECK(plain.optics == Optics{});
+  CHECK(plain.ior == 1.5);
+  CHECK(plain.specular == 0);
+  const Material gold = material(
+      R"({"absorption": [4.1,2.3,1.9], "ior": [0.14,0.37,1.44], "roughness": 0.4, "reflect": 1,
+          "model": "torrance_sparrow"})");
+  CHECK(gold.optics == Optics{{0.14, 0.37, 1.44}, {4.1, 2.3, 1.9}, {0, 0, 0}, 0.4, 1});
+  const Material glass = material(
+      R"({"model": "hall_greenberg", "ior": 1.3, "shininess": 9, "transmit_shininess": 90,
+          "attenuation": 0.25})");
+  CHECK(glass.optics == Optics{{1.3, 1.3, 1.3}, {0, 0, 0}, {0.25, 0.25, 0.25}, 0.2, 90});
+  CHECK(glass.shininess == 9);
 }
 
 TEST_CASE("every kind of leaf is read") {

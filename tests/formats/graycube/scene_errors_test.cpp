@@ -193,7 +193,55 @@ TEST_CASE("a bad material is refused") {
        bad(R"("model": "fong")", "model", "did you mean \"phong\"?"),
        bad(R"("diffuse": 1e999)", "diffuse", "found 1e999"),
        bad(R"("colour": [1,1,1])", "colour", "did you mean \"color\"?"),
-       bad(R"("difuse": 1)", "difuse", "did you mean \"diffuse\"?")});
+       bad(R"("difuse": 1)", "difuse", "did you mean \"diffuse\"?"),
+       bad(R"("model": "hall_greenburg")", "model", "did you mean \"hall_greenberg\"?")});
+}
+
+TEST_CASE("numbers beyond what a model means, and keys of other models, are refused") {
+  const auto bad = [](const std::string& model, const std::string& member, const std::string& key,
+                      const std::string& fragment) {
+    return Case{R"({"red": {"model": ")" + model + "\", " + member + "}}", "/materials/red/" + key,
+                fragment};
+  };
+  const std::string phong = "phong", facets = "torrance_sparrow", hall = "hall_greenberg";
+  check_key(
+      "materials",
+      {bad(facets, R"("specular": 1.5)", "specular", "a number from 0 to 1, found 1.5"),
+       bad(hall, R"("diffuse": 2)", "diffuse", "from 0 to 1"),
+       bad(hall, R"("reflect": 1.01)", "reflect", "from 0 to 1"),
+       bad(facets, R"("roughness": 0)", "roughness", "a number from 0.001 to 1, found 0"),
+       bad(facets, R"("roughness": 1.5)", "roughness", "found 1.5"),
+       bad(hall, R"("ior": 0)", "ior", "a number from 0.001 to 1000, found 0"),
+       bad(hall, R"("ior": [1.5,1e4,1.5])", "ior/1", "a number from 0.001 to 1000, found 1"),
+       bad(hall, R"("ior": [1.5,1.5])", "ior", "or three of them for red, green and blue"),
+       bad(phong, R"("ior": [1.5,1.5,1.5])", "ior", "a finite number > 0"),
+       bad(facets, R"("absorption": -1)", "absorption", "a number from 0 to 1000"),
+       bad(hall, R"("attenuation": [1,-1,0])", "attenuation/1", ">= 0"),
+       bad(hall, R"("transmit_shininess": -1)", "transmit_shininess", ">= 0"),
+       bad(hall, R"("transmit": 0.5, "ior": [1.5,1.6,1.5])", "ior", "expected one number"),
+       bad(facets, R"("transmit": 0.5, "absorption": [0,0,1])", "absorption",
+           "to dim light on its way inside use \"attenuation\""),
+       bad(facets, R"("shininess": 20)", "shininess",
+           "the model \"torrance_sparrow\" has no key \"shininess\"; did you mean \"roughness\"?"),
+       bad(phong, R"("roughness": 0.2)", "roughness", "did you mean \"shininess\"?"),
+       bad("rt", R"("absorption": 2)", "absorption",
+           "it belongs to \"torrance_sparrow\" and \"hall_greenberg\""),
+       bad(facets, R"("attenuation": 1)", "attenuation", "it belongs to \"hall_greenberg\""),
+       bad(phong, R"("transmit_shininess": 1)", "transmit_shininess",
+           "it belongs to \"hall_greenberg\"")});
+}
+
+TEST_CASE("more media than a ray's record has numbers for are refused") {
+  const auto with_media = [](std::size_t count) {
+    std::string text = "{";
+    for (std::size_t i = 0; i < count; ++i)
+      text += (i == 0 ? "\"m" : ", \"m") + std::to_string(i) +
+              "\": {\"model\": \"hall_greenberg\", \"attenuation\": 1}";
+    return SceneText().with("materials", text + "}").text();
+  };
+  CHECK(read_scene_text(with_media(kMaxMedia)).scene);
+  check_errors(with_media(kMaxMedia + 1),
+               {{"/materials", "expected at most 255 materials with \"attenuation\", found 256"}});
 }
 
 TEST_CASE("a bad pattern is refused") {

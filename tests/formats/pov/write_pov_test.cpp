@@ -221,6 +221,23 @@ TEST_CASE("what POV-Ray can't compute is told") {
   warned("max_depth", "256", "at most 256 generations");
 }
 
+TEST_CASE("materials of models that POV-Ray doesn't have become the most alike of Phong's") {
+  const auto finish_of = [](const std::string& material) {
+    return pov_of(SceneText::of_csg(R"({"type": "ref", "shape": "ball"})")
+                      .with("materials", "{\"red\": " + material + "}"))
+        .text;
+  };
+  // Index 3 mirrors a quarter of what falls straight on it; 1 / (4 m²) is 4 and 1 / (2 m²) is 8.
+  require_holds(finish_of(R"({"model": "torrance_sparrow", "ior": 3, "roughness": 0.25,
+                              "specular": 0.5, "reflect": 0.5})"),
+                "phong 0.5 phong_size 8 reflection { 0.125 } }");
+  const std::string glass = finish_of(R"({"model": "hall_greenberg", "ior": 3, "specular": 1,
+                                          "shininess": 100, "transmit": 0.5})");
+  require_holds(glass, "rgbt <1,1,1,0.375>");
+  require_holds(glass, "phong 0.25 phong_size 25 }");
+  require_holds(glass, "interior { ior 3 }");
+}
+
 TEST_CASE("braces balance whatever the scene, and names stay in their comments") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const std::string text = write_pov(RandomScene(seed).make()).text;
