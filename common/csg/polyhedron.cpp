@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "csg/half_space.hpp"
@@ -37,8 +39,10 @@ Polygon clipped(const Polygon& polygon, const Plane& plane) {
 /// Beyond half this multiple of the largest offset a vertex counts as infinitely far: bounds may
 /// always be too large, but clipping a larger square would lose the digits of the near vertices.
 constexpr double kReach = 1e4;
-/// Faces beyond this many make clipping every face by every other too slow; bounds stay infinite.
-constexpr std::size_t kMaxClippedFaces = 4096;
+/// With more faces, clipping every one by every other takes too long, and bounds are those of about
+/// as many that matter most.
+constexpr std::size_t kMaxClippedFaces = 256;
+constexpr int kMaxRounds = 20;
 
 /// The bounds that the faces across the world axes alone imply; infinite elsewhere.
 Aabb bounds_of_axis_faces(std::span<const Plane> faces) {
@@ -51,6 +55,54 @@ Aabb bounds_of_axis_faces(std::span<const Plane> faces) {
     }
   }
   return bounds;
+}
+
+/// The corners of the solid, each several times, and of squares where it reaches farther than
+/// `reach`. Faces may be off by the margin.
+Polygon corners_of(std::span<const Plane> faces, double reach, double margin) {
+  Polygon corners;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    Polygon polygon = square_in(faces[i], reach);
+    for (std::size_t j = 0; j < faces.size() && !polygon.empty(); ++j) {
+      // Coincident faces would clip one another to nothing or to all; all is wanted.
+      if (j != i && !(faces[j] == faces[i])) {
+        Plane loose = faces[j];
+        loose.offset += margin;
+        polygon = clipped(polygon, loose);
+      }
+    }
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
+  }
+  return corners;
+}
+
+/// Faces evenly through the list, half as many as are clipped.
+std::vector<Plane> some_of(std::span<const Plane> faces) {
+  std::vector<Plane> some;
+  constexpr std::size_t kCount = kMaxClippedFaces / 2;
+  for (std::size_t i = 0; i < kCount; ++i) some.push_back(faces[i * faces.size() / kCount]);
+  return some;
+}
+
+/// Adds the faces that cut off most of the corners that are outermost along the world axes; false
+/// if none does.
+bool add_missed(std::span<const Plane> faces, std::span<const Vec3> corners, double margin,
+                std::vector<Plane>& chosen) {
+  bool has_added = false;
+  for (int side = 0; side < 6 && !corners.empty(); ++side) {
+    const auto along = [&](const Vec3& v) { return side < 3 ? v[side] : -v[side - 3]; };
+    const Vec3 outermost =
+        *std::max_element(corners.begin(), corners.end(),
+                          [&](const Vec3& a, const Vec3& b) { return along(a) < along(b); });
+    const auto beyond = [&](const Plane& f) { return dot(f.normal, outermost) - f.offset; };
+    const Plane missed =
+        *std::max_element(faces.begin(), faces.end(),
+                          [&](const Plane& a, const Plane& b) { return beyond(a) < beyond(b); });
+    if (!(beyond(missed) > 2 * margin)) continue;
+    chosen.push_back(missed);
+    has_added = true;
+  }
+  return has_added;
 }
 
 }  // namespace
@@ -67,29 +119,27 @@ Aabb half_space_bounds(const Plane& plane) {
 
 Aabb polyhedron_bounds(std::span<const Plane> faces) {
   const Aabb unclipped = bounds_of_axis_faces(faces);
-  if (faces.size() > kMaxClippedFaces) return unclipped;
   double scale = 0;
   for (const Plane& f : faces) scale = std::fmax(scale, std::fabs(f.offset));
   if (scale == 0) scale = 1;
   const double reach = kReach * scale;
   const double margin = 1e-12 * reach;
+  Polygon corners;
+  if (faces.size() <= kMaxClippedFaces) {
+    corners = corners_of(faces, reach, margin);
+  } else {
+    // Without some of its faces the solid is larger, and so are its bounds.
+    std::vector<Plane> chosen = some_of(faces);
+    corners = corners_of(chosen, reach, margin);
+    for (int round = 0; round < kMaxRounds && add_missed(faces, corners, margin, chosen); ++round)
+      corners = corners_of(chosen, reach, margin);
+  }
   Aabb bounds = Aabb::nothing();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    Polygon polygon = square_in(faces[i], reach);
-    for (std::size_t j = 0; j < faces.size() && !polygon.empty(); ++j) {
-      // Coincident faces would clip one another to nothing or to all; all is wanted.
-      if (j != i && !(faces[j] == faces[i])) {
-        Plane loose = faces[j];
-        loose.offset += margin;
-        polygon = clipped(polygon, loose);
-      }
-    }
-    for (const Vec3& v : polygon) {
-      // An unbounded solid may reach farther than its clipped faces in any direction, a half-space
-      // at once.
-      if (max_abs(v) > 0.5 * reach) return unclipped;
-      bounds.include(v);
-    }
+  for (const Vec3& v : corners) {
+    // An unbounded solid may reach farther than its clipped faces in any direction, a half-space
+    // at once.
+    if (max_abs(v) > 0.5 * reach) return unclipped;
+    bounds.include(v);
   }
   // No face within reach: the solid is empty, or all of it is farther away.
   return bounds.is_empty() ? unclipped : bounds.grown(margin);

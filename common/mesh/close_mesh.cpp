@@ -11,6 +11,7 @@
 
 #include "mesh/cut_face.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/face_limits.hpp"
 #include "mesh/join_points.hpp"
 #include "written_digits.hpp"
 
@@ -84,9 +85,9 @@ std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
     const std::string where = "face " + std::to_string(f) + " has ";
     if (n < 3)
       return MeshFault{where + counted(n, "corner", "corners") + ", at least 3 are needed"};
-    if (n > kMaxFaceCorners) {
+    if (n > kMostFaceCorners) {
       return MeshFault{where + std::to_string(n) + " corners, at most " +
-                       std::to_string(kMaxFaceCorners) + " are accepted"};
+                       std::to_string(kMostFaceCorners) + " are accepted"};
     }
     for (std::uint32_t i = begin; i < end; ++i) {
       if (p.corners[i] >= p.points.size()) {

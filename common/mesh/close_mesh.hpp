@@ -49,7 +49,7 @@ struct MeshFault {
 /// fault is that of the mesh as written.
 ///
 /// Faults: points that aren't finite, indices out of range, faces of fewer than 3 or more than
-/// kMaxFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
+/// kMostFaceCorners corners, more than kMaxMeshPoints or kMaxMeshTriangles, nothing left, open or
 /// contradicting edges.
 std::variant<TriangleMesh, MeshFault> closed_mesh(const PolygonMesh& polygons,
                                                   double join_within = 0);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/delaunay_flips.hpp"
+#include "mesh/ear_cut.hpp"
 #include "mesh/monotone_cut.hpp"
 
 namespace graycube {
@@ -143,69 +144,22 @@ bool is_convex(std::span<const Flat> flat) {
   return reversals <= 2;
 }
 
-/// Cuts ears off a ring of corners (Meisters 1975).
-class EarCutter {
- public:
-  explicit EarCutter(std::span<const Flat> flat) : flat_(flat), ring_(flat.size()) {
-    for (std::uint32_t i = 0; i < ring_.size(); ++i) ring_[i] = i;
+/// Makes the triangles' numbers of the face's corners numbers of points.
+void name_corners(std::span<Triangle> triangles, std::span<const std::uint32_t> face) {
+  for (Triangle& t : triangles) {
+    for (std::uint32_t& corner : t) corner = face[corner];
   }
-
-  template <typename Emit>
-  void run(Emit&& emit) {
-    std::size_t at = 0;
-    while (ring_.size() > 3) {
-      const std::size_t n = ring_.size();
-      std::size_t tried = 0;
-      while (tried < n && !is_ear((at + tried) % n)) ++tried;
-      // A face without ears is bent or crosses itself: any cut is as good.
-      const std::size_t ear = (at + tried) % n;
-      emit(corner(ear, n - 1), corner(ear, 0), corner(ear, 1));
-      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      // Goes on past the neighbour, so that no fan of slivers grows about one corner.
-      at = (ear + 1) % ring_.size();
-    }
-    emit(ring_[0], ring_[1], ring_[2]);
-  }
-
- private:
-  std::uint32_t corner(std::size_t i, std::size_t offset) const {
-    return ring_[(i + offset) % ring_.size()];
-  }
-
-  bool is_ear(std::size_t i) const {
-    const std::uint32_t ia = corner(i, ring_.size() - 1), ib = ring_[i], ic = corner(i, 1);
-    const Flat &a = flat_[ia], &b = flat_[ib], &c = flat_[ic];
-    if (!(turn(a, b, c) > 0)) return false;
-    for (const std::uint32_t j : ring_) {
-      if (j == ia || j == ib || j == ic) continue;
-      const Flat& p = flat_[j];
-      const bool is_corner =
-          (p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y);
-      if (!is_corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
-        return false;
-    }
-    return true;
-  }
-
-  std::span<const Flat> flat_;
-  std::vector<std::uint32_t> ring_;
-};
+}
 
 /// What the surface is depends on where a bent face is cut.
 void cut_bent(std::span<const Vec3> points, std::span<const std::uint32_t> face,
               std::vector<Triangle>& triangles) {
   const std::vector<Flat> flat = flattened_bent(points, face);
   const std::size_t first = triangles.size();
-  if (!cut_monotone(flat, triangles)) {
-    EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      triangles.push_back({a, b, c});
-    });
-  }
+  if (!cut_monotone(flat, triangles)) cut_ears(flat, triangles);
   const std::span<Triangle> own = std::span(triangles).subspan(first);
   flip_to_delaunay(flat, own);
-  for (Triangle& t : own) {
-    for (std::uint32_t& corner : t) corner = face[corner];
-  }
+  name_corners(own, face);
 }
 
 }  // namespace
@@ -231,9 +185,9 @@ void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
       triangles.push_back({face[0], face[i - 1], face[i]});
     return;
   }
-  EarCutter(flat).run([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    triangles.push_back({face[a], face[b], face[c]});
-  });
+  const std::size_t first = triangles.size();
+  cut_ears(flat, triangles);
+  name_corners(std::span(triangles).subspan(first), face);
 }
 
 }  // namespace graycube

@@ -12,6 +12,10 @@ namespace {
 /// than 180° together: libtess2, by which OpenSCAD cuts faces, lets the side stay as long (geom.c).
 constexpr double kCosine = 0.99995000041666528, kSine = 0.0099998333341666646;
 
+/// The most flips, which only a bent face of more than 4096 corners can need: 10 s. What is left
+/// then stays as it is.
+constexpr std::size_t kMaxFlips = std::size_t{1} << 24;
+
 double turn(const FacePoint& a, const FacePoint& b, const FacePoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -43,7 +47,8 @@ class Flips {
       if (side.first < side.second) open.push_back(side);
     }
     // Each flip lowers the triangulation; the limit is for rounding that would go in circles.
-    std::size_t left = triangles_.size() * triangles_.size() + triangles_.size();
+    const std::size_t n = triangles_.size();
+    std::size_t left = std::min(n * n + n, kMaxFlips);
     while (!open.empty() && left-- > 0) {
       const Side side = open.back();
       open.pop_back();

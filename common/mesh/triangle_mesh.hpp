@@ -30,7 +30,5 @@ struct TriangleMesh {
 /// The most triangles, and points, of all meshes of a scene together.
 inline constexpr std::uint32_t kMaxMeshTriangles = 1u << 23;
 inline constexpr std::uint32_t kMaxMeshPoints = 1u << 23;
-/// The most corners of a face; larger faces would take too long to cut.
-inline constexpr std::uint32_t kMaxFaceCorners = 1u << 12;
 
 }  // namespace graycube

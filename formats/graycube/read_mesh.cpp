@@ -1,6 +1,7 @@
 // Reads the mesh leaf: points and faces, or a file.
 #include "formats/graycube/read_leaf.hpp"
 #include "mesh/close_mesh.hpp"
+#include "mesh/face_limits.hpp"
 #include "written_digits.hpp"
 
 namespace graycube {
@@ -12,8 +13,8 @@ bool read_face(JsonAccess& json, JsonIndex at, std::uint32_t points,
                std::vector<std::uint32_t>& face) {
   if (!json.is_array(at)) return false;
   const std::uint32_t corners = json.tree.size(at);
-  if (corners < 3 || corners > kMaxFaceCorners) {
-    return json.wrong(at, "a face of 3 to " + std::to_string(kMaxFaceCorners) + " corners");
+  if (corners < 3 || corners > kMostFaceCorners) {
+    return json.wrong(at, "a face of 3 to " + std::to_string(kMostFaceCorners) + " corners");
   }
   face.resize(corners);
   bool good = true;

@@ -16,6 +16,11 @@ constexpr std::size_t kMaxExcerpt = 40;
 
 /// Scenes have a value every 10 bytes or so; memory reserved in excess is never touched.
 constexpr std::size_t kBytesPerValue = 7;
+/// In longer texts values are counted first.
+constexpr std::size_t kMaxUncountedBytes = std::size_t{1} << 24;
+/// simdjson takes 4 bytes more for each token, of which there are two a value: texts of more values
+/// are left to the careful parser.
+constexpr std::size_t kMaxFastValues = std::size_t{1} << 25;
 
 std::string shortest_text(double v) {
   char digits[32];
@@ -51,7 +56,8 @@ JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text
     return;
   }
   if (!has_few_values()) return;
-  was_read_fast_ = padded != nullptr && read_fast(*padded);
+  const bool may_be_fast = padded != nullptr && values_.capacity() <= kMaxFastValues;
+  was_read_fast_ = may_be_fast && read_fast(*padded);
   if (was_read_fast_) return;
   values_.clear();
   decoded_.clear();
@@ -60,9 +66,8 @@ JsonTree::JsonTree(std::string_view text, const PaddedText* padded) : text_(text
 
 bool JsonTree::has_few_values() {
   // Growing by doubling would touch three times the memory, and first touches are half the time.
-  constexpr std::size_t kLeastBytes = 2;  // a digit and a comma
   std::size_t expected = text_.size() / kBytesPerValue + 1;
-  if (text_.size() / kLeastBytes >= kMaxJsonValues) {
+  if (text_.size() > kMaxUncountedBytes) {
     expected = most_values(text_);
     if (expected > kMaxJsonValues) {
       values_.emplace_back();
@@ -71,7 +76,7 @@ bool JsonTree::has_few_values() {
       return false;
     }
   }
-  values_.reserve(std::min<std::size_t>(expected, kMaxJsonValues));
+  values_.reserve(expected);
   return true;
 }
 

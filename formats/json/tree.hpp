@@ -23,9 +23,10 @@ inline constexpr std::uint32_t kMaxJsonString = 65535;
 
 /// CBOR begins with these bytes, the tag that describes itself (RFC 8949, 3.4.6); JSON doesn't.
 inline constexpr std::string_view kCborMagic = "\xD9\xD9\xF7";
-/// Most values of a text: each takes 24 bytes of memory, and may be as short as two bytes, in CBOR
-/// as one.
-inline constexpr std::uint32_t kMaxJsonValues = 1u << 26;
+/// Most values of a text: each takes 24 bytes of memory, 1.3 GB together, and may be as short as
+/// two bytes, in CBOR as one. The largest mesh, of 2^23 triangles and half as many points, has
+/// 12 << 22.
+inline constexpr std::uint32_t kMaxJsonValues = 13u << 22;
 /// Most values of CBOR that is read in pieces, of which few are in memory at a time.
 inline constexpr std::uint32_t kMaxCborValues = 1u << 27;
 

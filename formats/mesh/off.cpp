@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/mesh/words.hpp"
+#include "mesh/face_limits.hpp"
 
 namespace graycube {
 namespace {
@@ -128,8 +129,8 @@ class TextReader {
   std::optional<MeshFault> read_face() {
     std::uint32_t corners = 0;
     if (!words_.read(corners)) return words_.expected("a face's number of corners");
-    if (corners > kMaxFaceCorners) {
-      return words_.fault("expected a face of at most " + std::to_string(kMaxFaceCorners) +
+    if (corners > kMostFaceCorners) {
+      return words_.fault("expected a face of at most " + std::to_string(kMostFaceCorners) +
                           " corners");
     }
     face_.resize(corners);
@@ -221,9 +222,9 @@ class BinaryReader {
   std::optional<MeshFault> read_face(PolygonMesh& mesh, std::vector<std::uint32_t>& face) {
     std::uint32_t corners = 0, colors = 0;
     if (!take(corners)) return cut_off();
-    if (corners > kMaxFaceCorners) {
+    if (corners > kMostFaceCorners) {
       return MeshFault{"a face of " + std::to_string(corners) + " corners, at most " +
-                       std::to_string(kMaxFaceCorners) + " are accepted"};
+                       std::to_string(kMostFaceCorners) + " are accepted"};
     }
     face.resize(corners);
     for (std::uint32_t& i : face) {

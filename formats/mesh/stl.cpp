@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "formats/mesh/words.hpp"
+#include "mesh/face_limits.hpp"
 
 namespace graycube {
 namespace {
@@ -147,8 +148,8 @@ class AsciiReader {
   std::optional<MeshFault> read_corners(std::string_view& word, PolygonMesh& mesh) {
     face_.clear();
     for (; equal_words(word, "vertex"); word = keyword()) {
-      if (face_.size() == kMaxFaceCorners)
-        return words_.fault("more than " + std::to_string(kMaxFaceCorners) + " corners");
+      if (face_.size() == kMostFaceCorners)
+        return words_.fault("more than " + std::to_string(kMostFaceCorners) + " corners");
       if (points_ == 3 * kMaxFacets) return too_many_facets(kMaxFacets + 1);
       Vec3 p;
       for (int a = 0; a < 3; ++a) {

@@ -164,6 +164,28 @@ TEST_CASE("bounds enclose every point inside, however far") {
   });
 }
 
+TEST_CASE("bounds of a polyhedron of thousands of faces are those of its corners") {
+  // Faces that touch an ellipsoid: the polyhedron holds it, and is hardly larger.
+  Dice dice(5);
+  const Vec3 axes{3, 1, 0.5};
+  std::vector<Plane> faces;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 n = dice.unit_vector();
+    const Vec3 scaled{axes.x * n.x, axes.y * n.y, axes.z * n.z};
+    faces.push_back({n, length(scaled)});
+  }
+  const Aabb b = csg::polyhedron_bounds(faces);
+  for (int a = 0; a < 3; ++a) {
+    CHECK(b.hi[a] >= axes[a]);
+    CHECK(b.hi[a] <= 1.01 * axes[a]);
+    CHECK(b.lo[a] <= -axes[a]);
+    CHECK(b.lo[a] >= -1.01 * axes[a]);
+  }
+  // Faces on one side alone bound nothing.
+  std::erase_if(faces, [](const Plane& f) { return f.normal.z > 0; });
+  CHECK(csg::polyhedron_bounds(faces).hi.z == kInf);
+}
+
 TEST_CASE("bounds are tight around bounded solids") {
   // The polyhedra's planes may cut a box without reaching its bounds' corners, but every side is
   // touched.

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "mesh/cut_face.hpp"
+#include "mesh/face_limits.hpp"
 #include "mesh/samples.hpp"
 #include "written_digits.hpp"
 
@@ -153,8 +154,8 @@ TEST_CASE("faces, points and corners out of range are refused") {
     CHECK(contains_text(fault_of(mesh), "face 6 has 2 corners"));
   }
   SECTION("too many corners") {
-    mesh.add_face(std::vector<std::uint32_t>(kMaxFaceCorners + 1, 0u));
-    CHECK(contains_text(fault_of(mesh), "corners, at most 4096"));
+    mesh.add_face(std::vector<std::uint32_t>(kMostFaceCorners + 1, 0u));
+    CHECK(contains_text(fault_of(mesh), "corners, at most 131072"));
   }
   SECTION("no face at all") {
     CHECK(contains_text(fault_of({mesh.points, {}, {}}), "no face encloses anything"));
@@ -237,6 +238,27 @@ TEST_CASE("bent faces with their corners on a circle are cut where OpenSCAD cuts
   CHECK(diagonals(nearly, FaceSide::kOuter) == Diagonals{{1, 3}});
   const std::vector<Vec3> clearly{{0, 0, 0.2}, {1, 0, 0}, {0.9, 0.9, 0}, {0, 1, 0}};
   CHECK(diagonals(clearly, FaceSide::kOuter) == Diagonals{{0, 2}});
+}
+
+TEST_CASE("a flat face of 100 000 corners is cut without overlaps") {
+  // A comb whose teeth are of different lengths.
+  std::vector<Vec3> comb{{0, 0, 0}, {50000, 0, 0}};
+  double area = 50000 * 5.0;
+  for (int i = 24999; i >= 0; --i) {
+    const double x = 2.0 * i, top = 10 + i * 37 % 101;
+    for (const auto& [dx, y] : {std::pair{1.5, top}, {0.5, top}, {0.5, 5.0}})
+      comb.push_back({x + dx, y, 0});
+    if (i > 0) comb.push_back({x - 0.5, 5, 0});
+    area += top - 5;
+  }
+  comb.insert(comb.begin() + 2, {50000, 5, 0});
+  comb.insert(comb.begin() + 3, {49999.5, 5, 0});
+  comb.push_back({0, 5, 0});
+  const auto areas = cut_areas(comb);
+  REQUIRE(areas.size() == comb.size() - 2);
+  double sum = 0;
+  for (const double a : areas) sum += std::fabs(a);
+  CHECK(sum == Approx(area));
 }
 
 TEST_CASE("a bent fan of many corners has no corner within the circle of a triangle") {

@@ -18,6 +18,7 @@
 #include "formats/mesh/assimp/mark_skipping_files.hpp"
 #include "formats/mesh/mesh_file.hpp"
 #include "formats/mesh/words.hpp"
+#include "mesh/face_limits.hpp"
 
 namespace graycube {
 namespace {
@@ -137,9 +138,9 @@ class Collector {
     points_ += mesh.mNumVertices;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const unsigned corners = mesh.mFaces[f].mNumIndices;
-      if (corners > kMaxFaceCorners)
+      if (corners > kMostFaceCorners)
         return MeshFault{"a face of " + std::to_string(corners) + " corners, at most " +
-                         std::to_string(kMaxFaceCorners) + " are accepted"};
+                         std::to_string(kMostFaceCorners) + " are accepted"};
       if (corners >= 3) triangles_ += corners - 2;
     }
     if (points_ > kMaxMeshPoints || triangles_ > kMaxMeshTriangles) {

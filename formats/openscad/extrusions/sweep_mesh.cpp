@@ -13,6 +13,9 @@
 namespace graycube {
 namespace {
 
+/// Ends of extrusions with more corners, or with holes, are cut into triangles together.
+constexpr std::uint32_t kMaxCapCorners = 4096;
+
 constexpr double kLeastRadius = 0.00000095367431640625;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 /// Diagonals whose lengths differ by less than this part of their mean are equal for OpenSCAD.
@@ -39,7 +42,7 @@ std::optional<std::vector<Section>> sections_of(const FlatLoops& loops) {
     Section& section = sections.emplace_back();
     section.loops = std::move(region.holes);
     section.loops.insert(section.loops.begin(), std::move(region.outline));
-    if (section.loops.size() == 1 && section.corners() <= kMaxFaceCorners) continue;
+    if (section.loops.size() == 1 && section.corners() <= kMaxCapCorners) continue;
     auto triangles = triangles_of(section.loops);
     if (!triangles) return std::nullopt;
     section.cap = *std::move(triangles);
