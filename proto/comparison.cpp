@@ -20,7 +20,8 @@ Figures figures_of(const std::string& statistics) {
   const auto count = [&](const char* group, const char* key) {
     return j.at(group).at(key).get<std::uint64_t>();
   };
-  f.forwarded = count("forwarded", "shadow") + count("forwarded", "secondary");
+  f.forwarded = count("forwarded", "shadow") + count("forwarded", "secondary") +
+                count("forwarded", "primary");
   for (const char* kind : {"ray", "contribution", "sum"}) {
     f.messages += count("messages", (std::string(kind) + "_batches").c_str());
     f.message_bytes += count("messages", (std::string(kind) + "_bytes").c_str());

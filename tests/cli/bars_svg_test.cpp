@@ -26,6 +26,7 @@ std::string some_statistics(double fifo_wait_s = 0) {
     n.queue_peak = 7;
     n.memory_bytes = static_cast<std::uint64_t>(1000 * blocked);
     n.forwarded_shadow = 5;
+    n.forwarded_primary = 2;
     n.ray_batches = 2;
     s.per_node.push_back(n);
   }
@@ -37,7 +38,7 @@ TEST_CASE("a comparison's figures are those of the statistics") {
   CHECK(f.wall_s == 5);
   CHECK(f.efficiency == 1);
   CHECK(f.blocked_fraction == Approx(0.5));
-  CHECK(f.forwarded == 10);
+  CHECK(f.forwarded == 14);
   CHECK(f.messages == 4);
   CHECK(f.largest_memory_bytes == 3000);
   CHECK(f.queue_peak == 7);

@@ -330,7 +330,7 @@ TEST_CASE("a damaged header is refused, and the error says what is wrong") {
   CHECK(error_of(peek_header(with(good, 0, std::uint32_t{0}))) == BatchError::kBadMagic);
   CHECK(error_of(peek_header(with(good, 4, std::uint16_t{4}))) == BatchError::kBadVersion);
   CHECK(error_of(peek_header(with(good, 6, std::uint8_t{0}))) == BatchError::kBadType);
-  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{15}))) == BatchError::kBadType);
+  CHECK(error_of(peek_header(with(good, 6, std::uint8_t{16}))) == BatchError::kBadType);
   CHECK(error_of(peek_header(with(good, 7, std::uint8_t{1}))) == BatchError::kBadValue);
   CHECK(error_of(peek_header(with(good, 28, std::uint32_t{3}))) == BatchError::kBadLength);
   CHECK(error_of(peek_header(with(good, 32, std::uint32_t{1}))) == BatchError::kBadLength);
