@@ -19,10 +19,8 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       loaded_(cube_.nodes()),
       ready_(cube_.nodes()),
       reports_(cube_) {
-  if (scene_.boundaries == BoundariesMode::kSliding) {
-    sliding_.emplace(job_, cube_, *scene_.plan, scene_.model, scene_.grid, threads_,
-                     limits_.sliding);
-  }
+  if (scene_.boundaries == BoundariesMode::kSliding)
+    sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
 }
 
 TileHandout::Way RenderJob::way() const {

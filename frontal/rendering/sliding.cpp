@@ -29,24 +29,23 @@ RectilinearCuts cuts_in(const TileLines& lines, const MacroGrid& grid) {
 
 }  // namespace
 
-Sliding::Sliding(std::uint32_t job, const Hypercube& cube, const TilePlan& plan,
-                 std::shared_ptr<const Model> model, const control::GridLayout& grid,
+Sliding::Sliding(std::uint32_t job, const Hypercube& cube, const PreparedScene& scene,
                  std::uint32_t threads, const SlidingLimits& limits)
     : job_(job),
       cube_(cube),
-      plan_(plan),
-      model_(std::move(model)),
-      frame_(CameraFrame::from(model_->settings.camera, model_->settings.image)),
+      plan_(*scene.plan),
+      model_(scene.model),
+      frame_(CameraFrame::from(scene.settings.camera, scene.settings.image)),
       threads_(threads),
       limits_(limits),
-      lines_(TileLines::of(plan)),
-      grid_(frame_, grid.column_edges, grid.row_edges),
+      lines_(TileLines::of(plan_)),
+      grid_(frame_, scene.grid.column_edges, scene.grid.row_edges),
       held_by_(cube.nodes()),
-      owners_(plan.tile_count()),
-      cost_before_(plan.tile_count(), 0),
-      is_handed_out_(plan.tile_count(), false),
-      parity_(plan.tile_count(), false),
-      left_(plan.tile_count()),
+      owners_(plan_.tile_count()),
+      cost_before_(plan_.tile_count(), 0),
+      is_handed_out_(plan_.tile_count(), false),
+      parity_(plan_.tile_count(), false),
+      left_(plan_.tile_count()),
       nodes_(cube.nodes()) {
   cuts_ = cuts_in(lines_, grid_);
   set_owners(grid_);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "frontal/preparation/preparation.hpp"
 #include "frontal/preparation/recut.hpp"
 #include "frontal/rendering/roll_call.hpp"
 #include "frontal/rendering/sliding_limits.hpp"
@@ -21,10 +22,9 @@ namespace graycube {
 
 class Sliding {
  public:
-  /// Generation 0 is the grid of the plan, which must outlive this; its boundaries must be lines
-  /// between tiles.
-  Sliding(std::uint32_t job, const Hypercube& cube, const TilePlan& plan,
-          std::shared_ptr<const Model> model, const control::GridLayout& grid,
+  /// Generation 0 is the scene's grid, whose boundaries must be lines between tiles. The scene must
+  /// outlive this.
+  Sliding(std::uint32_t job, const Hypercube& cube, const PreparedScene& scene,
           std::uint32_t threads, const SlidingLimits& limits);
 
   // Tiles

@@ -48,7 +48,7 @@ struct OnFour {
   Sliding sliding;
 
   explicit OnFour(const SlidingLimits& limits = {.part_between = 0})
-      : sliding(1, kCube, *scene.plan, scene.model, scene.grid, 1, limits) {}
+      : sliding(1, kCube, scene, 1, limits) {}
 
   std::vector<std::uint32_t> tiles_of(Rank rank) const {
     std::vector<std::uint32_t> tiles;
