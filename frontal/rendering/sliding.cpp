@@ -52,15 +52,16 @@ Sliding::Sliding(std::uint32_t job, const Hypercube& cube, const PreparedScene& 
 }
 
 RegionIndex Sliding::region_of(Rank rank) const {
-  return {static_cast<std::uint16_t>(cube_.column_of(rank)),
-          static_cast<std::uint16_t>(cube_.row_of(rank))};
+  const NodeMesh::Place place = NodeMesh(cube_).place_of(rank);
+  return {static_cast<std::uint16_t>(place.column), static_cast<std::uint16_t>(place.row)};
 }
 
 void Sliding::set_owners(const MacroGrid& grid) {
+  const NodeMesh mesh(cube_);
   for (std::uint32_t tile = 0; tile < owners_.size(); ++tile) {
     const PixelRect rect = plan_.rect(tile);
     const RegionIndex region = grid.region_of_pixel(rect.x0, rect.y0);
-    owners_[tile] = cube_.owner_of(region.column, region.row);
+    owners_[tile] = mesh.owner_of(region.column, region.row);
   }
 }
 
