@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "flat/pieces.hpp"
+#include "flat/side_crossings.hpp"
 
 namespace graycube {
 namespace {
@@ -31,6 +32,12 @@ std::optional<FlatPoint> crossing(const FlatEdge& a, const FlatEdge& b) {
   if (!(std::fabs(sine) >= kLeastSine)) return std::nullopt;
   return FlatPoint{(a.offset * b.normal.y - b.offset * a.normal.y) / sine,
                    (b.offset * a.normal.x - a.offset * b.normal.x) / sine};
+}
+
+std::size_t corners_of(const FlatLoops& loops) {
+  std::size_t corners = 0;
+  for (const FlatLoop& loop : loops) corners += loop.size();
+  return corners;
 }
 
 double largest_coordinate(const FlatLoops& loops) {
@@ -88,6 +95,7 @@ void move_corners(FlatLoop& loop, const Lines& lines, const FlatLoop& known, dou
 
 FlatLoops on_lines(FlatLoops result, const FlatLoops& polygon, double distance) {
   if (result.empty() || polygon.empty()) return result;
+  if (corners_of(result) * corners_of(polygon) > kMaxLinePairs) return result;
   const double tolerance = kOnLine * (largest_coordinate(polygon) + std::fabs(distance));
   const Lines lines(polygon, distance, tolerance);
   FlatLoop known;
@@ -98,9 +106,7 @@ FlatLoops on_lines(FlatLoops result, const FlatLoops& polygon, double distance) 
 
 std::optional<RoundOffset> round_offset(const FlatLoops& loops, double distance) {
   const FlatLoops polygon = resolved(loops);
-  std::size_t corners = 0;
-  for (const FlatLoop& loop : polygon) corners += loop.size();
-  if (corners > kMaxRoundCorners) return std::nullopt;
+  if (corners_of(polygon) > kMaxRoundCorners) return std::nullopt;
   // The operands are the polygon, then the area that each side sweeps when it moves.
   std::vector<FlatLoops> operands{polygon};
   for_each_side(polygon, [&](const FlatPoint& a, const FlatPoint& b) {

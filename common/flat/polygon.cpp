@@ -5,6 +5,8 @@
 #include <polyclipping/clipper.hpp>
 #include <utility>
 
+#include "flat/simple_outlines.hpp"
+
 namespace graycube {
 namespace {
 
@@ -12,7 +14,8 @@ using ClipperLib::cInt;
 
 /// Bits of the largest coordinate on Clipper's grid: far fewer than 53, as its slopes are doubles.
 constexpr int kGridBits = 40;
-constexpr double kMiterLimit = 1e6;
+/// The most corners of outlines that Clipper splits where they touch themselves: 0.3 s.
+constexpr std::size_t kMaxSplitCorners = std::size_t{1} << 14;
 
 /// An exact sum of doubles, each part below the last bit of the next (Shewchuk 1997,
 /// Grow-Expansion).
@@ -136,13 +139,35 @@ class Grid {
   Axis x_, y_;
 };
 
+std::size_t corners_of(std::span<const FlatLoops> operands) {
+  std::size_t corners = 0;
+  for (const FlatLoops& loops : operands) {
+    for (const FlatLoop& loop : loops) corners += loop.size();
+  }
+  return corners;
+}
+
+/// Clipper, told to split outlines that touch themselves, unless they have so many corners that it
+/// would take minutes: it compares each corner of an outline with all others.
+class SplittingClipper : public ClipperLib::Clipper {
+ public:
+  explicit SplittingClipper(std::size_t corners) { StrictlySimple(corners <= kMaxSplitCorners); }
+};
+
 ClipperLib::Paths simplified(const ClipperLib::Paths& paths) {
-  ClipperLib::Clipper clipper;
+  std::size_t corners = 0;
+  for (const ClipperLib::Path& path : paths) corners += path.size();
+  SplittingClipper clipper(corners);
   clipper.AddPaths(paths, ClipperLib::ptSubject, true);
-  clipper.StrictlySimple(true);
   ClipperLib::Paths result;
   clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftEvenOdd);
   return result;
+}
+
+/// The parts of a figure of many corners that Clipper isn't needed for.
+std::optional<std::vector<FlatRegion>> many_simple_regions(const FlatLoops& loops) {
+  if (corners_of(std::span(&loops, 1)) <= kManyFlatCorners) return std::nullopt;
+  return simple_regions(loops);
 }
 
 void add_regions(const ClipperLib::PolyNode& parent, Grid& grid, std::vector<FlatRegion>& regions) {
@@ -239,45 +264,32 @@ FlatLoop flat_hull(std::vector<FlatPoint> points) {
   return hull;
 }
 
-bool crossings_are_few(std::span<const FlatLoops> operands) {
-  struct Side {
-    FlatPoint a, b, lo, hi;
-  };
-  std::vector<Side> sides;
-  for (const FlatLoops& loops : operands) {
-    for (const FlatLoop& loop : loops) {
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-        sides.push_back({a,
-                         b,
-                         {std::min(a.x, b.x), std::min(a.y, b.y)},
-                         {std::max(a.x, b.x), std::max(a.y, b.y)}});
-      }
-    }
+FlatLoops loops_of(std::vector<FlatRegion> regions) {
+  FlatLoops loops;
+  for (FlatRegion& region : regions) {
+    loops.push_back(std::move(region.outline));
+    for (FlatLoop& hole : region.holes) loops.push_back(std::move(hole));
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& s, const Side& t) { return s.lo.x < t.lo.x; });
-  const auto cross = [](const Side& s, const Side& t) {
-    return orientation(s.a, s.b, t.a) * orientation(s.a, s.b, t.b) < 0 &&
-           orientation(t.a, t.b, s.a) * orientation(t.a, t.b, s.b) < 0;
-  };
-  std::size_t tests = 0, overlaps = 0, crossings = 0;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    for (std::size_t j = i + 1; j < sides.size() && sides[j].lo.x <= sides[i].hi.x; ++j) {
-      if (++tests > 64 * kMaxFlatOverlaps) return false;
-      if (sides[j].lo.y > sides[i].hi.y || sides[i].lo.y > sides[j].hi.y) continue;
-      if (++overlaps > kMaxFlatOverlaps) return false;
-      if (cross(sides[i], sides[j]) && ++crossings > kMaxFlatCrossings) return false;
-    }
-  }
-  return true;
+  return loops;
+}
+
+FlatLoops wound(std::span<const FlatLoops> operands) {
+  Grid grid(operands);
+  ClipperLib::Clipper clipper;
+  for (const FlatLoops& loops : operands)
+    clipper.AddPaths(grid.placed(loops), ClipperLib::ptSubject, true);
+  ClipperLib::Paths result;
+  clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero);
+  return grid.taken_back(result);
 }
 
 FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands) {
   if (operands.empty()) return {};
+  if (operands.size() == 1) {
+    if (auto regions = many_simple_regions(operands.front())) return loops_of(*std::move(regions));
+  }
   Grid grid(operands);
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
+  SplittingClipper clipper(corners_of(operands));
   ClipperLib::Paths result = simplified(grid.placed(operands.front()));
   if (operation == FlatOperation::kIntersection) {
     for (const FlatLoops& loops : operands.subspan(1)) {
@@ -304,9 +316,9 @@ FlatLoops resolved(const FlatLoops& loops) {
 }
 
 std::vector<FlatRegion> regions_of(const FlatLoops& loops) {
+  if (auto regions = many_simple_regions(loops)) return *std::move(regions);
   Grid grid(std::span(&loops, 1));
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
+  SplittingClipper clipper(corners_of(std::span(&loops, 1)));
   clipper.AddPaths(grid.placed(loops), ClipperLib::ptSubject, true);
   ClipperLib::PolyTree tree;
   clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftEvenOdd);
@@ -320,7 +332,7 @@ namespace {
 
 FlatLoops offset_paths(Grid& grid, const ClipperLib::Paths& paths, double distance, FlatJoin join,
                        double arc_tolerance) {
-  ClipperLib::ClipperOffset clipper(join == FlatJoin::kMiter ? kMiterLimit : 2.0,
+  ClipperLib::ClipperOffset clipper(join == FlatJoin::kMiter ? kFlatMiterLimit : 2.0,
                                     join == FlatJoin::kRound ? arc_tolerance / grid.unit() : 1.0);
   const ClipperLib::JoinType kind = join == FlatJoin::kRound   ? ClipperLib::jtRound
                                     : join == FlatJoin::kMiter ? ClipperLib::jtMiter

@@ -55,21 +55,24 @@ FlatLoop flat_hull(std::vector<FlatPoint> points);
 
 /// Clipper works on integers: coordinates are rounded to 2^-40 of the largest one's power of two,
 /// corners that stay keep their own values. All results are outlines counter-clockwise and holes
-/// clockwise that touch one another at corners only. Coordinates must be finite. Whether the
-/// operations below end soon: at most so many pairs of sides cross, and so many have boxes that
-/// overlap. (Clipper's time grows faster than the crossings: 70 000 took 7 s.)
-inline constexpr std::size_t kMaxFlatCrossings = std::size_t{1} << 15;
-inline constexpr std::size_t kMaxFlatOverlaps = std::size_t{1} << 22;
-bool crossings_are_few(std::span<const FlatLoops> operands);
+/// clockwise that touch one another at corners only. Coordinates must be finite. How long they take
+/// depends on the sides that cross: crossings_are_few() tells in time. A figure of many corners
+/// whose outlines meet nowhere is taken as it is, which is fast, with corners on straight lines.
+inline constexpr std::size_t kManyFlatCorners = 4096;
 
 enum class FlatOperation : std::uint8_t { kUnion, kIntersection, kDifference };
 /// The operation on the first operand and all others together; each operand is even-odd.
 FlatLoops combined(FlatOperation operation, std::span<const FlatLoops> operands);
 /// Like combined() for one operand: outlines that cross themselves or one another are resolved.
 FlatLoops resolved(const FlatLoops& loops);
+/// The points round which the loops of all operands wind in sum. Corners of the result may touch.
+FlatLoops wound(std::span<const FlatLoops> operands);
 /// The connected parts.
 std::vector<FlatRegion> regions_of(const FlatLoops& loops);
+FlatLoops loops_of(std::vector<FlatRegion> regions);
 
+/// Miters longer than so many distances are cut off.
+inline constexpr double kFlatMiterLimit = 1e6;
 enum class FlatJoin : std::uint8_t { kRound, kMiter, kSquare };
 /// The figure grown by `distance` everywhere, or shrunk if it is negative. The facets of round
 /// joins are at most `arc_tolerance` > 0 off the arc.

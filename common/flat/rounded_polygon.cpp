@@ -6,6 +6,7 @@
 
 #include "flat/offset.hpp"
 #include "flat/pieces.hpp"
+#include "flat/side_crossings.hpp"
 
 namespace graycube {
 namespace {

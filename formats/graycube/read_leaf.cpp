@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "check.hpp"
+#include "flat/side_crossings.hpp"
 #include "geometry/affine.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/limits.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flat/side_crossings.hpp"
 #include "formats/openscad/extrusions/sweep_arguments.hpp"
 #include "formats/openscad/extrusions/sweep_mesh.hpp"
 #include "formats/openscad/flat/rounds.hpp"

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "csg/dice.hpp"
+#include "flat/side_crossings.hpp"
 
 namespace graycube {
 namespace {

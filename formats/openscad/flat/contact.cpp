@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flat/side_crossings.hpp"
 #include "geometry/portable_math.hpp"
 
 namespace graycube {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "flat/offset.hpp"
+#include "flat/side_crossings.hpp"
 #include "formats/openscad/flat/contact.hpp"
 #include "formats/openscad/flat/similarity.hpp"
 
@@ -65,6 +66,20 @@ bool are_few_and_sensible(std::span<const FlatDisk> disks) {
   return round <= kMaxRoundCorners && round * disks.size() <= kMaxFlatDiskPairs;
 }
 
+bool is_before(const FlatPoint& a, const FlatPoint& b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
+
+/// The disks that are points, in order.
+FlatLoop points_among(const std::vector<FlatDisk>& disks) {
+  FlatLoop points;
+  for (const FlatDisk& d : disks) {
+    if (d.radius == 0 && d.sides == 0) points.push_back(d.center);
+  }
+  std::sort(points.begin(), points.end(), is_before);
+  return points;
+}
+
 /// The hull of disks under the map.
 ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
   if (!are_few_and_sensible(disks)) return {};
@@ -78,9 +93,10 @@ ExactFlat hull_of(const std::vector<FlatDisk>& disks, const FlatMap& map) {
   }
   if (hull.polygon.size() >= 3) {
     result.children.push_back(shape_of(mapped(map, FlatLoops{hull.polygon})));
+    const FlatLoop points = points_among(disks);
     for (const FlatPoint& p : hull.polygon) {
-      const FlatDisk point{p, 0, 0};
-      if (std::find(disks.begin(), disks.end(), point) != disks.end()) result.hull.push_back(point);
+      if (std::binary_search(points.begin(), points.end(), p, is_before))
+        result.hull.push_back({p, 0, 0});
     }
   }
   if (result.children.empty()) return {true, std::nullopt};

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "flat/bounded_offset.hpp"
 #include "flat/flush.hpp"
 #include "flat/offset.hpp"
+#include "flat/side_crossings.hpp"
 #include "formats/openscad/flat/polygon_arguments.hpp"
 #include "formats/openscad/flat/rounds.hpp"
 #include "formats/openscad/flat/sums.hpp"
@@ -219,8 +221,14 @@ class FlatReader {
     const auto with_facets = [&]() -> FlatLoops {
       const auto loops = polygon_of(*inner, import_, module.line);
       if (!loops || distance == 0) return loops ? *loops : FlatLoops{};
-      FlatLoops result = offset(*loops, distance, join, tolerance);
-      return join == FlatJoin::kMiter ? on_lines(std::move(result), *loops, distance) : result;
+      auto result = bounded_offset(*loops, distance, join, tolerance);
+      if (!result) {
+        import_.leave_out_once("offset", module.line,
+                               "offset() is left out: its outline has too many corners, or sides "
+                               "that cross one another too often once they are moved");
+        return {};
+      }
+      return join == FlatJoin::kMiter ? on_lines(*std::move(result), *loops, distance) : *result;
     };
     const bool may_be_round = is_round && asked_sides(fineness) == 0;
     const bool may_be_moved = may_be_round || inner->kind == Kind::kDisk ||
@@ -293,8 +301,9 @@ class FlatReader {
 
   /// Exact if each operand is convex, or all but one are circles; else the program evaluates it.
   std::optional<FlatShape> minkowski(const ScadModule& module, const FlatMap& map) {
-    std::vector<FlatShape> parts = operands(module, {});
-    if (parts.empty()) return std::nullopt;
+    const auto operands = operands_of_sum(module);
+    if (!operands) return std::nullopt;
+    const std::vector<FlatShape>& parts = *operands;
     if (parts.size() > 1 && import_.options.facets) return by_program(module, map);
     FlatShape sum = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -305,6 +314,23 @@ class FlatReader {
     }
     return with_own_facets(
         std::move(sum), [&] { return sum_of_facets(parts, module.line); }, map);
+  }
+
+  /// The operands that aren't empty; nothing if the sum is empty. OpenSCAD's is where the first
+  /// operand is, or all others are; other empty ones don't count.
+  std::optional<std::vector<FlatShape>> operands_of_sum(const ScadModule& module) {
+    std::vector<FlatShape> parts;
+    bool is_first = true, has_others = false;
+    for (const ScadModule& child : module.children) {
+      if (child.left_out) continue;
+      auto part = takes_part(child) ? shape(child, {}) : std::nullopt;
+      if (is_first && !part) return std::nullopt;
+      has_others = has_others || !is_first;
+      is_first = false;
+      if (part) parts.push_back(*std::move(part));
+    }
+    if (parts.empty() || (parts.size() == 1 && has_others)) return std::nullopt;
+    return parts;
   }
 
   /// The sum of the shapes' polygons; empty if it can't be had here.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "flat/offset.hpp"
+#include "flat/side_crossings.hpp"
 
 namespace graycube {
 namespace {

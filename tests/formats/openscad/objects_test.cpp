@@ -1,5 +1,8 @@
 // How the solids of a .csg file become objects, and its colours materials.
 
+#include <algorithm>
+#include <cmath>
+
 #include "catch.hpp"
 #include "formats/graycube/read_scene.hpp"
 #include "formats/graycube/write_scene.hpp"
@@ -20,6 +23,59 @@ TEST_CASE("what is intersected with a flat shape, or with nothing, is nothing") 
     const std::string text = std::string("intersection() { cube(4); ") + other + " }";
     CHECK(scene_of("cube(1);\n" + text).objects.size() == 1);
   }
+}
+
+double flat_area(const std::vector<FlatPoint>& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const FlatPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    sum += 0.5 * (a.x * b.y - a.y * b.x);
+  }
+  return std::fabs(sum);
+}
+
+// Areas by OpenSCAD 2021.01.
+TEST_CASE("a flat sum is empty where its first operand is, or all others are") {
+  const auto area = [](const std::string& operands) {
+    const std::string aside =
+        "multmatrix([[1, 0, 0, 9], [0, 1, 0, 9], [0, 0, 1, 9], [0, 0, 0, 1]]) cube(1);\n";
+    const std::string text = "linear_extrude(height = 1) minkowski() { " + operands + " }\n";
+    const Scene scene = scene_of(aside + text);
+    if (scene.objects.size() == 1) return 0.0;
+    return flat_area(std::get<PrismShape>(scene.objects.at(1).csg.value).points);
+  };
+  const std::string two = "square(size = [2, 2]);", one = "square(size = [1, 1]);";
+  for (const std::string none :
+       {"circle(r = 0);", "group();", "difference() { square(1); square(size = [2, 2]); }",
+        "cube(1);"}) {
+    INFO(none);
+    CHECK(area(two + none) == 0);
+    CHECK(area(none + two) == 0);
+    CHECK(area(none + two + one) == 0);
+    CHECK(area(two + none + none) == 0);
+    CHECK(area(two + none + one) == Approx(9));
+    CHECK(area(two + one + none) == Approx(9));
+  }
+  CHECK(area(two + "%" + one) == Approx(4));
+}
+
+TEST_CASE("an offset whose moved sides cross too often is left out with its name") {
+  std::string points;
+  for (int i = 0; i < 40000; ++i) {
+    const double angle = 0.00015707963267948966 * i, radius = 100 + i * 7919 % 97 * 0.1;
+    points += "[" + std::to_string(radius * std::cos(angle)) + ", " +
+              std::to_string(radius * std::sin(angle)) + "],";
+  }
+  points.pop_back();
+  const std::string text =
+      "cube(1);\nlinear_extrude(height = 1) offset(r = 1000, $fn = 1000) {\n"
+      "polygon(points = [" +
+      points + "], paths = undef);\n}\n";
+  CHECK(scene_of(text).objects.size() == 1);
+  const auto warnings = warnings_of(text);
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.starts_with("line 2: offset() is left out: its outline");
+  }));
 }
 
 TEST_CASE("parts outside of any operation are objects of their own") {
