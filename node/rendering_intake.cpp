@@ -39,8 +39,10 @@ void Rendering::on_assigned_here(std::span<const std::uint32_t> tiles, Mail& mai
 
 void Rendering::on_slide(const control::Slide& m, const SharedBytes& slice, Mail& mail) {
   if (!generations_.may_add(m)) return mail.drop("slide", "of no use here");
-  queue_.add_model(
-      SlideWork{m.generation, {m.column_edges, m.row_edges, {}}, here_.seat.share(), slice});
+  SlideWork work{m.generation, {}, here_.seat.share(), slice};
+  work.edges.columns = m.column_edges;
+  work.edges.rows = m.row_edges;
+  queue_.add_model(std::move(work));
 }
 
 /// No ray of an older generation is here any more, as the frontal holds all light of its tiles.

@@ -37,6 +37,17 @@ class SixDigits {
     for (CsgNode& child : o.children) (*this)(child);
   }
   static void round(ReferenceNode&) {}
+  void round(RepeatNode& r) {
+    for (CsgNode& child : r.child) (*this)(child);
+    for (Affine& map : r.maps) {
+      for (auto& row : map.m) {
+        for (double& v : row) round(v);
+      }
+    }
+  }
+  static void round(BezierShape& b) {
+    for (Vec3& p : b.net.points) round(p);
+  }
   static void round(SphereShape& s) {
     round(s.center);
     round(s.radius);
