@@ -15,11 +15,20 @@ struct Use {
   bool is_for_roth, is_for_macro;
 };
 
+void check_sliding(const control::JobOptions& o) {
+  if (o.shadows == ShadowMode::kLocal)
+    throw usage_failure("--boundaries",
+                        "sliding goes with --shadows horizon and forward, not local");
+  if (o.scatter > 1)
+    throw usage_failure("--boundaries",
+                        "sliding goes with one macro-region for each node, not with --scatter");
+}
+
 }  // namespace
 
 void check_sense(const control::JobOptions& o) {
   const control::JobOptions usual;
-  const std::array<Use, 7> uses{{
+  const std::array<Use, 8> uses{{
       {"--grain", o.grain != usual.grain, true, false},
       {"--shadows", o.shadows != usual.shadows, false, true},
       {"--partition", o.partition != usual.partition, false, true},
@@ -27,6 +36,7 @@ void check_sense(const control::JobOptions& o) {
       {"--flow", o.flow != usual.flow, true, true},
       {"--sums", o.sums != usual.sums, true, true},
       {"--returns", o.returns != usual.returns, false, true},
+      {"--boundaries", o.boundaries != usual.boundaries, false, true},
   }};
   const bool is_auto = o.algorithm == Algorithm::kAuto;
   for (const Use& use : uses) {
@@ -42,6 +52,7 @@ void check_sense(const control::JobOptions& o) {
   if (o.subdivision.entry != Entry::kUsual && !has_links(o.subdivision.way))
     throw usage_failure("--entry", "is for --subdivision linked and arnaldi, not for " +
                                        std::string(to_string(o.subdivision.way)));
+  if (o.boundaries == BoundariesMode::kSliding) check_sliding(o);
   if (o.queue != usual.queue && o.flow != FlowMode::kBlocking)
     throw usage_failure("--queue", "is for --flow blocking, which is not asked for");
 }

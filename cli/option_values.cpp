@@ -148,6 +148,10 @@ ReturnsMode parse_returns(std::string_view option, std::string_view text) {
   return parse_choice<ReturnsMode>(option, text, kReturnsChoices);
 }
 
+BoundariesMode parse_boundaries(std::string_view option, std::string_view text) {
+  return parse_choice<BoundariesMode>(option, text, kBoundariesChoices);
+}
+
 Subdivision parse_subdivision(std::string_view option, std::string_view text) {
   return parse_choice<Subdivision>(option, text, kSubdivisionChoices);
 }

@@ -46,6 +46,7 @@ inline constexpr std::array kPartitionChoices{PartitionMode::kAuto, PartitionMod
 inline constexpr std::array kFlowChoices{FlowMode::kCredit, FlowMode::kBlocking};
 inline constexpr std::array kSumsChoices{SumsMode::kDirect, SumsMode::kTree};
 inline constexpr std::array kReturnsChoices{ReturnsMode::kFrontal, ReturnsMode::kSender};
+inline constexpr std::array kBoundariesChoices{BoundariesMode::kFixed, BoundariesMode::kSliding};
 inline constexpr std::array kSubdivisionChoices{Subdivision::kSurfaces, Subdivision::kRoth,
                                                 Subdivision::kLinked,   Subdivision::kArnaldi,
                                                 Subdivision::kOctree,   Subdivision::kKaplan};
@@ -73,6 +74,7 @@ std::uint32_t parse_scatter(std::string_view option, std::string_view text);
 FlowMode parse_flow(std::string_view option, std::string_view text);
 SumsMode parse_sums(std::string_view option, std::string_view text);
 ReturnsMode parse_returns(std::string_view option, std::string_view text);
+BoundariesMode parse_boundaries(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);
 Entry parse_entry(std::string_view option, std::string_view text);
 figures::FigureName parse_figure(std::string_view option, std::string_view text);

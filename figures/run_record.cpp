@@ -56,7 +56,8 @@ class Recorder {
   Recorder(RunRecord& record, TellingMachine& machine, std::uint32_t nodes)
       : record_(record),
         machine_(machine),
-        limits_{.pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = nodes} {}
+        limits_{
+            .pixel_count = kMaxPixels, .max_depth = kMaxDepth, .nodes = nodes, .may_slide = true} {}
 
   void on_sent(Place from, Place to, double sent_s, const Message& message) {
     if (!looks_like_batch(message.frame)) return on_control(from, sent_s, message);

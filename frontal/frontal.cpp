@@ -115,6 +115,10 @@ void Frontal::give_result(PreparationResult result) {
   });
 }
 
+void Frontal::give_result(const RecutResult& cut) {
+  in_job(jobs_, [&] { jobs_.give_result(cut); });
+}
+
 // ---- clients
 
 void Frontal::on_client(const PeerId& peer, const ControlMessage& message,

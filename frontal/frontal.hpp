@@ -40,6 +40,9 @@ class Frontal {
   /// Preparing the next job, if there is one to prepare.
   std::optional<PreparationWork> take_work() { return jobs_.take_work(); }
   void give_result(PreparationResult result);
+  /// The same for what a slide of the boundaries needs.
+  std::optional<RecutWork> take_recut() { return jobs_.take_recut(); }
+  void give_result(const RecutResult& cut);
 
   std::vector<Outgoing> take_outgoing() { return post_.take(); }
   std::vector<Process> take_starts() { return nodes_.take_starts(); }

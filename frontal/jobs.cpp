@@ -155,6 +155,11 @@ void Jobs::give_result(PreparationResult result) {
   fail({JobState::kFailed, code, std::move(result.errors)});
 }
 
+void Jobs::give_result(const RecutResult& cut) {
+  if (!running_ || running_->id() != cut.job) return;  // the job ended meanwhile
+  if (auto failure = running_->on_recut(cut, post_)) fail(*std::move(failure));
+}
+
 void Jobs::load_what_waits() {
   if (!running_ || running_->stage() != JobStage::kPrepared) return;
   running_->load(now_.now_s, post_);
@@ -169,6 +174,7 @@ bool Jobs::on_ready(Rank rank, const control::Ready& m) {
 
 void Jobs::start(std::vector<std::uint32_t> incarnations) {
   running_->start(std::move(incarnations), now_.now_s, post_);
+  running_->look_at_boundaries(now_.now_s, post_);
   tell_progress();
   finish_when_complete();
 }
@@ -176,6 +182,7 @@ void Jobs::start(std::vector<std::uint32_t> incarnations) {
 void Jobs::on_light(std::span<const std::byte> batch) {
   if (!running_ || running_->stage() != JobStage::kRendering) return;
   if (auto failure = running_->on_light(batch, post_)) return fail(*std::move(failure));
+  running_->look_at_boundaries(now_.now_s, post_);
   finish_when_complete();
 }
 
@@ -207,6 +214,18 @@ void Jobs::on_node(Rank rank, const control::Borrow& m) {
 
 void Jobs::on_node(Rank rank, const control::Share& m) {
   if (is_rendered()) running_->on_share(rank, m, post_);
+}
+
+void Jobs::on_node(Rank rank, const control::Worked& m) {
+  if (!is_rendered()) return;
+  running_->on_worked(rank, m, post_);
+  running_->look_at_boundaries(now_.now_s, post_);
+}
+
+void Jobs::on_node(Rank rank, const control::Slid& m) {
+  if (!is_rendered()) return;
+  running_->on_slid(rank, m, now_.now_s, post_);
+  running_->look_at_boundaries(now_.now_s, post_);
 }
 
 void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping) {

@@ -40,6 +40,9 @@ class Jobs {
   /// The preparation of the next job, once none is on.
   std::optional<PreparationWork> take_work();
   void give_result(PreparationResult result);
+  /// The cutting that a slide of the boundaries needs, if one was decided.
+  std::optional<RecutWork> take_recut() { return running_ ? running_->take_recut() : std::nullopt; }
+  void give_result(const RecutResult& cut);
   /// Tells that all nodes are here: a job that waits for them is loaded.
   void load_what_waits();
   /// Whether nodes work on a job.
@@ -57,6 +60,8 @@ class Jobs {
   void on_node(Rank rank, const control::NodeError& m);
   void on_node(Rank rank, const control::Borrow& m);
   void on_node(Rank rank, const control::Share& m);
+  void on_node(Rank rank, const control::Worked& m);
+  void on_node(Rank rank, const control::Slid& m);
   /// `last_ping`: the sequence of the newest ping that was sent.
   void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping);
 

@@ -108,14 +108,19 @@ class FrontalProcess {
     for (const NodeExit& e : processes_.reap()) {
       frontal_.on_node_exit({e.rank, e.incarnation}, e.how);
     }
-    if (auto result = preparation_.take()) frontal_.give_result(std::move(*result));
+    if (auto result = preparation_.take())
+      std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
     while (auto m = inbox_.receive()) {
       frontal_.on_time(this_moment());
       frontal_.on_message(m->peer, m->message);
       flush();
     }
     if (preparation_.is_free()) {
-      if (auto work = frontal_.take_work()) preparation_.give(std::move(*work));
+      if (auto work = frontal_.take_work()) {
+        preparation_.give(std::move(*work));
+      } else if (auto recut = frontal_.take_recut()) {
+        preparation_.give(std::move(*recut));
+      }
     }
     flush();
   }

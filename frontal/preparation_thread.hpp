@@ -1,4 +1,4 @@
-// Prepares scenes beside the mailroom, which must stay quick to answer.
+// Prepares scenes, and cuts them anew, beside the mailroom, which must stay quick to answer.
 #pragma once
 
 #include <chrono>
@@ -6,14 +6,21 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <variant>
 
 #include "frontal/preparation/preparation.hpp"
+#include "frontal/preparation/recut.hpp"
+#include "overloaded.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube {
 
 class PreparationThread {
  public:
+  using Work = std::variant<PreparationWork, RecutWork>;
+  using Result = std::variant<PreparationResult, RecutResult>;
+
   explicit PreparationThread(Wakeup& mailroom) : mailroom_(mailroom), thread_([this] { run(); }) {}
   ~PreparationThread() {
     {
@@ -28,12 +35,12 @@ class PreparationThread {
     const std::lock_guard lock(mutex_);
     return !work_ && !busy_ && !result_;
   }
-  void give(PreparationWork work) {
+  void give(Work work) {
     const std::lock_guard lock(mutex_);
     work_ = std::move(work);
     changed_.notify_all();
   }
-  std::optional<PreparationResult> take() {
+  std::optional<Result> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(result_, std::nullopt);
   }
@@ -48,11 +55,14 @@ class PreparationThread {
     for (;;) {
       changed_.wait(lock, [this] { return stopping_ || work_; });
       if (stopping_) return;
-      const PreparationWork work = std::move(*work_);
+      const Work work = std::move(*work_);
       work_.reset();
       busy_ = true;
       lock.unlock();
-      PreparationResult result = prepare(work, seconds);
+      Result result = std::visit(
+          Overloaded{[](const PreparationWork& w) -> Result { return prepare(w, seconds); },
+                     [](const RecutWork& w) -> Result { return recut(w, seconds); }},
+          work);
       lock.lock();
       busy_ = false;
       result_ = std::move(result);
@@ -63,8 +73,8 @@ class PreparationThread {
   Wakeup& mailroom_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<PreparationWork> work_;
-  std::optional<PreparationResult> result_;
+  std::optional<Work> work_;
+  std::optional<Result> result_;
   bool busy_ = false, stopping_ = false;
   std::thread thread_;
 };

@@ -50,6 +50,15 @@ void Node::on_control(const Message& message) {
                  [&](const control::Relieved& m) {
                    to_rendering(m, [&](Rendering& r) { r.on_relieved(m.tiles, mail_); });
                  },
+                 [&](const control::Slide& m) {
+                   to_rendering(m, [&](Rendering& r) { r.on_slide(m, message.payload, mail_); });
+                 },
+                 [&](const control::Turn& m) {
+                   to_rendering(m, [&](Rendering& r) { r.on_turn(m, mail_); });
+                 },
+                 [&](const control::Dealt& m) {
+                   to_rendering(m, [&](Rendering& r) { r.on_dealt(mail_); });
+                 },
                  [&](const control::AllWhole& m) {
                    to_rendering(m, [&](Rendering& r) { r.on_all_whole(mail_); });
                  },

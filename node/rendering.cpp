@@ -1,5 +1,6 @@
 #include "node/rendering.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "check.hpp"
@@ -16,12 +17,20 @@ std::unique_ptr<LightBack> back_of(const Holding& here) {
   return std::make_unique<LightBack>(here.seat.links(), here.plan.pixel_count());
 }
 
+/// Where boundaries slide a node is not told how many of its own tiles are yet to come, but only
+/// when none is: until then it counts on this many.
+constexpr std::uint64_t kTilesToBeDealt = 1;
+
 }  // namespace
 
 Rendering::Rendering(Holding holding, const control::Load& load, std::size_t slice_bytes)
     : here_(std::move(holding)),
+      generations_(here_.domain, here_.plan.tile_count(),
+                   load.boundaries == BoundariesMode::kSliding),
+      done_(here_.domain->settings().image.primary_rays() / here_.seat.cube.nodes()),
       flow_(make_flow(load.flow, FlowRules::of(load, here_))),
-      queue_(here_.own_tiles(), flow_->pace().is_one_by_one),
+      queue_(generations_.is_on() ? kTilesToBeDealt : here_.own_tiles(),
+             flow_->pace().is_one_by_one),
       helping_(here_.seat.links(), {load.makes_copies, slice_bytes}),
       borrowing_(here_.seat.cube.nodes(), load.shadows == ShadowMode::kLocal, load.borrow_bytes),
       light_(here_.seat, load.sums, back_of(here_)) {
@@ -31,6 +40,8 @@ Rendering::Rendering(Holding holding, const control::Load& load, std::size_t sli
 }
 
 void Rendering::reset() {
+  generations_.reset();
+  done_.reset();
   flow_->reset();
   queue_.reset();
   helping_.reset();
@@ -78,6 +89,7 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
     work.on_class = taken->on_class;
     if (work.on_class) work.most_leaving = 1;
     work.what = RayWork{std::move(taken->rays)};
+    give_domains(work);
     return work;
   }
   if (flow_->is_full()) return std::nullopt;
@@ -89,12 +101,24 @@ std::optional<Work> Rendering::choose_work(Mail& mail) {
     flow_->grant(bit, mail);
   work.helped = piece->helped;
   if (work.helped) work.domain = helping_.copy_of(here_.seat.bit_of(*work.helped));
-  if (const auto* pixels = std::get_if<TileWork>(&piece->what)) {
+  if (const auto* pixels = std::get_if<TileWork>(&piece->what); pixels && !generations_.is_on()) {
     work.domain = domain_of(pixels->tile);
     if (work.domain != here_.domain) work.helped = here_.owner_of_tile(pixels->tile);
   }
   std::visit([&](auto& what) { work.what = std::move(what); }, piece->what);
+  give_domains(work);
   return work;
+}
+
+/// Where boundaries slide, gives a piece of work the domains of its rays' generations.
+void Rendering::give_domains(Work& work) const {
+  if (!generations_.is_on()) return;
+  if (auto* rays = std::get_if<RayWork>(&work.what)) {
+    work.generations = generations_.domains();
+    std::ranges::stable_sort(rays->rays, {}, [](const RayTask& r) { return +r.generation; });
+  } else if (const auto* tile = std::get_if<TileWork>(&work.what)) {
+    work.domain = generations_.domain_of_tile(tile->tile);
+  }
 }
 
 // ---- results
@@ -107,6 +131,7 @@ void Rendering::give_result(WorkResult& result, Mail& mail) {
                  [](Built&) { GRAYCUBE_CHECK(false, "what is being rendered was built again"); },
                  [&](Borrowed& borrowed) { adopt(borrowed, mail); },
                  [&](Copied& copied) { adopt(copied, mail); },
+                 [&](SlidTo& slid) { adopt(slid, result.build_s, mail); },
                  [&](Traced& traced) { absorb(traced, mail); },
              },
              result.what);
@@ -129,17 +154,34 @@ void Rendering::adopt(Copied& copied, Mail& mail) {
   helping_.adopt(here_.seat.bit_of(copied.from), std::move(copied.domain));
 }
 
+void Rendering::adopt(SlidTo& slid, double build_s, Mail& mail) {
+  if (!slid.domain) return mail.fail(slid.error);
+  generations_.add(slid.generation, std::move(slid.domain));
+  mail.to_frontal(control::Slid{mail.job(), mail.epoch(), slid.generation, build_s});
+}
+
+/// Where boundaries slide, tells the frontal what was done here, once that is worth a message.
+void Rendering::tell_work(bool is_idle, Mail& mail) {
+  if (!generations_.is_on()) return;
+  const bool is_often = generations_.holds_two();
+  if (is_idle ? !done_.has_news() : !done_.is_worth_telling(queue_.tiles(), is_often)) return;
+  if (done_.has_many_rays(is_often)) light_.send(mail);
+  mail.to_frontal(done_.tell(mail.job(), mail.epoch(), queue_.tiles()));
+}
+
 void Rendering::absorb(Traced& traced, Mail& mail) {
   const Step& step = traced.step;
   tally_.add(step, traced.walk);
   const double cost = work_cost(step.rays.created, traced.walk, here_.domain->subdivision().way);
   helping_.has_traced(cost, traced.tile.has_value());
+  done_.add(cost, step.returns.size() + step.leaving.size());
   let_leave(traced, mail);
   keep_set_aside(traced);
   light_.add(step.returns, traced.tile, here_.plan, mail);
   if (!step.leaving.empty() || !step.lacking.empty()) send(false, mail);
   // After each tile it is better known how much work the other tiles are.
   if (traced.tile) share_work(mail);
+  tell_work(false, mail);
 }
 
 /// The rays of a step that leave, or wait for a model that they lack.
@@ -222,6 +264,7 @@ void Rendering::send(bool partial, Mail& mail) {
 void Rendering::flush_on_idle(Mail& mail) {
   flow_->flush(mail);
   light_.send(mail);
+  tell_work(true, mail);
   const bool is_dry = has_begun_ && !queue_.tiles() && queue_.unassigned() == 0 &&
                       !flow_->is_full() && all_evaluators_wait();
   if (is_dry) helping_.offer(mail);
@@ -259,6 +302,7 @@ WaitReason Rendering::wait_reason() const {
 void Rendering::report(control::NodeStats& stats) const {
   here_.report(stats);
   tally_.report(stats);
+  generations_.report(stats);
   flow_->report(stats);
   helping_.report(stats);
   borrowing_.report(stats);

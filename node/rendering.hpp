@@ -15,6 +15,8 @@
 #include "node/parts/light_out.hpp"
 #include "node/parts/mail.hpp"
 #include "node/parts/ray_flow.hpp"
+#include "node/parts/sliding/generations.hpp"
+#include "node/parts/sliding/work_done.hpp"
 #include "node/tally.hpp"
 #include "node/work.hpp"
 #include "node/work_queue.hpp"
@@ -50,6 +52,10 @@ class Rendering {
   void on_lend(Rank owner, const SharedBytes& slice, Mail& mail);
   /// A neighbour's slice.
   void on_copy(Rank owner, const SharedBytes& slice, std::size_t horizon_bytes, Mail& mail);
+  /// Boundaries slide: the next generation of the grid; `slice` is empty if it needs no other.
+  void on_slide(const control::Slide& m, const SharedBytes& slice, Mail& mail);
+  void on_turn(const control::Turn& m, Mail& mail);
+  void on_dealt(Mail& mail);
   void on_ping(std::uint64_t ping, Mail& mail);
 
   // From the neighbour across a link
@@ -81,6 +87,10 @@ class Rendering {
   std::optional<Work> choose_work(Mail& mail);
   void adopt(Borrowed& borrowed, Mail& mail);
   void adopt(Copied& copied, Mail& mail);
+  void adopt(SlidTo& slid, double build_s, Mail& mail);
+  void on_assigned_here(std::span<const std::uint32_t> tiles, Mail& mail);
+  void give_domains(Work& work) const;
+  void tell_work(bool is_idle, Mail& mail);
   void absorb(Traced& traced, Mail& mail);
   void let_leave(const Traced& traced, Mail& mail);
   bool waits_for_model(Rank owner, const RayTask& ray, Mail& mail);
@@ -96,6 +106,8 @@ class Rendering {
   void pass_token(Mail& mail, std::optional<std::uint64_t> ping = std::nullopt);
 
   Holding here_;
+  Generations generations_;
+  WorkDone done_;
   std::unique_ptr<RayFlow> flow_;
   WorkQueue queue_;
   Helping helping_;

@@ -9,6 +9,7 @@ namespace graycube {
 // ---- from the frontal
 
 void Rendering::on_assigned(std::span<const std::uint32_t> tiles, Mail& mail) {
+  if (generations_.is_on()) return on_assigned_here(tiles, mail);
   queue_.add_tiles(tiles);
   for (const std::uint32_t tile : tiles) {
     if (here_.is_own_tile(tile)) {
@@ -20,6 +21,37 @@ void Rendering::on_assigned(std::span<const std::uint32_t> tiles, Mail& mail) {
     }
   }
   share_work(mail);
+}
+
+/// The same where boundaries slide: the tiles are in this node's macro-region of the moment.
+void Rendering::on_assigned_here(std::span<const std::uint32_t> tiles, Mail& mail) {
+  const Domain& here = *generations_.current_domain();
+  for (const std::uint32_t tile : tiles) {
+    const PixelRect rect = here_.plan.rect(tile);
+    if (!here.holds(here.region_of_pixel(rect.x0, rect.y0)) ||
+        !here.holds(here.region_of_pixel(rect.x1 - 1, rect.y1 - 1)))
+      return mail.fail("a tile of another macro-region was assigned");
+    generations_.assigned(tile);
+  }
+  queue_.add_tiles(tiles);
+  done_.assigned(static_cast<std::uint32_t>(tiles.size()), queue_.tiles());
+}
+
+void Rendering::on_slide(const control::Slide& m, const SharedBytes& slice, Mail& mail) {
+  if (!generations_.may_add(m)) return mail.drop("slide", "of no use here");
+  queue_.add_model(
+      SlideWork{m.generation, {m.column_edges, m.row_edges}, here_.seat.share(), slice});
+}
+
+/// No ray of an older generation is here any more, as the frontal holds all light of its tiles.
+void Rendering::on_turn(const control::Turn& m, Mail& mail) {
+  if (!generations_.turn(m)) return mail.drop("turn", "to a generation that is not held");
+  here_.domain = generations_.current_domain();
+}
+
+void Rendering::on_dealt(Mail& mail) {
+  queue_.expect_less(queue_.unassigned());
+  pass_token(mail);
 }
 
 void Rendering::on_relieved(std::uint64_t tiles, Mail& mail) {
@@ -80,6 +112,7 @@ void Rendering::on_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) 
     mail.drop("rays", "for another macro-region");
     return mail.fail("node " + std::to_string(sender.value) + " sent rays for another node");
   }
+  if (!generations_.hold(rays)) return mail.fail("rays came of a grid that is not held here");
   if (!open(bit, rays, mail)) return;
   if (ending_) ending_->work_came();
   tally_.rays_came(rays.size());
@@ -106,7 +139,7 @@ void Rendering::on_rays_to_help(std::uint32_t bit, std::span<const RayTask> rays
 }
 
 void Rendering::on_class_rays(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) {
-  const bool are_due = here_.are_due(rays, helping_.is_on());
+  const bool are_due = here_.are_due(rays, helping_.is_on()) && generations_.hold(rays);
   if (are_due && !open(bit, rays, mail)) return;
   if (!are_due || !flow_->add_class_rays(bit, rays)) {
     mail.drop("class rays", "for another macro-region, or without credit");

@@ -103,6 +103,23 @@ Copied copy(const CopyWork& work, const Domain& own) {
   return copied;
 }
 
+SlidTo slide(SlideWork work, const Domain& own) {
+  SlidTo slid{work.generation, nullptr, {}};
+  MacroGrid grid(own.frame(), std::move(work.edges.columns), std::move(work.edges.rows));
+  if (work.slice.empty()) {
+    slid.domain = std::make_shared<Domain>(
+        own.restricted_to(grid, work.share).of_generation(work.generation));
+    return slid;
+  }
+  auto slice = decoded_slice(work.slice.bytes(), 0, slid.error);
+  if (!slice) return slid;
+  work.slice = {};
+  const auto domain = own.of_neighbour(work.share, std::move(slice->model));
+  slid.domain = std::make_shared<Domain>(
+      domain->restricted_to(grid, work.share).of_generation(work.generation));
+  return slid;
+}
+
 }  // namespace
 
 void Workbench::clear() { places_ = {}; }
@@ -117,18 +134,29 @@ Evaluator& Workbench::evaluator_for(std::shared_ptr<const Domain> domain) {
   return *first.evaluator;
 }
 
+Evaluator& Workbench::evaluator_for(const Work& work, std::uint32_t generation) {
+  return evaluator_for(work.generations[generation] ? work.generations[generation] : work.domain);
+}
+
 /// Traces the primary rays of `pixels`; or `rays`, when `pixels` is null.
 Traced Workbench::trace(Work& work, const PixelRect* pixels, std::span<const RayTask> rays) {
   Traced traced{work.helped, work.on_class, std::nullopt, {}, {}};
-  Evaluator& evaluator = evaluator_for(std::move(work.domain));
-  evaluator.stop_after(work.most_leaving);
-  const WalkCounts before = evaluator.walk_counts();
+  const auto in_step = [&](Evaluator& evaluator, auto&& trace) {
+    evaluator.stop_after(work.most_leaving);
+    const WalkCounts before = evaluator.walk_counts();
+    trace(evaluator);
+    traced.walk.add(evaluator.walk_counts().since(before));
+  };
   if (pixels != nullptr) {
-    evaluator.trace_pixels(*pixels, traced.step);
-  } else {
-    evaluator.trace_rays(rays, traced.step);
+    in_step(evaluator_for(work.domain),
+            [&](Evaluator& evaluator) { evaluator.trace_pixels(*pixels, traced.step); });
   }
-  traced.walk = evaluator.walk_counts().since(before);
+  for_each_run(
+      rays, [](const RayTask& ray) { return ray.generation; },
+      [&](std::uint32_t generation, std::span<const RayTask> run) {
+        in_step(evaluator_for(work, generation),
+                [&](Evaluator& evaluator) { evaluator.trace_rays(run, traced.step); });
+      });
   return traced;
 }
 
@@ -138,6 +166,7 @@ WorkResult Workbench::run(Work work) {
                  [&](BuildWork& build_work) { result.what = build(std::move(build_work)); },
                  [&](BorrowWork& borrow_work) { result.what = borrow(borrow_work, *work.domain); },
                  [&](CopyWork& copy_work) { result.what = copy(copy_work, *work.domain); },
+                 [&](SlideWork& to) { result.what = slide(std::move(to), *work.domain); },
                  [&](TileWork& tile) {
                    result.what = trace(work, &tile.rect, {});
                    std::get<Traced>(result.what).tile = tile.tile;

@@ -48,6 +48,14 @@ struct CopyWork {
   /// Bytes of the light horizons at the slice's end, as in BuildWork; they are the node's own, too.
   std::size_t horizon_bytes = 0;
 };
+/// Get ready for the next generation of the grid, to which boundaries slide.
+struct SlideWork {
+  std::uint32_t generation = 0;
+  GridEdges edges;
+  RegionShare share;
+  /// Empty if the part of the scene is that of the domain that the work comes with.
+  SharedBytes slice;
+};
 /// Trace the primary rays of a tile, or of a part of it.
 struct TileWork {
   PixelRect rect;
@@ -67,7 +75,10 @@ struct Work {
   std::optional<std::uint16_t> on_class;
   /// TileWork, RayWork: once so many rays have left, the rest is set aside.
   std::size_t most_leaving = std::numeric_limits<std::size_t>::max();
-  std::variant<BuildWork, BorrowWork, CopyWork, TileWork, RayWork> what;
+  /// RayWork, where boundaries slide: the domains of the generations in use, by
+  /// RayTask::generation. Otherwise null, and `domain` is that of all rays.
+  std::array<std::shared_ptr<const Domain>, kMostGenerations> generations;
+  std::variant<BuildWork, BorrowWork, CopyWork, SlideWork, TileWork, RayWork> what;
 };
 
 /// The node's own macro-regions, subdivided; or why they could not be.
@@ -87,6 +98,12 @@ struct Copied {
   std::shared_ptr<const Domain> domain;
   std::string error;
 };
+/// The node's macro-regions in the next generation, subdivided; or why they could not be.
+struct SlidTo {
+  std::uint32_t generation = 0;
+  std::shared_ptr<const Domain> domain;
+  std::string error;
+};
 /// The results of tracing a tile or rays.
 struct Traced {
   /// `helped` and `on_class` are those of the Work.
@@ -103,7 +120,7 @@ struct WorkResult {
   std::uint32_t job = 0, epoch = 0;
   /// Seconds that building took; whoever ran the work has a clock and fills it in.
   double build_s = 0;
-  std::variant<Built, Borrowed, Copied, Traced> what;
+  std::variant<Built, Borrowed, Copied, SlidTo, Traced> what;
 };
 
 /// An evaluator thread's own memory: it keeps evaluators from one piece of work to the next.
@@ -120,9 +137,11 @@ class Workbench {
     std::unique_ptr<Evaluator> evaluator;
   };
   Evaluator& evaluator_for(std::shared_ptr<const Domain> domain);
+  Evaluator& evaluator_for(const Work& work, std::uint32_t generation);
   Traced trace(Work& work, const PixelRect* pixels, std::span<const RayTask> rays);
 
-  /// The node's own regions and a copy of a neighbour's, the last used first.
+  /// The node's own regions and a copy of a neighbour's, or those of two generations of the grid;
+  /// the last used first.
   std::array<Place, 2> places_;
 };
 

@@ -20,7 +20,7 @@ namespace graycube {
 
 class WorkQueue {
  public:
-  using ModelWork = std::variant<BorrowWork, CopyWork>;
+  using ModelWork = std::variant<BorrowWork, CopyWork, SlideWork>;
   struct Piece {
     std::variant<TileWork, RayWork> what;
     /// The neighbour in whose regions the rays are to be traced; nothing for own regions and tiles.

@@ -125,6 +125,8 @@ struct BatchLimits {
   std::uint32_t nodes = 0;
   /// Rays other than primary ones carry a number of their sender's in place of the pixel.
   bool are_rays_numbered = false;
+  /// Rays may be of either generation of the grid, as boundaries slide.
+  bool may_slide = false;
 };
 
 /// What comes back for a ray that crossed a link, from whoever got it.

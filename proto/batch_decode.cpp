@@ -47,7 +47,9 @@ bool load_ray(const std::byte* at, const BatchLimits& limits, RayTask& task) {
   const Vec3 weight = load_vec(at + 64);
   task.weight = {weight.x, weight.y, weight.z};
   task.pixel = load_little<std::uint32_t>(at + 88);
-  const auto kind = load_little<std::uint8_t>(at + 92);
+  auto kind = load_little<std::uint8_t>(at + 92);
+  task.generation = limits.may_slide && (kind & kGenerationFlag) != 0;
+  if (limits.may_slide) kind &= static_cast<std::uint8_t>(~kGenerationFlag);
   task.credit_exponent = load_little<std::uint8_t>(at + 93);
   task.depth = load_little<std::uint8_t>(at + 94);
   task.light = load_little<std::uint8_t>(at + 95);

@@ -53,7 +53,8 @@ void store_ray(std::byte* at, const RayTask& task) {
   store_vec(at + 64, task.weight.r, task.weight.g, task.weight.b);
   store_little(at + 88, task.pixel);
   store_little(at + 92, static_cast<std::uint8_t>(static_cast<std::uint8_t>(task.kind) |
-                                                  (task.ends_at_horizon ? kHorizonFlag : 0)));
+                                                  (task.ends_at_horizon ? kHorizonFlag : 0) |
+                                                  (task.generation != 0 ? kGenerationFlag : 0)));
   store_little(at + 93, task.credit_exponent);
   store_little(at + 94, static_cast<std::uint8_t>(task.depth));
   store_little(at + 95, static_cast<std::uint8_t>(task.light));

@@ -77,6 +77,8 @@ inline PayloadRule payload_rule(const BatchHeader& h) {
 
 /// A bit beside the ray's kind that says RayTask::ends_at_horizon.
 inline constexpr std::uint8_t kHorizonFlag = 4;
+/// A bit beside them that says RayTask::generation.
+inline constexpr std::uint8_t kGenerationFlag = 8;
 /// A bit beside the bytes of a component that says that more answers to the same ray follow.
 inline constexpr std::uint8_t kMoreFlag = 16;
 

@@ -31,6 +31,7 @@ std::string_view to_string(PartitionMode value) { return control_names::name_of(
 std::string_view to_string(FlowMode value) { return control_names::name_of(value); }
 std::string_view to_string(SumsMode value) { return control_names::name_of(value); }
 std::string_view to_string(ReturnsMode value) { return control_names::name_of(value); }
+std::string_view to_string(BoundariesMode value) { return control_names::name_of(value); }
 std::string_view to_string(Subdivision value) { return control_names::name_of(value); }
 std::string_view to_string(Entry value) { return control_names::name_of(value); }
 std::string_view to_string(JobState value) { return control_names::name_of(value); }

@@ -3,19 +3,14 @@
 // std::optional may be missing, as may one whose limits say so; every other one must be there.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
-#include <type_traits>
 
 #include "proto/messages.hpp"
 #include "proto/messages/field_limits.hpp"
+#include "proto/messages/sliding_fields.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
-
-/// The member's type is `T`, const for the writer and not for the reader.
-template <class Member, class T>
-concept Is = std::same_as<std::remove_const_t<Member>, T>;
 
 namespace control {
 
@@ -25,7 +20,7 @@ concept IsAboutSlice = Is<M, Lend> || Is<M, Copy> || Is<M, Share>;
 
 /// Messages that have no field but job and epoch.
 template <class M>
-concept IsAboutEpoch = Is<M, Prepare> || Is<M, AllWhole>;
+concept IsAboutEpoch = Is<M, Prepare> || Is<M, AllWhole> || Is<M, Dealt>;
 
 void each_field(auto& visit, Is<NodeStats> auto& m) {
   visit("rank", m.rank, kRankRange);
@@ -101,6 +96,7 @@ void each_field(auto& visit, Is<JobOptions> auto& m) {
   visit("subdivision", m.subdivision.way, kRare);
   visit("entry", m.subdivision.entry, kRare);
   visit("returns", m.returns, kRare);
+  visit("boundaries", m.boundaries, kRare);
 }
 
 void each_field(auto& visit, Is<GridLayout> auto& m) {
@@ -244,6 +240,7 @@ void each_field(auto& visit, Is<Load> auto& m) {
   visit("subdivision", m.subdivision.way, kRare);
   visit("entry", m.subdivision.entry, kRare);
   visit("returns", m.returns, kRare);
+  visit("boundaries", m.boundaries, kRare);
 }
 
 void each_field(auto& visit, IsAboutSlice auto& m) {

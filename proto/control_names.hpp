@@ -41,6 +41,10 @@ struct Names<ReturnsMode> {
   static constexpr std::array<std::string_view, 2> kAll{"frontal", "sender"};
 };
 template <>
+struct Names<BoundariesMode> {
+  static constexpr std::array<std::string_view, 2> kAll{"fixed", "sliding"};
+};
+template <>
 struct Names<Subdivision> {
   static constexpr std::array<std::string_view, 6> kAll{"surfaces", "roth",   "linked",
                                                         "arnaldi",  "octree", "kaplan"};

@@ -8,6 +8,7 @@
 
 #include "proto/messages/clients.hpp"
 #include "proto/messages/from_nodes.hpp"
+#include "proto/messages/sliding.hpp"
 #include "proto/messages/to_nodes.hpp"
 #include "proto/messages/values.hpp"
 
@@ -21,6 +22,7 @@ using ControlMessage = std::variant<
     control::Ping, control::Shutdown, control::Submit, control::Status, control::List,
     control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write, control::Down,
     control::Accepted, control::JobInfo, control::Jobs, control::Progress, control::NodeList,
-    control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
+    control::Done, control::Picture, control::Written, control::Failed, control::Bye,
+    control::Slide, control::Slid, control::Turn, control::Dealt, control::Worked>;
 
 }  // namespace graycube

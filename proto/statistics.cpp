@@ -77,6 +77,14 @@ Json subdivision_json(const Statistics& s) {
   return j;
 }
 
+Json sliding_json(const SlidingFigures& f) {
+  return {{"slides", f.slides},         {"boundaries", f.boundaries},
+          {"slices", f.slices},         {"slice_bytes", f.slice_bytes},
+          {"primitives", f.primitives}, {"new_primitives", f.new_primitives},
+          {"recut_s", f.recut_s},       {"build_s", f.build_s},
+          {"slide_s", f.slide_s},       {"generations_peak", f.generations_peak}};
+}
+
 }  // namespace
 
 std::string statistics_json(const Statistics& s) {
@@ -98,7 +106,8 @@ std::string statistics_json(const Statistics& s) {
                   {"partition", to_string(s.partition)},
                   {"flow", to_string(s.flow)},
                   {"sums", to_string(s.sums)},
-                  {"returns", to_string(s.returns)}};
+                  {"returns", to_string(s.returns)},
+                  {"boundaries", to_string(s.boundaries)}};
   j["wall_s"] = s.wall_s;
   j["cpu_s"] = s.cpu_s;
   j["frontal_cpu_s"] = s.frontal_cpu_s;
@@ -123,6 +132,7 @@ std::string statistics_json(const Statistics& s) {
                    {"answer_batches", sum(&NodeStats::answer_batches)},
                    {"answer_bytes", sum(&NodeStats::answer_bytes)}};
   j["subdivision"] = subdivision_json(s);
+  if (s.boundaries == BoundariesMode::kSliding) j["sliding"] = sliding_json(s.sliding);
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
   for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);

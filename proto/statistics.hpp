@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "proto/messages.hpp"
+#include "proto/messages/sliding_figures.hpp"
 #include "shading/settings.hpp"
 
 namespace graycube {
@@ -26,6 +27,8 @@ struct Statistics {
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;
+  BoundariesMode boundaries = BoundariesMode::kFixed;
+  SlidingFigures sliding;
   ImageSize image;
   std::uint64_t primitives = 0, objects = 0;
   double wall_s = 0, cpu_s = 0;

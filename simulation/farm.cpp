@@ -72,6 +72,7 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   for (const Frontal::Process& p : frontal_->take_starts()) start(p);
   if (auto work = frontal_->take_work()) prepare(*work);
+  if (auto work = frontal_->take_recut()) recut(*work);
   for (const Frontal::Outgoing& o : *out) {
     if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
   }
@@ -134,6 +135,31 @@ void Farm::prepare(const PreparationWork& work) {
   outcome_.preparation_cpu_s += thread_cpu_seconds() - began_s;
   timeline_.after(
       0, [this, result] { in_frontal({}, [&] { frontal_->give_result(std::move(*result)); }); });
+}
+
+/// Cutting and encoding a slice is taken to cost what decoding and subdividing it does.
+void Farm::recut(const RecutWork& work) {
+  auto cut = std::make_shared<RecutResult>(graycube::recut(work, thread_cpu_seconds));
+  PerUnit doings;
+  doings[Unit::kBuildByte] = static_cast<double>(cut->bytes);
+  // Not before the messages of the call that asked for it.
+  timeline_.after(0, [this, cut, doings] {
+    in_frontals_background(take({}, doings), [this, cut] {
+      frontal_->on_time({timeline_.now_s(), timeline_.now_s()});
+      frontal_->give_result(*cut);
+    });
+  });
+}
+
+/// A thread of the frontal works for that long, beside the mailroom, which goes first; then calls
+/// the brain.
+void Farm::in_frontals_background(double seconds, std::function<void()> call) {
+  const double now_s = std::min(seconds, kTimeSlice_s);
+  cores_of({}).ask({process_of({}), [now_s] { return now_s; },
+                    [this, left_s = seconds - now_s, call = std::move(call)] {
+                      if (left_s > 0) return in_frontals_background(left_s, call);
+                      in_frontal({}, call);
+                    }});
 }
 
 void Farm::deliver(const Frontal::Outgoing& o) {
@@ -263,8 +289,10 @@ double Farm::begin(Turn& turn) {
     if (!work) --p.active;
   });
   if (!work) return waking_s;
-  // Copies are for rays to come. If none come, a copy may still be at work when the job is over.
-  turn.is_copying = std::holds_alternative<CopyWork>(work->what);
+  // Copies, and slices that boundaries slid to, are for rays to come. If none come, one may still
+  // be at work when the job is over.
+  const bool is_sliding = std::holds_alternative<SlideWork>(work->what);
+  turn.is_copying = is_sliding || std::holds_alternative<CopyWork>(work->what);
   if (!turn.is_copying) ++p.working;
   PerUnit doings;
   turn.is_build = std::holds_alternative<BuildWork>(work->what);
@@ -288,7 +316,7 @@ double Farm::begin(Turn& turn) {
   }
   if (observe) observe(doings, took_s);
   turn.seconds = take(turn.rank, doings);
-  if (turn.is_build) turn.result->build_s = turn.seconds;
+  if (turn.is_build || is_sliding) turn.result->build_s = turn.seconds;
   return waking_s + turn.seconds;
 }
 

@@ -100,6 +100,8 @@ class Farm {
   void in_frontal(PerUnit doings, Call&& call);
   void frontal_receives(const PeerId& peer, const Message& message);
   void prepare(const PreparationWork& work);
+  void recut(const RecutWork& work);
+  void in_frontals_background(double seconds, std::function<void()> call);
   void deliver(const Frontal::Outgoing& o);
   void on_client_message(const Message& message);
 

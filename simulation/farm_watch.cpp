@@ -117,7 +117,8 @@ void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type,
   const BatchLimits limits{.pixel_count = kMaxPixels,
                            .max_depth = kMaxDepth,
                            .nodes = cube_.nodes(),
-                           .are_rays_numbered = load_.returns == ReturnsMode::kSender};
+                           .are_rays_numbered = load_.returns == ReturnsMode::kSender,
+                           .may_slide = load_.boundaries == BoundariesMode::kSliding};
   if (type == BatchType::kClassRays && is_sent) {
     if (is_over_) outcome_.violations.push_back("class rays were sent after the token's end");
     ClassPlaces& out = processes_[from.value].places_out[bit_between(cube_, from, to)];

@@ -117,6 +117,7 @@ std::string statistics_until_failure(const simulation::Outcome& outcome, const S
   s.sums = command.options.sums;
   s.subdivision = command.options.subdivision;
   s.returns = command.options.returns;
+  s.boundaries = command.options.boundaries;
   s.image = settings.image;
   s.render_s = outcome.render_s;
   s.token_rounds = outcome.rounds;

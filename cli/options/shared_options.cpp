@@ -172,6 +172,11 @@ void add_how(Declaring& options, control::JobOptions& o) {
             "frontal (default), or sender: light goes back along the rays' ways, as in 1983",
             names_of(kReturnsChoices),
             [&o](const auto& text) { o.returns = parse_returns("--returns", text); });
+  add_named(
+      options, "--boundaries",
+      "fixed (default), or sliding: macro-regions' boundaries move while rendering, as in 1986",
+      names_of(kBoundariesChoices),
+      [&o](const auto& text) { o.boundaries = parse_boundaries("--boundaries", text); });
   add_named(options, "--subdivision",
             "surfaces (default), or a way of 1987: roth, linked, arnaldi, octree, kaplan",
             names_of(kSubdivisionChoices), [&o](const auto& text) {

@@ -109,6 +109,16 @@ class Domain {
     domain.share_ = share;
     return domain;
   }
+  /// The same domain in a generation of the grid, where boundaries slide: rays that begin here
+  /// belong to it.
+  Domain of_generation(std::uint32_t generation) const {
+    Domain domain = *this;
+    domain.generation_ = generation % kMostGenerations;
+    return domain;
+  }
+  /// RayTask::generation of the rays that begin here.
+  std::uint16_t generation() const { return generation_; }
+  const std::shared_ptr<const Territory>& territory() const { return territory_; }
   /// From now on the domain's regions are those of `share`; not to be called while rays are traced.
   void confine_to(const RegionShare& share) { share_ = share; }
   bool has_foreign_horizons() const { return foreign_horizons_ != nullptr; }
@@ -194,6 +204,7 @@ class Domain {
   RegionShare share_;
   std::shared_ptr<const Territory> territory_;
   bool is_replica_ = false;
+  std::uint16_t generation_ = 0;
   /// Indexed by the owner's row · share_.columns + column; empty when nothing is borrowed.
   std::vector<std::shared_ptr<const Territory>> borrowed_;
   std::shared_ptr<const LightHorizons> horizons_, foreign_horizons_;

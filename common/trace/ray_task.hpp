@@ -14,6 +14,11 @@
 
 namespace graycube {
 
+/// Generations of the grid of macro-regions that may be in use at a time where boundaries slide:
+/// the one whose tiles are handed out, and the one before while tiles of it are open, or the one
+/// after while nodes get ready for it. A node holds as many slices.
+inline constexpr std::uint32_t kMostGenerations = 2;
+
 enum class RayKind : std::uint8_t { kPrimary, kShadow, kReflection, kRefraction };
 inline constexpr int kRayKinds = 4;
 
@@ -36,8 +41,11 @@ struct RayTask {
   std::uint16_t depth = 0;
   /// For shadow rays, the index of their light in the settings, and whether t_max is where they
   /// reach that light's horizon.
-  std::uint16_t light : 15 = 0;
+  std::uint16_t light : 14 = 0;
   bool ends_at_horizon : 1 = false;
+  /// Where boundaries slide: the generation of the grid that is the ray's for life, modulo
+  /// kMostGenerations (docs/design/sliding.md).
+  std::uint16_t generation : 1 = 0;
   /// The macro-region that the ray is in at t.
   RegionIndex region;
   /// Links crossed since the primary ray, by this ray and those that it descends from: its class in
@@ -48,7 +56,7 @@ struct RayTask {
 };
 
 /// The largest number that RayTask::light can hold.
-inline constexpr std::uint32_t kLightMask = (1u << 15) - 1;
+inline constexpr std::uint32_t kLightMask = (1u << 14) - 1;
 static_assert(kMaxLights <= kLightMask + 1);
 
 inline constexpr std::uint32_t kMaxHops = 0xFFFF;

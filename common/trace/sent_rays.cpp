@@ -66,6 +66,7 @@ void spawn(const RayTask& parent, RayKind kind, const RegionIndex& region, const
   r.kind = kind;
   r.depth = static_cast<std::uint16_t>(parent.depth + (kind == RayKind::kShadow ? 0 : 1));
   r.region = region;
+  r.generation = parent.generation;
   r.hops = parent.hops;
 }
 

@@ -90,6 +90,7 @@ void Evaluator::start_primary_rays(const PixelRect& pixels, std::uint32_t s, std
       // Written in place, for the reason given at spawn().
       new (&ray.task.ray) Ray(domain_.frame().primary_ray(x, y, sx, sy));
       ray.task.pixel = y * image.width + x;
+      ray.task.generation = domain_.generation() & 1;
       ray.task.t_max = kInf;
       ray.task.weight = {1, 1, 1};
       ray.task.region = is_one_region ? first : domain_.region_of_pixel(x, y);

@@ -15,7 +15,7 @@ template <typename M>
 concept FromNode =
     OneOf<M, control::Ready, control::EpochAck, control::TokenRound, control::Terminated,
           control::NodeReport, control::Pong, control::NodeError, control::WaitReport,
-          control::Borrow, control::Share, control::Goodbye>;
+          control::Borrow, control::Share, control::Goodbye, control::Slid, control::Worked>;
 
 template <typename M>
 concept FromClient =
@@ -25,9 +25,9 @@ concept FromClient =
 template <typename M>
 concept FromFrontal =
     OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::Relieved,
-          control::AllWhole, control::Prepare, control::Start, control::Finish, control::Ping,
-          control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-          control::NodeList, control::Done, control::Picture, control::Written, control::Failed,
-          control::Bye>;
+          control::AllWhole, control::Slide, control::Turn, control::Dealt, control::Prepare,
+          control::Start, control::Finish, control::Ping, control::Shutdown, control::Accepted,
+          control::JobInfo, control::Jobs, control::Progress, control::NodeList, control::Done,
+          control::Picture, control::Written, control::Failed, control::Bye>;
 
 }  // namespace graycube

@@ -130,6 +130,45 @@ void RunningJob::on_share(Rank owner, const control::Share& m, Post& post) {
   post.to_node(Rank{m.rank}, control::Copy{m.job, m.epoch, owner.value}, *slice);
 }
 
+// ---- boundaries that slide
+
+void RunningJob::look_at_boundaries(double now_s, Post& post) {
+  Sliding* const sliding = this->sliding();
+  if (sliding == nullptr) return;
+  if (sliding->take_closed())
+    post.to_nodes(control::Turn{id(), render_->epoch(), sliding->generation(), sliding->oldest()});
+  if (sliding->all_handed_out() && !std::exchange(are_told_dealt_, sliding->all_handed_out()))
+    post.to_nodes(control::Dealt{id(), render_->epoch()});
+  sliding->look(now_s);
+}
+
+void RunningJob::on_worked(Rank rank, const control::Worked& m, Post& post) {
+  if (sliding() == nullptr || !render_->is_meant(m)) return;
+  sliding()->has_worked(rank, m);
+  hand_out(rank, post);
+}
+
+std::optional<RecutWork> RunningJob::take_recut() {
+  return sliding() != nullptr ? sliding()->take_recut() : std::nullopt;
+}
+
+std::optional<JobFailure> RunningJob::on_recut(const RecutResult& cut, Post& post) {
+  if (sliding() == nullptr) return std::nullopt;
+  if (!cut.error.empty()) return own_failure(cut.error);
+  if (!sliding()->was_recut(cut)) return std::nullopt;
+  post.to_each_node(sliding()->slide_message(render_->epoch()),
+                    [&](Rank rank) { return cut.slices[rank.value]; });
+  return std::nullopt;
+}
+
+void RunningJob::on_slid(Rank rank, const control::Slid& m, double now_s, Post& post) {
+  if (sliding() == nullptr || !render_->is_meant(m) || !sliding()->is_held(rank, m, now_s)) return;
+  post.to_nodes(
+      control::Turn{id(), render_->epoch(), sliding()->generation(), sliding()->oldest()});
+  render_->deal();
+  for (std::uint32_t r = 0; r < farm_.cube.nodes(); ++r) hand_out(Rank{r}, post);
+}
+
 bool RunningJob::on_round(const control::TokenRound& m) {
   if (!render_->is_meant(m)) return false;
   render_->set_token({m.round, m.hops});
@@ -236,6 +275,8 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.sums = render_->sums();
   s.subdivision = scene.subdivision;
   s.returns = scene.returns;
+  s.boundaries = scene.boundaries;
+  if (render_->sliding() != nullptr) s.sliding = render_->sliding()->figures();
   s.image = scene.settings.image;
   s.primitives = scene.primitives;
   s.objects = scene.objects;

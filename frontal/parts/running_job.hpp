@@ -64,6 +64,15 @@ class RunningJob {
   /// `last_ping`: the sequence of the newest ping that was sent.
   void on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping,
                       double now_s, Post& post);
+  void on_worked(Rank rank, const control::Worked& m, Post& post);
+  /// The node holds the next generation of the grid, to which boundaries slide.
+  void on_slid(Rank rank, const control::Slid& m, double now_s, Post& post);
+  /// Where boundaries slide, to be called after tiles have become whole or have been begun: decides
+  /// whether they slide now, and tells nodes which generations of the grid are over.
+  void look_at_boundaries(double now_s, Post& post);
+  /// What is to be cut anew for a slide, if there is something.
+  std::optional<RecutWork> take_recut();
+  [[nodiscard]] std::optional<JobFailure> on_recut(const RecutResult& cut, Post& post);
   /// Asks the nodes for reports once all light is here; fails if that and the token contradict each
   /// other.
   [[nodiscard]] std::optional<JobFailure> finish_when_complete(double now_s, Post& post);
@@ -86,6 +95,7 @@ class RunningJob {
 
  private:
   bool is_rendering() const { return stage_ == JobStage::kRendering; }
+  Sliding* sliding() { return is_rendering() ? render_->sliding() : nullptr; }
   void hand_out(Rank rank, Post& post);
   void ask_for_reports(double now_s, Post& post);
 
@@ -104,6 +114,8 @@ class RunningJob {
   /// CPU seconds before the job; 0 for the first job, as all that came before was for its sake.
   CpuBefore cpu_before_;
   std::optional<RenderJob> render_;
+  /// Whether nodes were told that no more tiles will come, where boundaries slide.
+  bool are_told_dealt_ = false;
   std::optional<DeadlockWatch> deadlock_watch_;
   std::optional<JobFailure> deadlock_;
 };

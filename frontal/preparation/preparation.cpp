@@ -16,6 +16,7 @@
 #include "scene/compile_scene.hpp"
 #include "scene/scene_fault.hpp"
 #include "shading/credit_limits.hpp"
+#include "trace/tile_lines.hpp"
 #include "visibility/light_depths.hpp"
 
 namespace graycube {
@@ -66,6 +67,14 @@ void check_overrides(const control::JobOptions& options, const RenderSettings& s
   in_range("--size", std::uint64_t{image.width} * image.height, 1, kMaxPixels);
   in_range("--samples", image.samples, 1, kMaxSamples);
   in_range("--max-depth", settings.max_depth, 0, kMaxDepth);
+  if (options.boundaries == BoundariesMode::kSliding) {
+    if (options.shadows == ShadowMode::kLocal)
+      add_error(errors, "--boundaries",
+                "sliding goes with --shadows horizon and forward, not local");
+    if (options.scatter > 1)
+      add_error(errors, "--boundaries",
+                "sliding goes with one macro-region for each node, not with --scatter");
+  }
   if (!parse_aovs(options.aov)) {
     add_error(errors, "--aov", "expected names of AOVs, each once, found " + options.aov);
   }
@@ -115,6 +124,12 @@ struct LightWays {
   bool are_held = false;
 };
 
+/// Whether boundaries are asked to slide, where there are any. Then nodes hold only what their
+/// macro-regions need, and help nobody: what goes beyond that would have to slide, too.
+bool is_to_slide(const PreparationWork& work) {
+  return work.options.boundaries == BoundariesMode::kSliding && work.cube.nodes() > 1;
+}
+
 /// Nothing when horizons aren't wanted or there are none: on one node no ray leaves, and lights
 /// that are walled in have none. Depths are made only when too many shadow rays will leave their
 /// nodes for want of room for occluders.
@@ -122,7 +137,8 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
   LightWays ways;
   if (work.options.shadows != ShadowMode::kHorizon || work.cube.nodes() == 1) return ways;
   const Model& model = whole.model();
-  if (work.options.flow == FlowMode::kCredit) ways.occluders = Occluders::of(model);
+  if (work.options.flow == FlowMode::kCredit && !is_to_slide(work))
+    ways.occluders = Occluders::of(model);
   LightHorizons horizons =
       ways.occluders.is_empty() ? LightHorizons::of(model) : ways.occluders.horizons();
   if (horizons.is_empty()) return {};
@@ -140,7 +156,8 @@ LightWays ways_to_lights(const PreparationWork& work, const WholeScene& whole) {
 /// keeps to the report, nor if the whole scene would be subdivided for nothing else.
 bool finishes_rays(const PreparationWork& work, const WholeScene& whole) {
   return work.options.shadows == ShadowMode::kHorizon && work.options.flow == FlowMode::kCredit &&
-         work.cube.nodes() > 1 && whole.has_primary_rays(kRaysPerPrimitiveForBounds);
+         work.cube.nodes() > 1 && !is_to_slide(work) &&
+         whole.has_primary_rays(kRaysPerPrimitiveForBounds);
 }
 
 /// The partition mode with kAuto decided where it can be. Balance matters when rays wait for the
@@ -150,6 +167,23 @@ PartitionMode chosen_partition(const PreparationWork& work, bool has_replicas) {
   return is_open && (has_replicas || work.options.flow == FlowMode::kBlocking)
              ? PartitionMode::kRegular
              : work.options.partition;
+}
+
+/// Sides of tiles where boundaries slide, as these lie between tiles: the smaller one where
+/// macro-regions would have fewer tiles than this across.
+constexpr std::uint32_t kSlidingTileSide = 8, kSmallSlidingTileSide = 4;
+constexpr std::uint32_t kTilesAcrossRegion = 4;
+
+std::uint32_t sliding_tile_side(const ImageSize& image, const MacroGrid& grid) {
+  const std::uint32_t least = std::min(image.width / grid.columns(), image.height / grid.rows());
+  return least < kTilesAcrossRegion * kSlidingTileSide ? kSmallSlidingTileSide : kSlidingTileSide;
+}
+
+/// Whether every macro-region has tiles and there is a place to slide to: not in tiny pictures.
+bool can_slide(const TilePlan& plan, const MacroGrid& grid) {
+  const TileLines lines = TileLines::of(plan);
+  const auto cuts = lines.cuts_of(grid);
+  return cuts && lines.has_room(*cuts);
 }
 
 void cut_for_macro(const PreparationWork& work, const WholeScene& whole, PreparedScene& out) {
@@ -176,7 +210,7 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
                    {.shadow_rays = ways.are_held, .secondary_rays = finishes});
   out.makes_copies = work.options.partition == PartitionMode::kAuto && !out.has_replicas &&
                      work.cube.nodes() > 1 && out.flow == FlowMode::kCredit &&
-                     out.shadows != ShadowMode::kLocal;
+                     out.shadows != ShadowMode::kLocal && !is_to_slide(work);
   out.partition = cut.mode;
   out.rays_per_primary = cut.rays_per_primary;
   if (out.has_replicas) {
@@ -191,8 +225,13 @@ void cut_for_macro(const PreparationWork& work, const WholeScene& whole, Prepare
   }
   const MacroGrid& grid = cut.grid;
   out.grid = {grid.columns(), grid.rows(), k, grid.column_edges(), grid.row_edges(), cut.own_edges};
-  out.plan.emplace(model.settings.image, tile_shape(out.grain, kTileSide, model.settings.image),
+  if (is_to_slide(work)) out.tile_side = sliding_tile_side(model.settings.image, grid);
+  out.plan.emplace(model.settings.image, tile_shape(out.grain, out.tile_side, model.settings.image),
                    grid, cut.own_edges);
+  if (is_to_slide(work) && can_slide(*out.plan, grid)) {
+    out.boundaries = BoundariesMode::kSliding;
+    out.model = whole.shared_model();
+  }
 }
 
 }  // namespace
@@ -208,6 +247,7 @@ std::string choices_text(const PreparedScene& scene) {
                      std::string(to_string(scene.shadows)) + " shadows, " +
                      std::string(to_string(scene.partition)) + " partition";
   if (scene.has_replicas || scene.makes_copies) text += ", neighbours help";
+  if (scene.boundaries == BoundariesMode::kSliding) text += ", sliding boundaries";
   if (scene.returns == ReturnsMode::kSender) text += ", light back to senders";
   if (scene.flow == FlowMode::kBlocking) {
     text += ", blocking queues of " + std::to_string(scene.queue);

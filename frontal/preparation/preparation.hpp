@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "transport/message.hpp"
 
 namespace graycube {
+
+struct Model;
 
 /// With `--shadows local`, a model of at most so many bytes is sent to every node whole, as every
 /// node will need nearly all of it.
@@ -41,9 +44,14 @@ struct PreparedScene {
   FlowMode flow = FlowMode::kCredit;
   SubdivisionChoice subdivision;
   ReturnsMode returns = ReturnsMode::kFrontal;
+  BoundariesMode boundaries = BoundariesMode::kFixed;
   std::uint32_t queue = kDefaultQueue;
   RenderSettings settings;
+  /// Side of a tile in pixels.
+  std::uint32_t tile_side = kTileSide;
   std::optional<TilePlan> plan;
+  /// The whole model, from which slices are cut anew; null unless boundaries slide.
+  std::shared_ptr<const Model> model;
   std::uint64_t primitives = 0, objects = 0;
   /// Slices with light horizons at their ends, by rank; or one for all, the whole model.
   std::vector<SharedBytes> slices;

@@ -13,6 +13,7 @@ class WholeScene {
   explicit WholeScene(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
   const Model& model() const { return *model_; }
+  const std::shared_ptr<const Model>& shared_model() const { return model_; }
   const std::shared_ptr<const Territory>& territory() const {
     if (!territory_) territory_ = Territory::of(model_);
     return territory_;

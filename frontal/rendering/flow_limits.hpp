@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "frontal/rendering/sliding_limits.hpp"
 #include "proto/messages.hpp"
 
 namespace graycube {
@@ -21,6 +22,7 @@ struct FlowLimits {
   /// Rays that a node's outboxes may hold before it traces only rays on class credit. All places
   /// for such rays behind a node's links are a quarter of it, or one for each class and link.
   std::uint64_t outbox_rays = kDefaultOutboxRays;
+  SlidingLimits sliding{};
 };
 
 }  // namespace graycube

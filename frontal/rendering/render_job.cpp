@@ -17,11 +17,23 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       tiles_(cube_, *scene_.plan, way(), {scene_, cube_.nodes(), threads_, limits_}),
       light_(job_, scene_.settings, *scene_.plan, cube_.nodes()),
       ready_(cube_.nodes()),
-      reports_(cube_) {}
+      reports_(cube_) {
+  if (scene_.boundaries == BoundariesMode::kSliding)
+    sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
+}
 
 TileHandout::Way RenderJob::way() const {
   if (is_roth()) return TileHandout::Way::kAny;
+  if (scene_.boundaries == BoundariesMode::kSliding) return TileHandout::Way::kSliding;
   return scene_.has_replicas ? TileHandout::Way::kHelp : TileHandout::Way::kOwn;
+}
+
+std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
+  if (!sliding_) return tiles_.next(rank);
+  std::vector<std::uint32_t> tiles =
+      tiles_.next(rank, sliding_->room_ahead(rank, tiles_.left(rank)));
+  for (const std::uint32_t tile : tiles) sliding_->was_handed_out(tile, rank);
+  return tiles;
 }
 
 control::Load RenderJob::load() const {
@@ -32,7 +44,7 @@ control::Load RenderJob::load() const {
   m.threads = threads_;
   m.grid = scene_.grid;
   m.grain = scene_.grain;
-  m.tile_size = kTileSide;
+  m.tile_size = scene_.tile_side;
   m.shadows = scene_.shadows;
   m.flow = scene_.flow;
   m.queue = scene_.queue;
@@ -43,6 +55,7 @@ control::Load RenderJob::load() const {
   m.sums = sums_;
   m.subdivision = scene_.subdivision;
   m.returns = scene_.returns;
+  m.boundaries = scene_.boundaries;
   m.link_credit_bytes = limits_.link_credit_bytes;
   m.window_tiles = tiles_.window().first_size();
   m.batch_bytes = limits_.batch_bytes;
@@ -68,7 +81,10 @@ void RenderJob::set_class_places(control::Load& m) const {
 std::string RenderJob::add_contributions(std::span<const std::byte> batch,
                                          std::vector<Rank>& opened) {
   LightIntake::Taken taken = light_.take(batch, epoch_);
-  for (const std::uint32_t tile : taken.whole) opened.push_back(tiles_.is_whole(tile));
+  for (const std::uint32_t tile : taken.whole) {
+    opened.push_back(tiles_.is_whole(tile));
+    if (sliding_) sliding_->is_whole(tile);
+  }
   return std::move(taken.wrong);
 }
 

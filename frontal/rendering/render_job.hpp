@@ -14,6 +14,7 @@
 #include "frontal/rendering/node_reports.hpp"
 #include "frontal/rendering/roll_call.hpp"
 #include "frontal/rendering/slice_stock.hpp"
+#include "frontal/rendering/sliding.hpp"
 #include "frontal/rendering/tile_handout.hpp"
 
 namespace graycube {
@@ -47,7 +48,12 @@ class RenderJob {
   bool all_ready() const { return ready_.is_complete(); }
 
   /// Tiles to hand to a node now.
-  std::vector<std::uint32_t> next_tiles(Rank rank) { return tiles_.next(rank); }
+  std::vector<std::uint32_t> next_tiles(Rank rank);
+  /// Null unless boundaries slide.
+  Sliding* sliding() { return sliding_ ? &*sliding_ : nullptr; }
+  const Sliding* sliding() const { return sliding_ ? &*sliding_ : nullptr; }
+  /// Boundaries have slid: tiles that are left have other owners.
+  void deal() { tiles_.deal(sliding_->owners()); }
   std::uint64_t next_assignment_sequence(Rank rank) { return tiles_.next_sequence(rank); }
   /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
   /// nodes whose windows opened are appended to `opened`.
@@ -90,6 +96,7 @@ class RenderJob {
   SumsMode sums_;
   SliceStock slices_;
   TileHandout tiles_;
+  std::optional<Sliding> sliding_;
   LightIntake light_;
   RollCall ready_;
   NodeReports reports_;

@@ -1,5 +1,6 @@
 #include "frontal/rendering/tile_handout.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "proto/share_of.hpp"
@@ -23,13 +24,13 @@ TileHandout::TileHandout(const Hypercube& cube, const TilePlan& plan, Way way,
   }
 }
 
-std::vector<std::uint32_t> TileHandout::next(Rank rank) {
+std::vector<std::uint32_t> TileHandout::next(Rank rank, std::uint32_t most) {
   std::vector<std::uint32_t> tiles;
   std::uint32_t& open = open_[rank.value];
   if (way_ == Way::kAny) {
     take_any(open, tiles);
   } else if (window_.is_worth_filling(open, own_tiles_[rank.value].size())) {
-    take_own(rank, open, tiles);
+    take_own(rank, most, open, tiles);
     if (way_ == Way::kHelp) take_over(rank, open, tiles);
   }
   for (const std::uint32_t tile : tiles) holder_[tile] = rank;
@@ -43,9 +44,20 @@ void TileHandout::take_any(std::uint32_t& open, std::vector<std::uint32_t>& tile
   }
 }
 
-void TileHandout::take_own(Rank rank, std::uint32_t& open, std::vector<std::uint32_t>& tiles) {
+void TileHandout::deal(const std::vector<Rank>& owners) {
+  std::vector<std::uint32_t> tiles;
+  for (auto& own : own_tiles_) {
+    tiles.insert(tiles.end(), own.begin(), own.end());
+    own.clear();
+  }
+  std::sort(tiles.begin(), tiles.end());
+  for (const std::uint32_t tile : tiles) own_tiles_[owners[tile].value].push_back(tile);
+}
+
+void TileHandout::take_own(Rank rank, std::uint32_t most, std::uint32_t& open,
+                           std::vector<std::uint32_t>& tiles) {
   auto& own = own_tiles_[rank.value];
-  while (!own.empty() && open < window_.size(own.size())) {
+  while (!own.empty() && tiles.size() < most && open < window_.size(own.size())) {
     tiles.push_back(own.front());
     own.pop_front();
     ++open;
@@ -75,7 +87,7 @@ std::deque<std::uint32_t>& TileHandout::most_left_beside(Rank helper) {
 Rank TileHandout::is_whole(std::uint32_t tile) {
   const Rank holder = holder_[tile];
   --open_[holder.value];
-  if (way_ == Way::kAny) return holder;
+  if (way_ == Way::kAny || way_ == Way::kSliding) return holder;
   const RegionIndex region = plan_.owner_of_tile(tile);
   const Rank owner = cube_.owner_of(region.column, region.row);
   if (holder != owner) ++relief_[owner.value];

@@ -37,6 +37,7 @@ Holding Holding::of(const Seat& seat, const control::Load& load,
   TilePlan plan = plan_of(load, *domain);
   BatchLimits limits = limits_of(seat, *domain, plan);
   limits.are_rays_numbered = load.returns == ReturnsMode::kSender;
+  limits.may_slide = load.boundaries == BoundariesMode::kSliding;
   return {seat, std::move(domain), std::move(plan), limits};
 }
 

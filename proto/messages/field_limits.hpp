@@ -1,13 +1,19 @@
 // The limits that fields of control messages have, in their ranges and lengths.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 #include "film/aov.hpp"
 #include "geometry/infinity.hpp"
 #include "proto/messages/values.hpp"
 
 namespace graycube {
+
+/// The member's type is `T`, const for the writer and not for the reader.
+template <class Member, class T>
+concept Is = std::same_as<std::remove_const_t<Member>, T>;
 
 struct FieldLimits {
   /// The range of numbers, also inside arrays; integers must fit their type as well.

@@ -59,6 +59,7 @@ struct Load {
   /// How nodes find the crossings of rays.
   SubdivisionChoice subdivision{};
   ReturnsMode returns = ReturnsMode::kFrontal;
+  BoundariesMode boundaries = BoundariesMode::kFixed;
   friend bool operator==(const Load&, const Load&) = default;
 };
 

@@ -46,6 +46,9 @@ enum class SumsMode : std::uint8_t { kDirect, kTree };
 /// How light gets from where it is made to the frontal: straight, weighted by the rays' weights, or
 /// back along the rays' ways to the node that sent the primary ray.
 enum class ReturnsMode : std::uint8_t { kFrontal, kSender };
+/// Whether the boundaries between macro-regions stay, or slide from busy nodes towards idle ones
+/// while the picture is rendered.
+enum class BoundariesMode : std::uint8_t { kFixed, kSliding };
 enum class JobState : std::uint8_t {
   kQueued,
   kLoading,
@@ -78,6 +81,7 @@ std::string_view to_string(PartitionMode value);
 std::string_view to_string(FlowMode value);
 std::string_view to_string(SumsMode value);
 std::string_view to_string(ReturnsMode value);
+std::string_view to_string(BoundariesMode value);
 std::string_view to_string(Subdivision value);
 std::string_view to_string(Entry value);
 std::string_view to_string(JobState value);
@@ -155,6 +159,7 @@ struct JobOptions {
   SumsMode sums = SumsMode::kDirect;
   SubdivisionChoice subdivision{};
   ReturnsMode returns = ReturnsMode::kFrontal;
+  BoundariesMode boundaries = BoundariesMode::kFixed;
   friend bool operator==(const JobOptions&, const JobOptions&) = default;
 };
 

@@ -19,13 +19,14 @@ std::string refused(const std::vector<const char*>& arguments) {
 
 TEST_CASE("every option of render arrives") {
   const auto c = std::get<RenderCommand>(
-      parsed({"render",      "a.json",   "-o",        "b.exr",  "--png",         "c.png",
-              "--stats",     "d.json",   "-n",        "16",     "--threads",     "3",
-              "--algorithm", "macro",    "--grain",   "line",   "--shadows",     "forward",
-              "--partition", "regular",  "--scatter", "1",      "--flow",        "credit",
-              "--sums",      "tree",     "--returns", "sender", "--subdivision", "linked",
-              "--entry",     "extremal", "--size",    "64x32",  "--samples",     "2",
-              "--max-depth", "7",        "--timeout", "2.5",    "--quiet"}));
+      parsed({"render",        "a.json",  "-o",          "b.exr",    "--png",        "c.png",
+              "--stats",       "d.json",  "-n",          "16",       "--threads",    "3",
+              "--algorithm",   "macro",   "--grain",     "line",     "--shadows",    "forward",
+              "--partition",   "regular", "--scatter",   "1",        "--flow",       "credit",
+              "--sums",        "tree",    "--returns",   "sender",   "--boundaries", "sliding",
+              "--subdivision", "linked",  "--entry",     "extremal", "--size",       "64x32",
+              "--samples",     "2",       "--max-depth", "7",        "--timeout",    "2.5",
+              "--quiet"}));
   CHECK(c.scene == "a.json");
   CHECK(c.outputs.exr == "b.exr");
   CHECK(c.outputs.png == "c.png");
@@ -38,6 +39,7 @@ TEST_CASE("every option of render arrives") {
   CHECK(c.options.shadows == ShadowMode::kForward);
   CHECK(c.options.sums == SumsMode::kTree);
   CHECK(c.options.returns == ReturnsMode::kSender);
+  CHECK(c.options.boundaries == BoundariesMode::kSliding);
   CHECK(c.options.subdivision == SubdivisionChoice{Subdivision::kLinked, Entry::kExtremal});
   CHECK(c.options.width == 64u);
   CHECK(c.options.height == 32u);
@@ -235,9 +237,10 @@ TEST_CASE("help names every command, and a command's help its options") {
   }
   const auto render = std::get<PrintCommand>(parsed({"render", "--help"})).text;
   for (const char* option :
-       {"--png", "--nodes", "--threads", "--algorithm", "--grain", "--shadows", "--partition",
-        "--scatter", "--flow", "--sums", "--returns", "--subdivision", "--entry", "--size",
-        "--samples", "--max-depth", "--stats", "--timeout", "--quiet"}) {
+       {"--png",     "--nodes",      "--threads",     "--algorithm", "--grain",
+        "--shadows", "--partition",  "--scatter",     "--flow",      "--sums",
+        "--returns", "--boundaries", "--subdivision", "--entry",     "--size",
+        "--samples", "--max-depth",  "--stats",       "--timeout",   "--quiet"}) {
     CHECK(render.find(option) != std::string::npos);
   }
   CHECK(all.find("man-page") == std::string::npos);

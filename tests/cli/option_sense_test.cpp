@@ -34,6 +34,27 @@ TEST_CASE("an option that the algorithm has no use for is refused, and no other"
         "graycube: usage: --returns: is for --algorithm macro, not for roth");
 }
 
+TEST_CASE("boundaries slide only where nodes hold what their own macro-region needs") {
+  control::JobOptions o;
+  o.boundaries = BoundariesMode::kSliding;
+  CHECK_NOTHROW(check_sense(o));
+  o.algorithm = Algorithm::kRoth;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: is for --algorithm macro, not for roth");
+  o.algorithm = Algorithm::kMacro;
+  o.shadows = ShadowMode::kLocal;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: sliding goes with --shadows horizon and forward, not "
+        "local");
+  o.shadows = ShadowMode::kForward;
+  o.scatter = 2;
+  CHECK(refusal([&] { check_sense(o); }) ==
+        "graycube: usage: --boundaries: sliding goes with one macro-region for each node, not with "
+        "--scatter");
+  o.scatter = 1;
+  CHECK_NOTHROW(check_sense(o));
+}
+
 TEST_CASE("a queue's length is for blocking flow only") {
   control::JobOptions o;
   o.queue = 3;

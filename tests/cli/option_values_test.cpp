@@ -124,6 +124,7 @@ TEST_CASE("how macro works is chosen by name and number") {
   CHECK(parse_sums("--sums", "direct") == SumsMode::kDirect);
   CHECK(parse_sums("--sums", "tree") == SumsMode::kTree);
   CHECK(parse_returns("--returns", "sender") == ReturnsMode::kSender);
+  CHECK(parse_boundaries("--boundaries", "sliding") == BoundariesMode::kSliding);
   CHECK(parse_subdivision("--subdivision", "kaplan") == Subdivision::kKaplan);
   CHECK(parse_entry("--entry", "extremal") == Entry::kExtremal);
   CHECK(parse_scatter("--scatter", "1") == 1);

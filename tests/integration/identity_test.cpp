@@ -85,6 +85,8 @@ void check_identity(const std::string& scene, const char* size = kSize,
                   "--sums", "tree", "--threads", "2"});
   ways.push_back({"--algorithm", "macro", "-n", "4", "--returns", "sender", "--flow", "blocking",
                   "--queue", "65536"});
+  for (const char* nodes : {"2", "16"})
+    ways.push_back({"--algorithm", "macro", "-n", nodes, "--boundaries", "sliding"});
   check_ways(scene, ways, size, also);
 }
 

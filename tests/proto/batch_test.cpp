@@ -164,6 +164,20 @@ TEST_CASE("a ray lies at the offsets that FORMAT.md gives") {
   CHECK(load_little<std::uint16_t>(at + 100) == 0x0B0C);
 }
 
+TEST_CASE("a ray's generation of the grid is a bit beside its kind, where boundaries slide") {
+  Random random(5);
+  std::vector<RayTask> rays = some_rays(random, 20);
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i].generation = i % 2 != 0;
+  const Bytes bytes = encode_rays(kStamp, rays);
+  BatchLimits limits = kLimits;
+  std::vector<RayTask> again;
+  CHECK(std::get<BatchError>(decode_rays(bytes, limits, again)) == BatchError::kBadValue);
+  limits.may_slide = true;
+  REQUIRE(std::holds_alternative<BatchHeader>(decode_rays(bytes, limits, again)));
+  CHECK(again == rays);
+  CHECK(load_little<std::uint8_t>(bytes.data() + 44 + kRayBytes + 92) >= 8);
+}
+
 TEST_CASE("rays keep every bit on the wire") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     INFO("seed " << seed);

@@ -71,6 +71,7 @@ inline control::JobOptions example_options() {
   o.sums = SumsMode::kTree;
   o.subdivision = {Subdivision::kArnaldi, Entry::kDescent};
   o.returns = ReturnsMode::kSender;
+  o.boundaries = BoundariesMode::kSliding;
   return o;
 }
 
@@ -134,7 +135,8 @@ inline std::vector<ControlMessage> example_messages() {
            true,
            SumsMode::kTree,
            {Subdivision::kOctree, Entry::kExtremal},
-           ReturnsMode::kSender},
+           ReturnsMode::kSender,
+           BoundariesMode::kSliding},
       Lend{9, 1, 3},
       Copy{9, 1, 3},
       Relieved{9, 1, 12},
@@ -163,6 +165,11 @@ inline std::vector<ControlMessage> example_messages() {
       Written{9, 640, 480, 0.25},
       Failed{9, FailureCode::kDeadlock, {{"--flow blocking", "deadlock: node 0 waits"}}, stats},
       Bye{},
+      Slide{9, 1, 3, {16, 40, 48}, {24}},
+      Slid{9, 1, 3, 0.25},
+      Turn{9, 1, 3, 2},
+      Dealt{9, 1},
+      Worked{9, 1, 1ull << 40, 77},
   };
 }
 
