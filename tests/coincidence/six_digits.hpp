@@ -20,9 +20,7 @@ class SixDigits {
   void operator()(CsgNode& node) {
     if (node.transform) {
       Affine map = *node.transform;
-      for (auto& row : map.m) {
-        for (double& v : row) round(v);
-      }
+      round(map);
       node.transform = map;
     }
     std::visit([&](auto& shape) { round(shape); }, node.value);
@@ -33,8 +31,20 @@ class SixDigits {
   static void round(Vec3& v) {
     for (int i = 0; i < 3; ++i) round(v[i]);
   }
+  static void round(Affine& map) {
+    for (auto& row : map.m) {
+      for (double& v : row) round(v);
+    }
+  }
   void round(OperationNode& o) {
     for (CsgNode& child : o.children) (*this)(child);
+  }
+  void round(RepeatNode& r) {
+    (*this)(r.child.front());
+    for (Affine& map : r.maps) round(map);
+  }
+  static void round(BezierShape& b) {
+    for (Vec3& p : b.net.points) round(p);
   }
   static void round(ReferenceNode&) {}
   void round(RepeatNode& r) {
