@@ -47,17 +47,6 @@ class SixDigits {
     for (Vec3& p : b.net.points) round(p);
   }
   static void round(ReferenceNode&) {}
-  void round(RepeatNode& r) {
-    for (CsgNode& child : r.child) (*this)(child);
-    for (Affine& map : r.maps) {
-      for (auto& row : map.m) {
-        for (double& v : row) round(v);
-      }
-    }
-  }
-  static void round(BezierShape& b) {
-    for (Vec3& p : b.net.points) round(p);
-  }
   static void round(SphereShape& s) {
     round(s.center);
     round(s.radius);
