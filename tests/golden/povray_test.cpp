@@ -50,7 +50,6 @@ std::vector<Golden> golden_scenes() {
           {"sponge", {}, 0.05},
           {"tetrahedra", {}, 0.05},
           {"tree", {}, 0.05},
-          {"pot", {}, 0.05},
           // The lenses and the prism reach into their neighbours.
           {"glass", {"biconvex lens", "biconcave lens", "prism"}, 0.2}};
 }
@@ -61,8 +60,6 @@ Scene load(const std::string& name, const std::vector<std::string>& without) {
   REQUIRE(result.scene);
   Scene scene = *result.scene;
   scene.settings.image = {kSide, kSide, 1};
-  // Patterns have no twins in POV-Ray.
-  for (NamedMaterial& m : scene.materials) m.material.pattern = {};
   std::erase_if(scene.objects, [&](const SceneObject& o) {
     return std::find(without.begin(), without.end(), o.name) != without.end();
   });
