@@ -9,6 +9,11 @@
 namespace graycube {
 namespace {
 
+/// What all leaf regions may hold together: so many literals, and so many for each literal of the
+/// scene. Solids that run right through each other by the hundred thousand, as the holes of a
+/// sponge do, would have no end of it otherwise.
+constexpr double kLiteralsInAll = 1 << 20, kLiteralsForEach = 16;
+
 class BspBuilder {
  public:
   BspBuilder(const Model& model, const BspOptions& options)
@@ -43,7 +48,10 @@ class BspBuilder {
         node = upper ? child : child + 1;
       }
     }
-    subdivide(node, cell, restricted_to(content, model_, cell), 6);
+    content = restricted_to(content, model_, cell);
+    const double room =
+        kLiteralsInAll + kLiteralsForEach * static_cast<double>(content.literal_count());
+    subdivide(node, cell, std::move(content), 6, room);
   }
 
   /// Adds boxes of the surfaces in a cell: each primitive's bounds within its object's.
@@ -58,7 +66,10 @@ class BspBuilder {
     }
   }
 
-  void subdivide(std::uint32_t node, const Aabb& cell, CellContent content, int depth) {
+  /// `room` is how many literals the leaf regions of the cell may hold. Halves get their parts of
+  /// it by what they hold, so that no region is left whole because others were cut first.
+  void subdivide(std::uint32_t node, const Aabb& cell, CellContent content, int depth,
+                 double room) {
     if (content.items().empty() || depth >= options_.max_depth) {
       assembly_.close(node, cell, content);
       return;
@@ -76,10 +87,17 @@ class BspBuilder {
     upper.lo[split.axis] = split.at;
     CellContent below = restricted_to(content, model_, lower);
     CellContent above = restricted_to(content, model_, upper);
+    const auto lower_count = static_cast<double>(below.literal_count());
+    const double count = lower_count + static_cast<double>(above.literal_count());
+    if (count > room) {
+      assembly_.close(node, cell, content);
+      return;
+    }
     content = {};
     const std::uint32_t child = assembly_.cut(node, split.axis, split.at);
-    subdivide(child, lower, std::move(below), depth + 1);
-    subdivide(child + 1, upper, std::move(above), depth + 1);
+    const double lower_room = count > 0 ? room * lower_count / count : 0;
+    subdivide(child, lower, std::move(below), depth + 1, lower_room);
+    subdivide(child + 1, upper, std::move(above), depth + 1, room - lower_room);
   }
 
   const Model& model_;

@@ -108,7 +108,7 @@ TEST_CASE("a mesh leaf's mistakes are told where they are") {
   CHECK(first_error(R"({"type": "mesh", "points": [[0,0,0],[1,0,0],[0,1,0]], "faces": [[0,1,3]]})")
             .find("/objects/0/csg/faces/0/2: expected a whole number from 0 to 2, found 3") == 0);
   CHECK(first_error(R"({"type": "mesh", "points": [[0,0,0],[1,0,0],[0,1,0]], "faces": [[0,1]]})")
-            .find("/objects/0/csg/faces/0: expected a face of 3 to 4096 corners") == 0);
+            .find("/objects/0/csg/faces/0: expected a face of 3 to 131072 corners") == 0);
   CHECK(first_error(R"({"type": "mesh", "points": [[0,0,0],[1,0,0],[0,1,0]], "faces": [[0,1,2]]})")
             .find("/objects/0/csg/faces: not closed: the edge from (0, 0, 0) to (1, 0, 0) belongs "
                   "to one face only") == 0);
