@@ -36,10 +36,15 @@ Scene wall() {
   return *std::move(read.scene);
 }
 
+/// The wall, cut for four nodes, with tiles of 4 × 4 pixels.
 PreparedScene sliding_scene() {
-  return prepared(wall(),
-                  {.partition = PartitionMode::kRegular, .boundaries = BoundariesMode::kSliding},
-                  kNodes);
+  PreparedScene scene = prepared(
+      wall(), {.partition = PartitionMode::kRegular, .boundaries = BoundariesMode::kSliding},
+      kNodes);
+  const auto frame = CameraFrame::from(scene.settings.camera, scene.settings.image);
+  scene.plan.emplace(scene.settings.image, TileShape{4, 4},
+                     MacroGrid(frame, scene.grid.column_edges, scene.grid.row_edges));
+  return scene;
 }
 
 /// The wall on four nodes, with boundaries that slide. Tiles have 4 × 4 pixels, 64 a node.
