@@ -12,7 +12,7 @@ namespace {
 /// What all leaf regions may hold together: so many literals, and so many for each literal of the
 /// scene. Solids that run right through each other by the hundred thousand, as the holes of a
 /// sponge do, would have no end of it otherwise.
-constexpr double kLiteralsInAll = 1 << 20, kLiteralsForEach = 16;
+constexpr double kLiteralsInAll = 1 << 18, kLiteralsForEach = 16;
 
 class BspBuilder {
  public:

@@ -186,6 +186,37 @@ TEST_CASE("subdividing keeps within its depth, and pays") {
   CHECK(Bsp::build(model, {.step_cost = 0.6, .max_depth = 6}).leaves().size() == 7);
 }
 
+TEST_CASE("holes that run through each other everywhere don't fill memory") {
+  // Those of Menger's sponge: a region where three of the smallest meet is a region's worth of
+  // work.
+  std::vector<CsgNode> solids{node_of(BoxShape{{0, 0, 0}, {243, 243, 243}})};
+  const auto drill = [&](const auto& again, double x, double y, double side) -> void {
+    const double third = side / 3;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 lo{-1, -1, -1}, hi{244, 244, 244};
+      lo[(axis + 1) % 3] = x + third;
+      hi[(axis + 1) % 3] = x + 2 * third;
+      lo[(axis + 2) % 3] = y + third;
+      hi[(axis + 2) % 3] = y + 2 * third;
+      solids.push_back(node_of(BoxShape{lo, hi}));
+    }
+    if (third < 2) return;
+    for (int i = 0; i < 9; ++i) {
+      if (i != 4) again(again, x + i % 3 * third, y + i / 3 * third, third);
+    }
+  };
+  drill(drill, 0, 0, 243);
+  CsgNode sponge;
+  sponge.value = OperationNode{Operation::kDifference, std::move(solids)};
+  const Model model = compile_scene(scene_of({sponge}));
+  REQUIRE(model.primitives.size() == 1 + 3 * 4681);
+  const Bsp bsp = Bsp::build_for_object(model, 0);
+  std::size_t literals = 0;
+  for (const CellProgram& program : bsp.programs()) literals += program.literals;
+  CHECK(literals <= (std::size_t{1} << 18) + 16 * model.primitives.size());
+  CHECK(bsp.leaves().size() > 10000);
+}
+
 TEST_CASE("a model without objects, or with nothing finite, is one region") {
   const Model empty = compile_scene(scene_of({}));
   CHECK(Bsp::build(empty).leaves().size() == 1);
