@@ -2,8 +2,6 @@
 // makes of the rays that come back.
 #include "node/parts/fifo/fifo_apart.hpp"
 
-#include <limits>
-
 #include "catch.hpp"
 #include "node/node_at_work.hpp"
 #include "node/one_ball.hpp"
@@ -25,20 +23,6 @@ control::Load load(FifoMode fifo = FifoMode::kProcess) {
   m.link_credit_bytes = kPlaces * kRayBytes;
   m.fifo = fifo;
   return m;
-}
-
-/// A ray in the left half of space that meets nothing, with that pixel.
-RayTask ray_into_nothing(std::uint32_t pixel) {
-  RayTask ray;
-  ray.ray = {{3, 0, 2}, {1, 0, 0}};
-  ray.t_max = std::numeric_limits<double>::infinity();
-  ray.kind = RayKind::kReflection;
-  ray.weight = {1, 1, 1};
-  ray.depth = 1;
-  ray.credit_exponent = 2;
-  ray.hops = 1;
-  ray.pixel = pixel;
-  return ray;
 }
 
 /// Rank 0 of two nodes, whose half of space is the left one, when a picture has begun.

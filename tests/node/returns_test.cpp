@@ -1,5 +1,4 @@
 // A node where light goes back along the rays' ways: how it answers rays, and what it refuses.
-#include <limits>
 #include <utility>
 
 #include "catch.hpp"
@@ -47,20 +46,6 @@ struct Half : NodeAtWork {
     return false;
   }
 };
-
-/// A reflected ray in the left half of space that meets nothing, with that number.
-RayTask ray_into_nothing(std::uint32_t number) {
-  RayTask ray;
-  ray.ray = {{3, 0, 2}, {1, 0, 0}};
-  ray.t_max = std::numeric_limits<double>::infinity();
-  ray.kind = RayKind::kReflection;
-  ray.weight = {1, 1, 1};
-  ray.depth = 1;
-  ray.credit_exponent = 2;
-  ray.hops = 1;
-  ray.pixel = number;
-  return ray;
-}
 
 const FixedRgb kBackground{1ll << 32, 1ll << 31, 1ll << 30};
 

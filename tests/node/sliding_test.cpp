@@ -1,6 +1,5 @@
 // A node whose boundaries slide: which generations of the grid it holds, what it does not believe,
 // and what it tells the frontal of its work.
-#include <limits>
 #include <utility>
 
 #include "catch.hpp"
@@ -38,14 +37,8 @@ struct Half : NodeAtWork {
     tell(control::Turn{1, 0, current, oldest});
   }
   void receive(std::uint16_t generation) {
-    RayTask ray;
+    RayTask ray = ray_into_nothing(0);
     ray.ray = {{-3, 0, 2}, {-1, 0, 0}};
-    ray.t_max = std::numeric_limits<double>::infinity();
-    ray.kind = RayKind::kReflection;
-    ray.weight = {1, 1, 1};
-    ray.depth = 1;
-    ray.credit_exponent = 2;
-    ray.hops = 1;
     ray.generation = generation & 1;
     node.on_neighbour(encode_rays(stamp_of(Rank{1}), {&ray, 1}));
   }
