@@ -30,6 +30,7 @@ from pathlib import Path
 MOST_VOLUME_PERCENT = 0.1
 MOST_SILHOUETTE_PERCENT = 0.5
 LEAST_ALIKE_PERCENT = 98
+SECONDS_TO_END = 5
 STL_BYTES_WITHOUT_FACETS = 84
 SINGLE_PRECISION = 1e-7
 NO_MEASURE = ("nothing", "no solid", "incomplete")
@@ -37,12 +38,19 @@ NO_MEASURE = ("nothing", "no solid", "incomplete")
 
 def run(command, seconds):
     """The status (None when the time was up) and the text on both outputs."""
-    try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds,
-                              stdin=subprocess.DEVNULL, check=False)
-    except subprocess.TimeoutExpired:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdin=subprocess.DEVNULL) as process:
+        try:
+            text, _ = process.communicate(timeout=seconds)
+            return process.returncode, text.decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            # Asked first: graycube ends its openscad then, which a kill would leave behind.
+            process.terminate()
+        try:
+            process.communicate(timeout=SECONDS_TO_END)
+        except subprocess.TimeoutExpired:
+            process.kill()
         return None, ""
-    return done.returncode, done.stdout.decode(errors="replace")
 
 
 def why(text):
