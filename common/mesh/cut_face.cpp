@@ -7,21 +7,15 @@
 
 #include "mesh/delaunay_flips.hpp"
 #include "mesh/ear_cut.hpp"
+#include "mesh/face_point.hpp"
 #include "mesh/monotone_cut.hpp"
 
 namespace graycube {
 namespace {
 
-using Flat = FacePoint;
-
 /// A face counts as flat if no corner is further from its plane than this part of its extent:
 /// corners of flat faces are off by that much once they are written with six digits.
 constexpr double kFlatWithin = 4e-6;
-
-/// Twice the signed area of a triangle in the plane.
-double turn(const Flat& a, const Flat& b, const Flat& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 Vec3 newell_normal(std::span<const Vec3> points, std::span<const std::uint32_t> face) {
   Vec3 normal;
@@ -43,12 +37,12 @@ int longest_axis(const Vec3& v) {
 }
 
 /// The face's corners, seen along an axis from the side from which it turns counterclockwise.
-std::vector<Flat> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face,
-                            const Vec3& normal) {
+std::vector<FacePoint> flattened(std::span<const Vec3> points, std::span<const std::uint32_t> face,
+                                 const Vec3& normal) {
   const int axis = longest_axis(normal);
   const bool is_above = normal[axis] >= 0;
   const int u = (axis + (is_above ? 1 : 2)) % 3, v = (axis + (is_above ? 2 : 1)) % 3;
-  std::vector<Flat> flat;
+  std::vector<FacePoint> flat;
   flat.reserve(face.size());
   for (const std::uint32_t i : face) flat.push_back({points[i][u], points[i][v]});
   return flat;
@@ -113,29 +107,29 @@ Vec3 rounded(Vec3 p) {
 
 /// A bent face's corners along the two axes across the longest one of its normal, in their order;
 /// turned over, if need be, so that it turns counterclockwise.
-std::vector<Flat> flattened_bent(std::span<const Vec3> points,
-                                 std::span<const std::uint32_t> face) {
+std::vector<FacePoint> flattened_bent(std::span<const Vec3> points,
+                                      std::span<const std::uint32_t> face) {
   std::vector<Vec3> corners;
   for (const std::uint32_t i : face) corners.push_back(rounded(points[i]));
   const int axis = longest_axis(widest_normal(corners));
-  std::vector<Flat> flat;
+  std::vector<FacePoint> flat;
   for (const Vec3& p : corners) flat.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
   double area = 0;
   for (std::size_t i = 2; i < flat.size(); ++i) area += turn(flat[0], flat[i - 1], flat[i]);
   if (area < 0) {
-    for (Flat& p : flat) p.y = -p.y;
+    for (FacePoint& p : flat) p.y = -p.y;
   }
   return flat;
 }
 
 /// Whether every corner turns left, and all together go around once.
-bool is_convex(std::span<const Flat> flat) {
+bool is_convex(std::span<const FacePoint> flat) {
   const std::size_t n = flat.size();
   std::size_t reversals = 0;
   bool rose = flat[0].x > flat[n - 1].x;
   for (std::size_t i = 0; i < n; ++i) {
-    const Flat& a = flat[i];
-    const Flat& b = flat[(i + 1) % n];
+    const FacePoint& a = flat[i];
+    const FacePoint& b = flat[(i + 1) % n];
     if (!(turn(a, b, flat[(i + 2) % n]) > 0)) return false;
     const bool rises = b.x > a.x;
     if (rises != rose) ++reversals;
@@ -154,7 +148,7 @@ void name_corners(std::span<Triangle> triangles, std::span<const std::uint32_t> 
 /// What the surface is depends on where a bent face is cut.
 void cut_bent(std::span<const Vec3> points, std::span<const std::uint32_t> face,
               std::vector<Triangle>& triangles) {
-  const std::vector<Flat> flat = flattened_bent(points, face);
+  const std::vector<FacePoint> flat = flattened_bent(points, face);
   const std::size_t first = triangles.size();
   if (!cut_monotone(flat, triangles)) cut_ears(flat, triangles);
   const std::span<Triangle> own = std::span(triangles).subspan(first);
@@ -179,7 +173,7 @@ void cut_face(std::span<const Vec3> points, std::span<const std::uint32_t> face,
       std::swap(triangles[i][1], triangles[i][2]);
     return;
   }
-  const std::vector<Flat> flat = flattened(points, face, normal);
+  const std::vector<FacePoint> flat = flattened(points, face, normal);
   if (is_convex(flat)) {
     for (std::size_t i = 2; i < face.size(); ++i)
       triangles.push_back({face[0], face[i - 1], face[i]});

@@ -16,10 +16,6 @@ constexpr double kCosine = 0.99995000041666528, kSine = 0.0099998333341666646;
 /// then stays as it is.
 constexpr std::size_t kMaxFlips = std::size_t{1} << 24;
 
-double turn(const FacePoint& a, const FacePoint& b, const FacePoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 /// The cosine and sine, times some length, of the angle at p between a and b.
 FacePoint angle_at(const FacePoint& p, const FacePoint& a, const FacePoint& b) {
   return {(a.x - p.x) * (b.x - p.x) + (a.y - p.y) * (b.y - p.y), std::fabs(turn(p, a, b))};

@@ -5,14 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "mesh/face_point.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 namespace graycube {
-
-/// A point of the plane of a face.
-struct FacePoint {
-  double x, y;
-};
 
 /// Flips diagonals until the circle through each triangle holds no corner beyond its sides (Lawson
 /// 1977). `triangles` hold indices of `corners`, counter-clockwise, and cut a polygon with these

@@ -11,11 +11,6 @@ namespace {
 /// Of polygons with more corners ears are looked for beside those that were cut.
 constexpr std::size_t kMaxScannedCorners = 4096;
 
-/// Twice the signed area of a triangle in the plane.
-double turn(const FacePoint& a, const FacePoint& b, const FacePoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 /// The corners that are left, in cells of a square grid of about one corner each.
 class CornerGrid {
  public:

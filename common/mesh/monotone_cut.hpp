@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/delaunay_flips.hpp"
+#include "mesh/face_point.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 namespace graycube {
