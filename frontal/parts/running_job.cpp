@@ -150,7 +150,7 @@ void RunningJob::look_at_boundaries(double now_s, Post& post) {
   if (sliding == nullptr) return;
   if (sliding->take_closed())
     post.to_nodes(control::Turn{id(), render_->epoch(), sliding->generation(), sliding->oldest()});
-  if (sliding->all_handed_out() && !std::exchange(are_told_dealt_, sliding->all_handed_out()))
+  if (sliding->all_handed_out() && !std::exchange(are_told_dealt_, true))
     post.to_nodes(control::Dealt{id(), render_->epoch()});
   sliding->look(now_s);
 }
