@@ -5,24 +5,15 @@
 
 #include "catch.hpp"
 #include "csg/dice.hpp"
+#include "flat/loop_area.hpp"
 #include "flat/side_crossings.hpp"
 #include "flat/simple_outlines.hpp"
 
 namespace graycube {
 namespace {
 
+using testing::area;
 using testing::Dice;
-
-double area(const FlatLoops& loops) {
-  double sum = 0;
-  for (const FlatLoop& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-      sum += 0.5 * (a.x * b.y - a.y * b.x);
-    }
-  }
-  return sum;
-}
 
 /// A ring of `corners` about the origin whose radii are 100, up to `roughness` more or less.
 FlatLoop rough_ring(int corners, double roughness, Dice& dice) {

@@ -4,26 +4,17 @@
 
 #include "catch.hpp"
 #include "csg/dice.hpp"
+#include "flat/loop_area.hpp"
 #include "flat/side_crossings.hpp"
 
 namespace graycube {
 namespace {
 
+using testing::area;
 using testing::Dice;
 
 FlatLoop square(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
-}
-
-double area(const FlatLoops& loops) {
-  double sum = 0;
-  for (const FlatLoop& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const FlatPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-      sum += 0.5 * (a.x * b.y - a.y * b.x);
-    }
-  }
-  return sum;
 }
 
 FlatLoops combine(FlatOperation operation, const FlatLoops& a, const FlatLoops& b) {

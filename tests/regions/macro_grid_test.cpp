@@ -10,9 +10,12 @@
 
 #include "catch.hpp"
 #include "geometry/simd.hpp"
+#include "regions/oblique_frame.hpp"
 
 namespace graycube {
 namespace {
+
+using testing::oblique_frame;
 
 constexpr ImageSize kImage{40, 24, 1};
 
@@ -22,17 +25,6 @@ struct Shape {
 constexpr Shape kShapes[] = {{1, 1}, {2, 1},  {1, 2},   {2, 2},   {3, 1},  {3, 3},
                              {4, 2}, {4, 4},  {5, 3},   {6, 7},   {8, 4},  {1, 9},
                              {9, 1}, {16, 8}, {32, 32}, {64, 50}, {20, 12}};
-
-CameraFrame oblique_frame(Projection projection, ImageSize image = kImage) {
-  Camera camera;
-  camera.projection = projection;
-  camera.eye = {1.3, 2.1, -7.7};
-  camera.look_at = {0.2, 0.4, 0.6};
-  camera.up = {0.1, 1, 0.05};
-  camera.fov_degrees = 50;
-  camera.width = 9;
-  return CameraFrame::from(camera, image);
-}
 
 /// Axes along x, −y and z and pixels of 2^-4, so that f = 0 can be met exactly.
 CameraFrame square_frame() {
@@ -113,7 +105,7 @@ RegionIndex walk(const MacroGrid& grid, const Ray& ray, RegionIndex start) {
 TEST_CASE("macro-regions partition space") {
   Dice dice(1);
   for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    const CameraFrame frame = oblique_frame(projection);
+    const CameraFrame frame = oblique_frame(projection, kImage);
     for (const Shape shape : kShapes) {
       const auto grid = MacroGrid::regular(frame, shape.columns, shape.rows);
       const int points = shape.columns * shape.rows > 500 ? 30 : 300;
@@ -242,7 +234,7 @@ TEST_CASE("a ray on the wrong side of a plane that it never meets is handed on a
 TEST_CASE("walks along random rays end and visit what the points say") {
   Dice dice(3);
   for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    const CameraFrame frame = oblique_frame(projection);
+    const CameraFrame frame = oblique_frame(projection, kImage);
     for (const Shape shape : kShapes) {
       const auto grid = MacroGrid::regular(frame, shape.columns, shape.rows);
       for (int i = 0; i < 400; ++i) {
@@ -257,7 +249,7 @@ TEST_CASE("walks along random rays end and visit what the points say") {
 
 TEST_CASE("walks along rays through the eye end behind it") {
   Dice dice(4);
-  const CameraFrame frame = oblique_frame(Projection::kPerspective);
+  const CameraFrame frame = oblique_frame(Projection::kPerspective, kImage);
   for (const Shape shape : kShapes) {
     const auto grid = MacroGrid::regular(frame, shape.columns, shape.rows);
     for (int i = 0; i < 300; ++i) {
@@ -308,7 +300,7 @@ TEST_CASE("a packet's rays leave as each does by itself, with every instruction 
   Dice dice(23);
   std::size_t leaving = 0, staying = 0;
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    const CameraFrame frame = oblique_frame(projection);
+    const CameraFrame frame = oblique_frame(projection, kImage);
     for (const auto& [columns, rows] : kShapes) {
       const MacroGrid grid = MacroGrid::regular(frame, columns, rows);
       for (int i = 0; i < 40; ++i) {
@@ -413,7 +405,7 @@ TEST_CASE("of three columns the root leads on in front of the eye and round it b
 }
 
 TEST_CASE("an orthographic grid is open") {
-  const auto grid = MacroGrid::regular(oblique_frame(Projection::kOrthographic), 4, 3);
+  const auto grid = MacroGrid::regular(oblique_frame(Projection::kOrthographic, kImage), 4, 3);
   CHECK(grid.neighbours_of(at(0, 0)).size() == 2);
   CHECK(grid.neighbours_of(at(1, 1)).size() == 4);
   CHECK(grid.neighbours_of(at(3, 2)).size() == 2);
@@ -422,8 +414,8 @@ TEST_CASE("an orthographic grid is open") {
 TEST_CASE("every neighbour on a power-of-two torus is one bit away under Gray codes") {
   const auto gray = [](std::uint32_t i) { return i ^ (i >> 1); };
   for (const Shape shape : {Shape{2, 1}, {2, 2}, {4, 2}, {4, 4}, {8, 4}, {8, 8}, {32, 32}}) {
-    const auto grid =
-        MacroGrid::regular(oblique_frame(Projection::kPerspective), shape.columns, shape.rows);
+    const auto grid = MacroGrid::regular(oblique_frame(Projection::kPerspective, kImage),
+                                         shape.columns, shape.rows);
     for_each_region(grid, [&](RegionIndex region) {
       for (const RegionIndex next : grid.neighbours_of(region)) {
         const std::uint32_t across = gray(region.column) ^ gray(next.column);
@@ -437,7 +429,7 @@ TEST_CASE("every neighbour on a power-of-two torus is one bit away under Gray co
 TEST_CASE("a region touches every box and sphere that holds one of its points") {
   Dice dice(7);
   for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    const CameraFrame frame = oblique_frame(projection);
+    const CameraFrame frame = oblique_frame(projection, kImage);
     for (const Shape shape : kShapes) {
       const auto grid = MacroGrid::regular(frame, shape.columns, shape.rows);
       for (int i = 0; i < 300; ++i) {

@@ -8,12 +8,15 @@
 #include "csg/random_model.hpp"
 #include "csg/whole_tree.hpp"
 #include "geometry/simd.hpp"
+#include "regions/oblique_frame.hpp"
 #include "regions/restrict.hpp"
 #include "regions/slab_depths.hpp"
 #include "topology/node_mesh.hpp"
 
 namespace graycube {
 namespace {
+
+using testing::oblique_frame;
 
 using testing::Dice;
 using testing::RandomModel;
@@ -28,21 +31,10 @@ const Shape kShapes[] = {
     {1, 1, {3}},      {1, 1, {0.5, 1, 9}},  {2, 1, {4}},       {2, 2, {1.5}},
     {4, 2, {2, 7.5}}, {3, 3, {6, 6.25, 8}}, {4, 4, {5, 7, 9}}, {8, 4, {0.25, 2, 4, 6, 8, 10, 12}}};
 
-CameraFrame oblique_frame(Projection projection) {
-  Camera camera;
-  camera.projection = projection;
-  camera.eye = {1.3, 2.1, -7.7};
-  camera.look_at = {0.2, 0.4, 0.6};
-  camera.up = {0.1, 1, 0.05};
-  camera.fov_degrees = 50;
-  camera.width = 9;
-  return CameraFrame::from(camera, kImage);
-}
-
 template <class Visit>
 void for_each_grid(Visit&& visit) {
   for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    const CameraFrame frame = oblique_frame(projection);
+    const CameraFrame frame = oblique_frame(projection, kImage);
     for (const Shape& shape : kShapes) {
       INFO(shape.columns << " x " << shape.rows << " x " << shape.depths.size() + 1);
       visit(MacroGrid::regular(frame, shape.columns, shape.rows, shape.depths), frame);
@@ -209,7 +201,7 @@ TEST_CASE("every neighbour of a mesh's region is on a linked node") {
       const NodeMesh mesh(*Hypercube::of_size(nodes), mode);
       std::vector<double> depths;
       for (std::uint32_t slab = 1; slab < mesh.slabs(); ++slab) depths.push_back(slab);
-      const MacroGrid grid = MacroGrid::regular(oblique_frame(Projection::kPerspective),
+      const MacroGrid grid = MacroGrid::regular(oblique_frame(Projection::kPerspective, kImage),
                                                 mesh.columns(), mesh.rows(), depths);
       for_each_region(grid, [&](RegionIndex region) {
         for (const RegionIndex next : grid.neighbours_of(region)) {

@@ -12,12 +12,6 @@ using namespace graycube::simulation;
 
 namespace {
 
-std::uint64_t total(const Outcome& outcome, std::uint64_t control::NodeStats::*field) {
-  std::uint64_t sum = 0;
-  for (const control::NodeStats& n : outcome.reports) sum += n.*field;
-  return sum;
-}
-
 constexpr MeshMode kMeshes[] = {MeshMode::k3d, MeshMode::kRing, MeshMode::kTree};
 
 /// One seed's trial, with more nodes than others have, so that there are slabs.

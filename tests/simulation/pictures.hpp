@@ -1,5 +1,5 @@
-// Tools that the simulation tests share: a scene, its serial picture, and a comparison of a farm's
-// picture with it.
+// Tools that the simulation tests share: a scene, its serial picture, a comparison of a farm's
+// picture with it, and sums over a farm's nodes.
 #pragma once
 
 #include <string>
@@ -35,6 +35,13 @@ inline std::string scene_text(unsigned width, unsigned height) {
        {"type": "box", "min": [-0.8,0,0.5], "max": [0.8,1.6,2]},
        {"type": "cylinder", "base": [0,0.8,-1], "top": [0,0.8,3], "radius": 0.5}]}},
     {"material": "mirror", "csg": {"type": "box", "min": [-5,0,4], "max": [5,4,4.2]}}]})";
+}
+
+/// The sum of a figure over the nodes' reports.
+inline std::uint64_t total(const Outcome& outcome, std::uint64_t control::NodeStats::*field) {
+  std::uint64_t sum = 0;
+  for (const control::NodeStats& n : outcome.reports) sum += n.*field;
+  return sum;
 }
 
 inline Picture serial_picture(const std::string& text, AovSet aovs = {}) {

@@ -42,7 +42,8 @@ std::string corner_heap(unsigned side) {
   }
   const std::string s = std::to_string(side);
   return R"({"graycube": 1, "image": {"width": )" + s + R"(, "height": )" + s + R"(},
-  "camera": {"type": "orthographic", "eye": [0,0,-9], "look_at": [0,0,0], "up": [0,1,0], "width": 6.4},
+  "camera": {"type": "orthographic", "eye": [0,0,-9], "look_at": [0,0,0], "up": [0,1,0],
+             "width": 6.4},
   "background": [0.1,0.2,0.4], "max_depth": 6,
   "lights": [{"type": "point", "position": [-5,9,-6], "color": [0.6,0.6,0.6]}],
   "materials": {"mirror": {"color": [0.9,0.9,0.9], "diffuse": 0.2, "reflect": 0.8}},
