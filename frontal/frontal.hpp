@@ -63,6 +63,7 @@ class Frontal {
                  std::span<const std::byte> payload);
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   void lose(Rank rank, const std::string& how);
+  void get_on();
 
   FrontalOptions options_;
   double now_s_ = 0;
