@@ -76,9 +76,7 @@ void Node::on_control(const Message& message) {
 void Node::on_welcome(const control::Welcome& m) {
   if (!membership_.join(m)) return mail_.drop("welcome", "the number of nodes is not this node's");
   mail_.set_peers(membership_.peers());
-  for (std::uint32_t bit = 0; bit < membership_.seat().links(); ++bit) {
-    if (membership_.is_to_greet(bit)) mail_.signal(bit, BatchType::kGreeting);
-  }
+  greet();
   for (const Bytes& greeting : membership_.take_early()) on_neighbour(greeting);
 }
 
@@ -158,7 +156,15 @@ void Node::on_finish(const control::Finish& m) {
   rendering_.reset();
 }
 
+void Node::greet() {
+  for (std::uint32_t bit = 0; bit < membership_.seat().links(); ++bit) {
+    if (membership_.is_to_greet(bit)) mail_.signal(bit, BatchType::kGreeting);
+  }
+}
+
 void Node::on_ping(const control::Ping& m) {
+  // A greeting, or its answer, may have been lost: then the job waits for it.
+  if (has_job_ && !is_rendering()) greet();
   control::Pong pong{m.sequence};
   if (rendering_) rendering_->tell_moves(pong);
   mail_.to_frontal(pong);

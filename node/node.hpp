@@ -80,6 +80,7 @@ class Node {
   void on_start(control::Start m);
   void on_finish(const control::Finish& m);
   void on_ping(const control::Ping& m);
+  void greet();
   void on_assignment(std::span<const std::byte> batch);
   void on_signal(std::uint32_t bit, BatchType type);
   void on_batch(std::uint32_t bit, BatchType type, std::span<const std::byte> batch);

@@ -94,6 +94,7 @@ void Farm::start(const Frontal::Process& started) {
                   options_.threads,
                   "simulated"};
   p = {};
+  cut_until_s_.erase({started.rank, {}});
   p.node = std::make_unique<Node>(std::move(id));
   p.node->measure = [this, rank = started.rank](control::NodeStats& stats) {
     fill_in(processes_[rank.value], stats);

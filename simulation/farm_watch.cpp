@@ -100,6 +100,8 @@ void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto header = peek_header(batch);
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h == nullptr || h->stamp.job != load_.job || h->stamp.epoch != epoch_) return;
+  // What was meant for the process before is of no use to one that has taken its place.
+  if (!is_sent && !(processes_[to.value].node && processes_[to.value].node->has_job())) return;
   if (h->type == BatchType::kRays || h->type == BatchType::kClassRays)
     rays_under_way_ += is_sent ? 1 : -1;
   if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers)

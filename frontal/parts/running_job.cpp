@@ -148,10 +148,9 @@ std::optional<JobFailure> RunningJob::on_error(Rank rank, const control::NodeErr
 }
 
 std::optional<JobFailure> RunningJob::look_for_lost_messages(double now_s, Post& post) {
-  const PreparedScene* scene = render_ ? &render_->scene() : nullptr;
-  // Blocking flow may stand still without a loss, and tells so itself.
-  if (!is_rendering() || scene->flow == FlowMode::kBlocking || render_->sliding() != nullptr)
-    return std::nullopt;
+  // Where boundaries slide, nodes may wait for what is being cut.
+  if (!is_rendering() || render_->sliding() != nullptr) return std::nullopt;
+  // The deadlocks of blocking flow are found sooner.
   if (!progress_.all_wait(now_s, 2 * farm_.silence_s)) return std::nullopt;
   return go_on_without({std::nullopt, "all nodes wait for messages that were lost", 0, 0},
                        "the farm", false, post);

@@ -69,7 +69,11 @@ void RenderJob::begin_next_epoch() {
   if (!loads_all_again()) return;
   barrier_.load_all();
   loaded_ = RollCall(cube_.nodes());
-  if (sliding_) sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
+  if (!sliding_) return;
+  sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
+  for (std::uint32_t tile = 0; tile < tiles(); ++tile) {
+    if (light_.tiles().is_whole(tile)) sliding_->was_whole(tile);
+  }
 }
 
 std::vector<std::uint32_t> RenderJob::open_tiles() const {

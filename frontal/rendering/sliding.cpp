@@ -81,6 +81,12 @@ void Sliding::is_whole(std::uint32_t tile) {
   ++whole_;
 }
 
+void Sliding::was_whole(std::uint32_t tile) {
+  is_handed_out_[tile] = true;
+  --left_;
+  ++whole_;
+}
+
 void Sliding::has_worked(Rank rank, const control::Worked& m) {
   NodeWork& node = nodes_[rank.value];
   node.work = static_cast<double>(m.work);

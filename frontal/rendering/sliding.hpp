@@ -32,6 +32,8 @@ class Sliding {
   const std::vector<Rank>& owners() const { return owners_; }
   void was_handed_out(std::uint32_t tile, Rank to);
   void is_whole(std::uint32_t tile);
+  /// The tile was whole before: it won't be handed out.
+  void was_whole(std::uint32_t tile);
   void has_worked(Rank rank, const control::Worked& m);
   /// How many tiles the node may be given now, of `left` that are its own: it has yet to begin so
   /// few of the last that it is worth a message.

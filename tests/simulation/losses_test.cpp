@@ -48,7 +48,8 @@ Fault death_or_stop(std::mt19937_64& random, const Trial& t) {
   return fault;
 }
 
-/// A link between two nodes, or of a node to the frontal, that loses what is sent for a while.
+/// A link between two nodes that loses what is sent for a while; or the way of a node to the
+/// frontal, for so long that the node is missed.
 Fault cut(std::mt19937_64& random, const Trial& t) {
   Fault fault;
   fault.kind = Fault::Kind::kCut;
@@ -56,7 +57,9 @@ Fault cut(std::mt19937_64& random, const Trial& t) {
   const Hypercube cube = *Hypercube::of_size(t.farm.nodes);
   const auto bit = static_cast<std::uint32_t>(random() % (cube.dimension() + 1));
   if (bit < cube.dimension()) fault.to = cube.neighbour(fault.rank, bit);
-  fault.lasts_s = t.farm.link_delay_s * std::uniform_real_distribution<double>(0, 20)(random);
+  fault.lasts_s =
+      fault.to ? t.farm.link_delay_s * std::uniform_real_distribution<double>(0, 20)(random)
+               : 2 * t.farm.silence_s;
   return fault;
 }
 
