@@ -27,6 +27,8 @@ class Jobs {
   void set_time(const Moment& now) { now_ = now; }
   /// Ends the job that is on if it is out of time; tells of its progress now and then.
   void check_time();
+  /// Jobs that wait, and those that are on and have ended and are listed.
+  void count(control::FarmInfo& farm) const;
 
   // Asked by clients
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
@@ -72,10 +74,12 @@ class Jobs {
   /// Tells that a node is lost, which ends a job that was loaded. A node that can't be started ends
   /// any job that is on.
   void node_was_lost(const std::string& name, const std::string& how, bool was_starting);
-  /// Cancels every job, as the farm stops.
-  void cancel_all();
+  /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
+  void stop();
 
  private:
+  void recover_accepted();
+  QueuedJob queued(control::JobInfo info, const control::JobOptions& options) const;
   bool is_rendered() const { return running_ && running_->is_prepared(); }
   std::optional<control::JobInfo> find(std::uint32_t job) const;
   /// The picture of a job that is done.
@@ -87,10 +91,14 @@ class Jobs {
   void fail(JobFailure failure);
   /// Keeps a job that has no picture, and tells those who watch it.
   void end(EndedJob job, JobFailure failure);
+  void leave_to_next_frontal();
 
   const FrontalOptions& farm_;
+  JobStore& store_;
   Post& post_;
   Moment now_;
+  /// When old jobs were cleared last.
+  double cleared_s_ = 0;
   CpuMeter cpu_;
   JobQueue queue_;
   std::optional<RunningJob> running_;

@@ -25,6 +25,14 @@ struct FrontalOptions {
   /// Clients may send scenes that they have compiled. Only for a client that is trusted: what
   /// readers of scenes check, such as that a camera has a direction, is not checked again.
   bool is_private = false;
+  /// Jobs that have not ended when the farm stops go on when it is started again; else they are
+  /// cancelled.
+  bool keeps_jobs = false;
+  /// Of the frontal's process, for those who ask: where it listens, its number, and since when it
+  /// runs (Unix time).
+  std::string endpoint{};
+  std::uint64_t pid = 0;
+  double started_s = 0;
 };
 
 /// Seconds on a clock that never goes back, and Unix time.
