@@ -28,7 +28,7 @@ Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
-      nodes_(options_.cube, options_.silence_s),
+      nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
       jobs_(options_, store, post_) {}
 
 void Frontal::on_time(const Moment& now) {
@@ -45,8 +45,8 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
   const auto rank = nodes_.rank_of(peer);
   if (rank) nodes_.heard(*rank, now_s_);
   if (looks_like_batch(message.frame)) {
-    if (rank) in_job(jobs_, [&] { jobs_.on_light(message.frame); });
-    return;
+    if (rank) in_job(jobs_, [&] { jobs_.on_light(*rank, message.frame); });
+    return get_on();
   }
   const auto decoded = decode(message.text());
   if (const auto* error = std::get_if<ControlError>(&decoded)) {
@@ -56,6 +56,15 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
   if (const auto* hello = std::get_if<control::Hello>(&m)) return on_hello(peer, *hello);
   if (!rank) return on_client(peer, m, message.payload);
   in_job(jobs_, [&] { on_node(*rank, m); });
+  get_on();
+}
+
+/// Loads and starts the job that waits for nodes, once it can be.
+void Frontal::get_on() {
+  in_job(jobs_, [&] {
+    if (jobs_.waits_to_be_loaded() && nodes_.all_here()) jobs_.load();
+    if (jobs_.can_start()) jobs_.start(nodes_.incarnations());
+  });
 }
 
 // ---- nodes
@@ -66,14 +75,11 @@ void Frontal::on_hello(const PeerId& peer, const control::Hello& m) {
   if (!nodes_.all_here()) return;
   post_.to_nodes(control::Welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
                                   heartbeat_.interval_ms()});
-  jobs_.load_what_waits();
+  get_on();
 }
 
 void Frontal::on_node(Rank rank, const ControlMessage& message) {
   std::visit(Overloaded{
-                 [&](const control::Ready& m) {
-                   if (jobs_.on_ready(rank, m)) jobs_.start(nodes_.incarnations());
-                 },
                  [&](const control::WaitReport& m) {
                    jobs_.on_wait_report(rank, m, heartbeat_.last_ping());
                  },
@@ -94,23 +100,22 @@ void Frontal::on_node_exit(const Process& process, const std::string& how) {
   if (!is_going_down_) lose(process.rank, how);
 }
 
-/// The running job fails with the node's name; a new process takes the node's place for the next.
+/// A new process takes the node's place, and the running job goes on in another epoch.
 void Frontal::lose(Rank rank, const std::string& how) {
-  const NodeRegistry::Lost lost = nodes_.lose(rank);
-  jobs_.node_was_lost(lost.name, how, lost.was_starting);
+  const NodeRegistry::Lost lost = nodes_.lose(rank, now_s_);
   if (lost.is_hopeless) {
     fatal_error_ = lost.name + ": can't be started: " + how;
     return go_down();
   }
-  nodes_.start(rank, now_s_);
   post_.set_node(rank, {});
+  nodes_.start(rank, now_s_);
+  in_job(jobs_, [&] { jobs_.node_was_lost({rank, lost.name, how, lost.silent_s}); });
+  get_on();
 }
 
 void Frontal::give_result(PreparationResult result) {
-  in_job(jobs_, [&] {
-    jobs_.give_result(std::move(result));
-    if (nodes_.all_here()) jobs_.load_what_waits();
-  });
+  in_job(jobs_, [&] { jobs_.give_result(std::move(result)); });
+  get_on();
 }
 
 void Frontal::give_result(const RecutResult& cut) {

@@ -64,6 +64,7 @@ class Frontal {
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
+  void get_on();
 
   FrontalOptions options_;
   double now_s_ = 0;

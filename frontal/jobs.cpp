@@ -214,16 +214,15 @@ void Jobs::give_result(const RecutResult& cut) {
   if (auto failure = running_->on_recut(cut, post_)) fail(*std::move(failure));
 }
 
-void Jobs::load_what_waits() {
-  if (!running_ || running_->stage() != JobStage::kPrepared) return;
+void Jobs::load() {
   running_->load(now_.now_s, post_);
   tell_progress();
 }
 
 // ---- told by nodes
 
-bool Jobs::on_ready(Rank rank, const control::Ready& m) {
-  return is_rendered() && running_->on_ready(rank, m);
+void Jobs::on_node(Rank rank, const control::Ready& m) {
+  if (running_) running_->on_ready(rank, m);
 }
 
 void Jobs::start(std::vector<std::uint32_t> incarnations) {
@@ -233,15 +232,15 @@ void Jobs::start(std::vector<std::uint32_t> incarnations) {
   finish_when_complete();
 }
 
-void Jobs::on_light(std::span<const std::byte> batch) {
+void Jobs::on_light(Rank from, std::span<const std::byte> batch) {
   if (!running_ || running_->stage() != JobStage::kRendering) return;
-  if (auto failure = running_->on_light(batch, post_)) return fail(*std::move(failure));
+  if (auto failure = running_->on_light(from, batch, post_)) return fail(*std::move(failure));
   running_->look_at_boundaries(now_.now_s, post_);
   finish_when_complete();
 }
 
 void Jobs::on_node(Rank rank, const control::EpochAck& m) {
-  if (running_ && running_->is_loaded()) running_->on_epoch_ack(rank, m, post_);
+  if (running_) running_->on_epoch_ack(rank, m, post_);
 }
 
 void Jobs::on_node(Rank, const control::TokenRound& m) {
@@ -255,15 +254,15 @@ void Jobs::on_node(Rank, const control::Terminated& m) {
 }
 
 void Jobs::on_node(Rank, const control::NodeReport& m) {
-  if (!is_rendered() || !running_->on_report(m)) return;
-  running_->deadlock() ? fail(*running_->deadlock()) : complete();
+  if (!is_rendered()) return;
+  running_->on_report(m);
+  end_when_over();
 }
 
 void Jobs::on_node(Rank rank, const control::NodeError& m) {
-  if (!is_rendered() || m.job != running_->id()) return;
-  fail({JobState::kFailed,
-        FailureCode::kFailed,
-        {{"node " + std::to_string(rank.value), m.message}}});
+  if (!is_rendered()) return;
+  if (auto failure = running_->on_error(rank, m, post_)) return fail(*std::move(failure));
+  finish_when_complete();
 }
 
 void Jobs::on_node(Rank rank, const control::Borrow& m) {
@@ -290,9 +289,12 @@ void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t
   if (is_rendered()) running_->on_wait_report(rank, m, last_ping, now_.now_s, post_);
 }
 
-void Jobs::node_was_lost(const std::string& name, const std::string& how, bool was_starting) {
-  if (!running_ || !(running_->is_loaded() || was_starting)) return;
-  fail({JobState::kFailed, FailureCode::kFailed, {{name, how}}});
+void Jobs::node_was_lost(const NodeLoss& node) {
+  if (!running_) return;
+  if (auto failure = running_->lose(node, post_)) return fail(*std::move(failure));
+  if (!running_->is_loaded()) return;
+  finish_when_complete();
+  if (running_) end_when_over();
 }
 
 bool Jobs::fail_internally(const std::string& why) {
@@ -310,6 +312,11 @@ void Jobs::tell_progress() {
 
 void Jobs::finish_when_complete() {
   if (auto failure = running_->finish_when_complete(now_.now_s, post_)) fail(*std::move(failure));
+}
+
+void Jobs::end_when_over() {
+  if (!running_->is_over()) return;
+  running_->deadlock() ? fail(*running_->deadlock()) : complete();
 }
 
 void Jobs::complete() {

@@ -45,17 +45,19 @@ class Jobs {
   /// The cutting that a slide of the boundaries needs, if one was decided.
   std::optional<RecutWork> take_recut() { return running_ ? running_->take_recut() : std::nullopt; }
   void give_result(const RecutResult& cut);
-  /// Tells that all nodes are here: a job that waits for them is loaded.
-  void load_what_waits();
+  /// Whether the job that is on waits for all nodes to be here; then load() loads it.
+  bool waits_to_be_loaded() const { return running_ && running_->waits_to_be_loaded(); }
+  void load();
   /// Whether nodes work on a job.
   bool keep_nodes_busy() const { return running_ && running_->is_loaded(); }
 
   // Told by nodes
-  void on_light(std::span<const std::byte> batch);
-  /// Whether the job can start: all nodes are ready.
-  [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
+  void on_light(Rank from, std::span<const std::byte> batch);
+  /// Whether nodes are ready and wait to be told to trace.
+  bool can_start() const { return running_ && running_->can_start(); }
   /// `incarnations`: the nodes' start numbers, indexed by rank.
   void start(std::vector<std::uint32_t> incarnations);
+  void on_node(Rank rank, const control::Ready& m);
   void on_node(Rank rank, const control::EpochAck& m);
   void on_node(Rank rank, const control::TokenRound& m);
   void on_node(Rank rank, const control::Terminated& m);
@@ -71,9 +73,8 @@ class Jobs {
   /// Tells that a check failed, or an exception came, while the running job was worked on: that job
   /// fails. Without a job that is on, false.
   [[nodiscard]] bool fail_internally(const std::string& why);
-  /// Tells that a node is lost, which ends a job that was loaded. A node that can't be started ends
-  /// any job that is on.
-  void node_was_lost(const std::string& name, const std::string& how, bool was_starting);
+  /// Tells that a node is lost: a job that it had goes on in another epoch.
+  void node_was_lost(const NodeLoss& node);
   /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
   void stop();
 
@@ -86,6 +87,7 @@ class Jobs {
   std::variant<const Picture*, Refusal> picture(std::uint32_t job);
   void tell_progress();
   void finish_when_complete();
+  void end_when_over();
   void complete();
   /// Ends the job that is on without a picture.
   void fail(JobFailure failure);

@@ -136,7 +136,9 @@ void Node::on_prepare(const control::Prepare& m) {
 
 void Node::on_start(control::Start m) {
   if (!membership_.is_now(m.job, m.epoch) || !rendering_ || rendering_->has_begun()) return;
+  const std::uint32_t rank = seat().rank.value;
   membership_.accept_only(std::move(m.incarnations));
+  if (rank < m.open_tiles.size()) rendering_->expect_only(m.open_tiles[rank]);
   rendering_->begin();
 }
 
@@ -157,7 +159,9 @@ void Node::on_finish(const control::Finish& m) {
 }
 
 void Node::on_ping(const control::Ping& m) {
-  mail_.to_frontal(control::Pong{m.sequence});
+  control::Pong pong{m.sequence};
+  if (rendering_) rendering_->tell_moves(pong);
+  mail_.to_frontal(pong);
   if (rendering_) rendering_->on_ping(m.sequence, mail_);
 }
 
@@ -287,13 +291,19 @@ Seat Node::seat() const {
 }
 
 void Node::give_result(WorkResult result) {
-  if (!has_job_ || !membership_.is_now(result.job, result.epoch)) return;
-  if (auto* built = std::get_if<Built>(&result.what)) return adopt(*built, result.build_s);
-  if (rendering_) rendering_->give_result(result, mail_);
+  if (!has_job_ || result.job != membership_.job()) return;
+  // What was built of a slice since the job was loaded is as good in a later epoch.
+  const bool is_of_load = result.epoch >= load_.epoch;
+  auto* const built = std::get_if<Built>(&result.what);
+  if (built != nullptr && is_of_load) return adopt(*built, result.build_s);
+  if (!rendering_) return;
+  if (result.epoch == membership_.epoch()) return rendering_->give_result(result, mail_);
+  auto* const copied = std::get_if<Copied>(&result.what);
+  if (copied != nullptr && is_of_load) rendering_->adopt(*copied, mail_);
 }
 
 void Node::adopt(Built& built, double build_s) {
-  if (!built.domain) return mail_.fail(built.error);
+  if (!built.domain) return mail_.fail_for_good(built.error);
   build_s_ = build_s;
   rendering_.emplace(Holding::of(seat(), load_, std::move(built.domain)), load_, slice_bytes_);
   send_ready_when_complete();

@@ -138,6 +138,7 @@ void Rendering::give_domains(Work& work) const {
 void Rendering::give_result(WorkResult& result, Mail& mail) {
   GRAYCUBE_CHECK(working_ > 0, "a result without work");
   --working_;
+  ++moves_;
   flow_->has_moved();
   std::visit(Overloaded{
                  [](Built&) { GRAYCUBE_CHECK(false, "what is being rendered was built again"); },
@@ -151,7 +152,7 @@ void Rendering::give_result(WorkResult& result, Mail& mail) {
 }
 
 void Rendering::adopt(Borrowed& borrowed, Mail& mail) {
-  if (!borrowed.model) return mail.fail(borrowed.error);
+  if (!borrowed.model) return mail.fail_for_good(borrowed.error);
   const std::vector<RayTask> waited =
       borrowing_.came(borrowed.from, borrowed.model->memory_bytes());
   here_.domain =
@@ -161,12 +162,12 @@ void Rendering::adopt(Borrowed& borrowed, Mail& mail) {
 }
 
 void Rendering::adopt(Copied& copied, Mail& mail) {
-  if (!copied.domain) return mail.fail(copied.error);
+  if (!copied.domain) return mail.fail_for_good(copied.error);
   helping_.adopt(here_.seat.bit_of(copied.from), std::move(copied.domain));
 }
 
 void Rendering::adopt(SlidTo& slid, double build_s, Mail& mail) {
-  if (!slid.domain) return mail.fail(slid.error);
+  if (!slid.domain) return mail.fail_for_good(slid.error);
   generations_.add(slid.generation, std::move(slid.domain));
   mail.to_frontal(control::Slid{mail.job(), mail.epoch(), slid.generation, build_s});
 }

@@ -44,8 +44,12 @@ class Rendering {
   /// All nodes are ready: tracing begins.
   void begin() { has_begun_ = true; }
   bool has_begun() const { return has_begun_; }
+  /// Only so many of this node's own tiles are to be traced: the others are whole already.
+  void expect_only(std::uint64_t own_tiles) { queue_.expect_only(own_tiles); }
   /// A new epoch: it has yet to begin, and nothing is under way.
   void reset();
+  /// A copy that was begun in an epoch before.
+  void adopt(Copied& copied, Mail& mail);
 
   // From the frontal
   void on_assigned(std::span<const std::uint32_t> tiles, Mail& mail);
@@ -85,6 +89,11 @@ class Rendering {
   void before_mail_leaves(Mail& mail);
 
   void report(control::NodeStats& stats) const;
+  /// Fills in what tells whether the node gets on.
+  void tell_moves(control::Pong& pong) const {
+    pong.moves = moves_;
+    pong.working = working_;
+  }
 
  private:
   [[nodiscard]] bool open(std::uint32_t bit, std::span<RayTask> rays, Mail& mail);
@@ -93,7 +102,6 @@ class Rendering {
   std::shared_ptr<const Domain> domain_of(std::uint32_t tile) const;
   std::optional<Work> choose_work(Mail& mail);
   void adopt(Borrowed& borrowed, Mail& mail);
-  void adopt(Copied& copied, Mail& mail);
   void adopt(SlidTo& slid, double build_s, Mail& mail);
   void on_assigned_here(std::span<const std::uint32_t> tiles, Mail& mail);
   void give_domains(Work& work) const;
@@ -127,7 +135,9 @@ class Rendering {
   /// Nothing in `roth`, where no token goes round.
   std::optional<Ending> ending_;
   bool has_begun_ = false;
+  /// Pieces of work that are under way, and that are done.
   unsigned working_ = 0;
+  std::uint64_t moves_ = 0;
   Tally tally_;
 };
 

@@ -99,7 +99,7 @@ void Rendering::on_ping(std::uint64_t ping, Mail& mail) {
 /// many are remembered: the job has failed then.
 bool Rendering::open(std::uint32_t bit, std::span<RayTask> rays, Mail& mail) {
   if (light_.back() == nullptr || light_.back()->came(bit, rays)) return true;
-  mail.fail(LightBack::kTooManyOpen);
+  mail.fail_for_good(LightBack::kTooManyOpen);
   return false;
 }
 

@@ -8,6 +8,7 @@ WorkQueue::WorkQueue(std::uint64_t own_tiles, bool is_one_by_one)
 }
 
 void WorkQueue::reset() {
+  std::erase_if(models_, [](const ModelWork& m) { return !std::holds_alternative<CopyWork>(m); });
   tiles_.clear();
   open_.reset();
   unassigned_ = own_tiles_;

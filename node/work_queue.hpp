@@ -78,8 +78,10 @@ class WorkQueue {
 
   /// Neither rays nor tiles are left, and the frontal has no more tiles for this node.
   bool is_empty() const { return !has_rays() && !has_tiles() && unassigned_ == 0; }
-  /// A new epoch; models stay.
+  /// A new epoch: of what waits only copies of neighbours' slices stay.
   void reset();
+  /// The epoch leaves so many of this node's own tiles to be traced.
+  void expect_only(std::uint64_t own_tiles) { unassigned_ = own_tiles; }
 
  private:
   struct Helped {

@@ -191,11 +191,17 @@ void each_field(auto& visit, Is<NodeReport> auto& m) {
   visit("stats", m.stats);
 }
 
-void each_field(auto& visit, Is<Pong> auto& m) { visit("sequence", m.sequence); }
+void each_field(auto& visit, Is<Pong> auto& m) {
+  visit("sequence", m.sequence);
+  visit("moves", m.moves, kRare);
+  visit("working", m.working, kRare);
+}
 
 void each_field(auto& visit, Is<NodeError> auto& m) {
   visit("job", m.job);
+  visit("epoch", m.epoch, kDefaulted);
   visit("message", m.message, kText);
+  visit("is_final", m.is_final, kRare);
 }
 
 void each_field(auto& visit, Is<WaitReport> auto& m) {
@@ -277,6 +283,7 @@ void each_field(auto& visit, Is<Start> auto& m) {
   visit("job", m.job, at_least_one());
   visit("epoch", m.epoch);
   visit("incarnations", m.incarnations, {.length = kMaxNodes});
+  visit("open_tiles", m.open_tiles, {.length = kMaxNodes, .has_default = true, .is_rare = true});
 }
 
 void each_field(auto& visit, Is<Finish> auto& m) { visit("job", m.job, at_least_one()); }

@@ -96,6 +96,17 @@ Json sliding_json(const SlidingFigures& f) {
           {"slide_s", f.slide_s},       {"generations_peak", f.generations_peak}};
 }
 
+Json losses_json(const Statistics& s) {
+  Json losses = Json::array();
+  for (const Loss& loss : std::span(s.losses).first(std::min(s.losses.size(), kMaxLossesListed))) {
+    losses.push_back({{"rank", loss.rank},
+                      {"why", loss.why},
+                      {"noticed_s", loss.noticed_s},
+                      {"tiles", loss.tiles}});
+  }
+  return losses;
+}
+
 }  // namespace
 
 std::string statistics_json(const Statistics& s) {
@@ -150,6 +161,8 @@ std::string statistics_json(const Statistics& s) {
                        {"link_bytes", sum(&NodeStats::slice_bytes)}};
   j["subdivision"] = subdivision_json(s);
   if (s.boundaries == BoundariesMode::kSliding) j["sliding"] = sliding_json(s.sliding);
+  j["epochs"] = s.epochs;
+  j["losses"] = losses_json(s);
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
   for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);

@@ -11,6 +11,20 @@
 
 namespace graycube {
 
+/// Most losses that statistics tell of, the first ones.
+inline constexpr std::size_t kMaxLossesListed = 256;
+
+/// What was lost while a job was on the nodes.
+struct Loss {
+  /// The node that was lost, or that told of a lost batch.
+  std::uint32_t rank = 0;
+  std::string why;
+  /// Seconds for which nothing had been heard of a lost node; 0 for a batch.
+  double noticed_s = 0;
+  /// Tiles that were under way, and are traced again.
+  std::uint32_t tiles = 0;
+};
+
 struct Statistics {
   std::string version, scene;
   /// Why there is no picture; empty when there is one.
@@ -39,6 +53,9 @@ struct Statistics {
   /// The part of cpu_s that went into starting processes.
   double start_cpu_s = 0;
   double load_s = 0, partition_s = 0, build_s = 0, render_s = 0;
+  /// Tries at the picture, each but the first after a loss (docs/design/epochs.md).
+  std::uint32_t epochs = 1;
+  std::vector<Loss> losses;
   std::uint32_t token_rounds = 0, token_hops = 0;
   /// Slices that the frontal sent when the job was loaded.
   std::uint64_t slices = 0, slice_bytes = 0;

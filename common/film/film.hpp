@@ -33,6 +33,7 @@ class Film {
   /// whose sums leave 64 bits, and 12 more for each plane of AOVs. Throws std::bad_alloc.
   Film(std::uint32_t width, std::uint32_t height, std::uint32_t rays_per_pixel, AovSet aovs = {});
 
+  std::uint32_t width() const { return width_; }
   std::uint64_t pixel_count() const { return std::uint64_t{width_} * height_; }
   /// Whether `add` takes this slot: a pixel, or one of a plane of AOVs that is kept.
   bool has_slot(std::uint32_t slot) const;

@@ -7,6 +7,7 @@
 
 #include "frontal/preparation/preparation.hpp"
 #include "frontal/rendering/flow_limits.hpp"
+#include "frontal/rendering/retries.hpp"
 #include "topology/hypercube.hpp"
 
 namespace graycube {
@@ -16,8 +17,14 @@ struct FrontalOptions {
   /// Evaluator threads per node.
   std::uint32_t threads = 1;
   double heartbeat_s = 1;
-  /// A node that answers nothing for so many seconds is taken for dead.
-  double silence_s = 10;
+  /// A node that answers nothing for so many seconds is taken for dead; and so is one that hasn't
+  /// said hello so many seconds after it was started.
+  double silence_s = 10, start_patience_s = 60;
+  /// A node that answers, but has been at the same pieces of work for so many seconds, is taken for
+  /// dead.
+  double standstill_s = 300;
+  /// Losses at which a tile may be under way before the job fails.
+  std::uint32_t retries = kDefaultRetries;
   std::string version;
   /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;

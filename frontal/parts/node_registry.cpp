@@ -4,8 +4,8 @@
 
 namespace graycube {
 
-NodeRegistry::NodeRegistry(const Hypercube& cube, double silence_s)
-    : cube_(cube), silence_s_(silence_s), nodes_(cube.nodes()) {
+NodeRegistry::NodeRegistry(const Hypercube& cube, const Patience& patience)
+    : cube_(cube), patience_(patience), nodes_(cube.nodes()) {
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) start(Rank{rank}, 0);
 }
 
@@ -52,20 +52,22 @@ std::vector<Rank> NodeRegistry::take_silent(double now_s) {
     Record& node = nodes_[rank];
     // A node that was to be started before time was first told counts as silent only from then on.
     if (node.last_heard_s == 0) node.last_heard_s = now_s;
-    if (now_s - node.last_heard_s < silence_s_) continue;
+    const double patience_s = node.is_here ? patience_.silence_s : patience_.start_s;
+    if (now_s - node.last_heard_s < patience_s) continue;
     silent.push_back(Rank{rank});
-    kills_.push_back({Rank{rank}, node.incarnation});
+    kill(Rank{rank});
   }
   return silent;
 }
 
-NodeRegistry::Lost NodeRegistry::lose(Rank rank) {
+NodeRegistry::Lost NodeRegistry::lose(Rank rank, double now_s) {
   const Record& node = nodes_[rank.value];
   std::erase_if(peers_, [rank](const auto& peer) { return peer.second == rank; });
   std::string name = "node " + std::to_string(rank.value);
   if (node.pid != 0) name += " (process " + std::to_string(node.pid) + ")";
   if (!node.is_here) ++failed_starts_;
-  return {std::move(name), !node.is_here, !node.is_here && failed_starts_ >= kMaxFailedStarts};
+  return {std::move(name), now_s - node.last_heard_s,
+          !node.is_here && failed_starts_ >= kMaxFailedStarts};
 }
 
 bool NodeRegistry::all_here() const { return std::ranges::all_of(nodes_, &Record::is_here); }

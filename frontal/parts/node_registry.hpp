@@ -28,13 +28,20 @@ class NodeRegistry {
   struct Lost {
     /// For people: its rank, and its process if it had said hello.
     std::string name;
-    bool was_starting = false;
+    /// Seconds since it was last heard, or started.
+    double silent_s = 0;
     /// Processes end before their hello again and again.
     bool is_hopeless = false;
   };
 
-  /// A node that answers nothing for `silence_s` is taken for dead. Every rank gets a process.
-  NodeRegistry(const Hypercube& cube, double silence_s);
+  /// How long nodes may say nothing.
+  struct Patience {
+    /// For so many seconds, or until hello.
+    double silence_s = 10, start_s = 60;
+  };
+
+  /// A node that says nothing for longer than that is taken for dead. Every rank gets a process.
+  NodeRegistry(const Hypercube& cube, const Patience& patience);
 
   /// A new process is to be started for the rank, which must have none.
   void start(Rank rank, double now_s);
@@ -47,8 +54,10 @@ class NodeRegistry {
   void was_held_up(double seconds);
   /// Takes the nodes that were silent for too long; their processes are to be ended.
   std::vector<Rank> take_silent(double now_s);
+  /// The node's process is to be ended.
+  void kill(Rank rank) { kills_.push_back({rank, nodes_[rank.value].incarnation}); }
   /// Forgets a node's process: its messages no longer count, and the rank must be started again.
-  Lost lose(Rank rank);
+  Lost lose(Rank rank, double now_s);
   bool is_current(const Process& process) const {
     return nodes_[process.rank.value].incarnation == process.incarnation;
   }
@@ -80,7 +89,7 @@ class NodeRegistry {
   };
 
   Hypercube cube_;
-  double silence_s_;
+  Patience patience_;
   std::vector<Record> nodes_;  // by rank
   std::map<PeerId, Rank> peers_;
   std::uint32_t next_incarnation_ = 1;

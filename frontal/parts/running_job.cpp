@@ -8,11 +8,12 @@
 namespace graycube {
 namespace {
 
-JobState state_of(JobStage stage) {
+/// `is_again`: nodes have traced in an epoch before.
+JobState state_of(JobStage stage, bool is_again) {
   switch (stage) {
     case JobStage::kPreparing:
     case JobStage::kPrepared: return JobState::kLoading;
-    case JobStage::kBuilding: return JobState::kBuilding;
+    case JobStage::kBuilding: return is_again ? JobState::kRendering : JobState::kBuilding;
     case JobStage::kRendering:
     case JobStage::kReporting: break;
   }
@@ -59,40 +60,113 @@ void RunningJob::prepared(PreparedScene scene) {
   const SumsMode sums = sums_of(options_);
   if (sums != SumsMode::kDirect) info_.choices += ", sums by " + std::string(to_string(sums));
   info_.algorithm = scene.algorithm;
-  render_.emplace(id(), std::move(scene), farm_.cube, threads, farm_.limits, sums);
+  render_.emplace(id(), std::move(scene), farm_.cube, threads, farm_.limits, sums, farm_.retries);
   info_.tiles = static_cast<std::uint32_t>(render_->tiles());
   stage_ = JobStage::kPrepared;
 }
 
 void RunningJob::load(double now_s, Post& post) {
-  stage_ = JobStage::kBuilding;
-  times_.build_began_s = now_s;
+  if (stage_ == JobStage::kPrepared) {
+    stage_ = JobStage::kBuilding;
+    times_.build_began_s = now_s;
+  }
   const bool over_links = render_->slice_way().has_value();
-  post.to_each_node(render_->load(), [&](Rank rank) {
-    return over_links && rank != Rank{0} ? SharedBytes{} : render_->slices().take(rank);
-  });
-}
-
-void RunningJob::on_epoch_ack(Rank rank, const control::EpochAck& m, Post& post) {
-  const auto way = render_->slice_way();
-  if (!way || stage_ != JobStage::kBuilding || !render_->is_meant(m)) return;
-  if (!render_->knows_of_it(rank)) return;
-  for (const Rank to : way->farthest_first()) {
-    post.to_node(Rank{0}, control::HandOn{m.job, m.epoch, to.value}, render_->slices().take(to));
+  const control::Load load = render_->load();
+  for (std::uint32_t r = 0; r < farm_.cube.nodes(); ++r) {
+    const Rank rank{r};
+    if (!render_->barrier().needs_load(rank)) continue;
+    render_->barrier().was_loaded(rank);
+    post.to_node(rank, load,
+                 over_links && rank != Rank{0} ? SharedBytes{} : render_->slices().of(rank));
   }
 }
 
-bool RunningJob::on_ready(Rank rank, const control::Ready& m) {
-  if (!render_->is_meant(m)) return false;
-  render_->set_ready(rank);
-  return render_->all_ready() && stage_ < JobStage::kRendering;
+bool RunningJob::waits_to_be_loaded() const {
+  if (stage_ == JobStage::kPrepared) return true;
+  return is_on_nodes() && render_->barrier().needs_load();
+}
+
+void RunningJob::on_epoch_ack(Rank rank, const control::EpochAck& m, Post& post) {
+  if (!is_on_nodes() || !render_->is_meant(m)) return;
+  render_->barrier().has_acknowledged(rank, m.epoch);
+  const auto way = render_->slice_way();
+  if (!way || stage_ != JobStage::kBuilding || !render_->knows_of_it(rank)) return;
+  for (const Rank to : way->farthest_first()) {
+    post.to_node(Rank{0}, control::HandOn{m.job, m.epoch, to.value}, render_->slices().of(to));
+  }
+}
+
+void RunningJob::on_ready(Rank rank, const control::Ready& m) {
+  if (!is_on_nodes() || m.job != id()) return;
+  render_->is_ready(rank, m.epoch);
+  if (stage_ == JobStage::kRendering) late_.push_back(rank);
+}
+
+bool RunningJob::can_start() const {
+  if (stage_ == JobStage::kRendering) return !late_.empty();
+  return stage_ == JobStage::kBuilding && render_->barrier().is_open();
 }
 
 void RunningJob::start(std::vector<std::uint32_t> incarnations, double now_s, Post& post) {
+  const control::Start start{id(), render_->epoch(), std::move(incarnations),
+                             render_->open_tiles()};
+  if (stage_ == JobStage::kRendering) {
+    for (const Rank rank : std::exchange(late_, {})) {
+      post.to_node(rank, start);
+      hand_out(rank, post);
+    }
+    return;
+  }
   stage_ = JobStage::kRendering;
-  times_.render_began_s = now_s;
-  post.to_nodes(control::Start{id(), render_->epoch(), std::move(incarnations)});
+  if (render_->epoch() == 0) times_.render_began_s = now_s;
+  post.to_nodes(start);
   for (std::uint32_t rank = 0; rank < farm_.cube.nodes(); ++rank) hand_out(Rank{rank}, post);
+}
+
+// ---- losses
+
+std::optional<JobFailure> RunningJob::lose(const NodeLoss& node, Post& post) {
+  if (stage_ == JobStage::kReporting) {
+    render_->reports().will_not_come(node.rank);
+    return std::nullopt;
+  }
+  if (!is_on_nodes()) return std::nullopt;
+  return go_on_without({node.rank.value, node.how, node.noticed_s, 0}, node.name, true, post);
+}
+
+std::optional<JobFailure> RunningJob::on_error(Rank rank, const control::NodeError& m,
+                                               Post& post) {
+  const std::string name = "node " + std::to_string(rank.value);
+  if (m.job != id() || !is_on_nodes()) return std::nullopt;
+  if (m.is_final) return JobFailure{JobState::kFailed, FailureCode::kFailed, {{name, m.message}}};
+  if (m.epoch != render_->epoch()) return std::nullopt;
+  return go_on_without({rank.value, m.message, 0, 0}, name, false, post);
+}
+
+/// Begins the next epoch. Once all tiles are whole none is needed: the picture is complete.
+std::optional<JobFailure> RunningJob::go_on_without(Loss loss, const std::string& name,
+                                                    bool is_gone, Post& post) {
+  RenderJob::Damage damage = render_->note_loss(Rank{loss.rank}, is_gone);
+  loss.tiles = damage.tiles;
+  losses_.push_back(loss);
+  if (render_->film_is_complete()) {
+    is_cut_short_ = true;
+    if (is_gone) render_->reports().will_not_come(Rank{loss.rank});
+    return std::nullopt;
+  }
+  if (!damage.culprit.empty()) {
+    return JobFailure{JobState::kFailed,
+                      FailureCode::kFailed,
+                      {{name, loss.why + "; that was loss " + std::to_string(losses_.size()) +
+                                  " of the job, and each time " + damage.culprit}}};
+  }
+  render_->begin_next_epoch();
+  stage_ = JobStage::kBuilding;
+  late_.clear();
+  are_told_dealt_ = false;
+  if (deadlock_watch_) deadlock_watch_.emplace(farm_.cube);
+  if (!render_->loads_all_again()) post.to_nodes(control::Prepare{id(), render_->epoch()});
+  return std::nullopt;
 }
 
 // ---- while it is rendered
@@ -105,13 +179,16 @@ void RunningJob::hand_out(Rank rank, Post& post) {
   post.to_node(rank, encode_assignment(stamp, tiles));
 }
 
-std::optional<JobFailure> RunningJob::on_light(std::span<const std::byte> batch, Post& post) {
+std::optional<JobFailure> RunningJob::on_light(Rank from, std::span<const std::byte> batch,
+                                               Post& post) {
   const auto header = peek_header(batch);
   const auto* h = std::get_if<BatchHeader>(&header);
   if (h != nullptr && h->stamp.job != id()) return std::nullopt;
   std::vector<Rank> opened;
-  std::string wrong = render_->add_contributions(batch, opened);
-  if (!wrong.empty()) return own_failure(std::move(wrong));
+  LightIntake::Taken taken = render_->add_contributions(batch, opened);
+  if (taken.is_lost)
+    return go_on_without({from.value, std::move(taken.wrong), 0, 0}, "the frontal", false, post);
+  if (!taken.wrong.empty()) return own_failure(std::move(taken.wrong));
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
   for (const Rank rank : opened) hand_out(rank, post);
@@ -218,13 +295,16 @@ void RunningJob::ask_for_reports(double now_s, Post& post) {
 std::optional<JobFailure> RunningJob::finish_when_complete(double now_s, Post& post) {
   std::string wrong = render_->contradiction();
   if (!wrong.empty()) return own_failure(std::move(wrong));
-  if (render_->is_complete() && stage_ != JobStage::kReporting) ask_for_reports(now_s, post);
+  const bool is_over = render_->is_complete() || (is_cut_short_ && is_on_nodes());
+  if (is_over && stage_ != JobStage::kReporting) ask_for_reports(now_s, post);
   return std::nullopt;
 }
 
-bool RunningJob::on_report(const control::NodeReport& m) {
-  if (m.job != id()) return false;
-  render_->reports().add(m.stats);
+void RunningJob::on_report(const control::NodeReport& m) {
+  if (m.job == id()) render_->reports().add(m.stats);
+}
+
+bool RunningJob::is_over() const {
   return stage_ == JobStage::kReporting && render_->reports().are_complete();
 }
 
@@ -236,7 +316,7 @@ bool RunningJob::has_lost_patience(double now_s) const {
 
 control::JobInfo RunningJob::info() const {
   control::JobInfo info = info_;
-  info.state = state_of(stage_);
+  info.state = state_of(stage_, times_.render_began_s > 0);
   return info;
 }
 
@@ -307,6 +387,8 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.render_s = times_.render_ended_s - times_.render_began_s;
   s.slices = farm_.cube.nodes();
   s.slice_bytes = render_->slices().own_bytes();
+  s.epochs = render_->epoch() + 1;
+  s.losses = losses_;
   s.token_rounds = render_->token().round;
   s.token_hops = render_->token().hops;
   s.per_node = render_->reports().stats();

@@ -12,6 +12,7 @@
 #include "frontal/parts/post.hpp"
 #include "frontal/rendering/deadlock_watch.hpp"
 #include "frontal/rendering/render_job.hpp"
+#include "proto/statistics.hpp"
 
 namespace graycube {
 
@@ -22,9 +23,18 @@ inline constexpr double kReportPatience_s = 5;
 enum class JobStage : std::uint8_t {
   kPreparing,  ///< its scene is read and cut
   kPrepared,   ///< it can be loaded once all nodes are here
-  kBuilding,   ///< nodes subdivide their slices
+  kBuilding,   ///< nodes subdivide their slices, or drop what an epoch has left
   kRendering,  ///< all nodes are ready and have been told to trace
   kReporting,  ///< nothing more will be traced; the nodes' reports are due
+};
+
+/// A node that is lost.
+struct NodeLoss {
+  Rank rank;
+  /// For people: its name, and how it was lost.
+  std::string name, how;
+  /// Seconds since it was last heard.
+  double noticed_s = 0;
 };
 
 /// Why a job ends without a picture.
@@ -48,16 +58,25 @@ class RunningJob {
   bool is_overdue(double now_s) const;
 
   void prepared(PreparedScene scene);
-  /// Sends the nodes their slices, once all nodes are here.
+  /// Sends their slices to the nodes that need them, once all nodes are here.
   void load(double now_s, Post& post);
+  bool waits_to_be_loaded() const;
   /// Where slices come over links: sends them to rank 0, once all nodes know of the job.
   void on_epoch_ack(Rank rank, const control::EpochAck& m, Post& post);
-  /// Whether all nodes are ready, so that it can start.
-  [[nodiscard]] bool on_ready(Rank rank, const control::Ready& m);
+  void on_ready(Rank rank, const control::Ready& m);
+  /// Whether nodes are ready and wait to be told to trace.
+  bool can_start() const;
   void start(std::vector<std::uint32_t> incarnations, double now_s, Post& post);
 
+  // Losses. The job goes on in another epoch, unless a failure is returned.
+  /// A node is lost; another process takes its place.
+  [[nodiscard]] std::optional<JobFailure> lose(const NodeLoss& node, Post& post);
+  [[nodiscard]] std::optional<JobFailure> on_error(Rank rank, const control::NodeError& m,
+                                                   Post& post);
+
   // Messages of the nodes while the job is rendered. A failure that is returned ends the job.
-  [[nodiscard]] std::optional<JobFailure> on_light(std::span<const std::byte> batch, Post& post);
+  [[nodiscard]] std::optional<JobFailure> on_light(Rank from, std::span<const std::byte> batch,
+                                                   Post& post);
   void on_borrow(Rank rank, const control::Borrow& m, Post& post) const;
   void on_share(Rank owner, const control::Share& m, Post& post);
   /// False when the token is of another job or epoch.
@@ -78,8 +97,9 @@ class RunningJob {
   /// Asks the nodes for reports once all light is here; fails if that and the token contradict each
   /// other.
   [[nodiscard]] std::optional<JobFailure> finish_when_complete(double now_s, Post& post);
-  /// Whether all nodes have reported: the job is over.
-  [[nodiscard]] bool on_report(const control::NodeReport& m);
+  void on_report(const control::NodeReport& m);
+  /// Whether all nodes have reported that will.
+  bool is_over() const;
 
   /// The cycle of nodes that wait for each other, once one was found: then the job can only end
   /// with this, whatever else happens while it waits for reports.
@@ -97,6 +117,9 @@ class RunningJob {
 
  private:
   bool is_rendering() const { return stage_ == JobStage::kRendering; }
+  bool is_on_nodes() const { return stage_ == JobStage::kBuilding || is_rendering(); }
+  std::optional<JobFailure> go_on_without(Loss loss, const std::string& name, bool is_gone,
+                                          Post& post);
   Sliding* sliding() { return is_rendering() ? render_->sliding() : nullptr; }
   void hand_out(Rank rank, Post& post);
   void ask_for_reports(double now_s, Post& post);
@@ -116,6 +139,11 @@ class RunningJob {
   /// CPU seconds before the job; 0 for the first job, as all that came before was for its sake.
   CpuBefore cpu_before_;
   std::optional<RenderJob> render_;
+  std::vector<Loss> losses_;
+  /// All tiles were whole when a node was lost: nobody waits for the token's verdict.
+  bool is_cut_short_ = false;
+  /// Nodes that have become ready while others trace.
+  std::vector<Rank> late_;
   /// Whether nodes were told that no more tiles will come, where boundaries slide.
   bool are_told_dealt_ = false;
   std::optional<DeadlockWatch> deadlock_watch_;

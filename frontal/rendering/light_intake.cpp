@@ -1,5 +1,6 @@
 #include "frontal/rendering/light_intake.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace graycube {
@@ -28,18 +29,30 @@ LightIntake::LightIntake(std::uint32_t job, const RenderSettings& settings, cons
   limits_.nodes = nodes;
 }
 
+void LightIntake::reopen(const TilePlan& plan) {
+  std::ranges::fill(batches_, 0);
+  const std::uint32_t width = film_.width();
+  for (const std::uint32_t tile : ledger_.open_tiles()) {
+    ledger_.clear(tile);
+    const PixelRect rect = plan.rect(tile);
+    for (std::uint32_t y = rect.y0; y < rect.y1; ++y) {
+      for (std::uint32_t x = rect.x0; x < rect.x1; ++x) film_.clear(y * width + x);
+    }
+  }
+}
+
 LightIntake::Taken LightIntake::take(std::span<const std::byte> batch, std::uint32_t epoch) {
   const auto result = decode_contributions(batch, limits_, credits_, contributions_);
   if (const auto* error = std::get_if<BatchError>(&result)) {
-    return {"a broken batch of contributions: " + std::string(to_string(*error)), {}};
+    return {"a broken batch of contributions: " + std::string(to_string(*error)), false, {}};
   }
   const BatchStamp& s = std::get<BatchHeader>(result).stamp;
   if (s.job != job_ || s.epoch != epoch) return {};
   if (s.sender >= batches_.size() || s.sequence != batches_[s.sender]) {
-    return {"a batch of contributions from node " + std::to_string(s.sender) + " was lost", {}};
+    return {"a batch of contributions from node " + std::to_string(s.sender) + " was lost", true, {}};
   }
   ++batches_[s.sender];
-  Taken taken{add_light(), {}};
+  Taken taken{add_light(), false, {}};
   if (taken.wrong.empty()) taken.wrong = add_credit(taken.whole);
   return taken;
 }

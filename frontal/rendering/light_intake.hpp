@@ -20,6 +20,8 @@ class LightIntake {
   struct Taken {
     /// Why the batch can't be added; empty if it was.
     std::string wrong;
+    /// What is wrong is that a batch was lost: another epoch may end well.
+    bool is_lost = false;
     /// The numbers of the tiles that this batch made whole.
     std::vector<std::uint32_t> whole;
   };
@@ -27,6 +29,8 @@ class LightIntake {
   LightIntake(std::uint32_t job, const RenderSettings& settings, const TilePlan& plan,
               std::uint32_t nodes);
 
+  /// A new epoch: forgets the light and credit of tiles that are not whole, and counts batches anew.
+  void reopen(const TilePlan& plan);
   /// Batches of another job or epoch are passed over.
   Taken take(std::span<const std::byte> batch, std::uint32_t epoch);
 

@@ -24,6 +24,8 @@ class NodeReports {
     if (stats.rank >= stats_.size() || !came_.note(Rank{stats.rank})) return;
     stats_[stats.rank] = stats;
   }
+  /// The node is lost: its report is not waited for.
+  void will_not_come(Rank rank) { static_cast<void>(came_.note(rank)); }
   bool are_complete() const { return came_.is_complete(); }
   /// Indexed by rank; of a node that has not reported, only rank and label are set.
   const std::vector<control::NodeStats>& stats() const { return stats_; }

@@ -6,7 +6,8 @@
 namespace graycube {
 
 RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube,
-                     std::uint32_t threads, const FlowLimits& limits, SumsMode sums)
+                     std::uint32_t threads, const FlowLimits& limits, SumsMode sums,
+                     std::uint32_t retries)
     : job_(job),
       scene_(std::move(scene)),
       cube_(cube),
@@ -14,10 +15,12 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       limits_(limits),
       sums_(sums),
       slices_(cube_, std::move(scene_.slices), {lends(), scene_.makes_copies, scene_.copy_room}),
-      tiles_({cube_, scene_.mesh}, *scene_.plan, way(), {scene_, cube_.nodes(), threads_, limits_}),
       light_(job_, scene_.settings, *scene_.plan, cube_.nodes()),
+      retries_(retries, cube_.nodes()),
+      tiles_({cube_, scene_.mesh}, *scene_.plan, light_.tiles(), way(),
+             {scene_, cube_.nodes(), threads_, limits_}),
       loaded_(cube_.nodes()),
-      ready_(cube_.nodes()),
+      barrier_(cube_.nodes(), !is_roth()),
       reports_(cube_) {
   if (scene_.boundaries == BoundariesMode::kSliding)
     sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
@@ -29,7 +32,53 @@ TileHandout::Way RenderJob::way() const {
   return scene_.has_replicas ? TileHandout::Way::kHelp : TileHandout::Way::kOwn;
 }
 
+RenderJob::Damage RenderJob::note_loss(Rank rank, bool is_gone) {
+  const std::vector<std::uint32_t> under_way = tiles_.under_way();
+  Damage damage{static_cast<std::uint32_t>(under_way.size()), {}};
+  const bool was_building = barrier_.is_building(rank);
+  if (is_gone) {
+    barrier_.lose(rank);
+    slices_.lose(rank);
+  }
+  if (was_building && retries_.note_loss_before_it_could_trace(rank))
+    damage.culprit = "its part of the scene was being subdivided";
+  // In `roth` a tile's rays stay with the node that has it, so that only its tiles can be at fault.
+  const auto all = static_cast<std::uint32_t>(tiles());
+  const auto tile = is_roth() ? retries_.note_loss(tiles_.under_way(rank), all)
+                              : retries_.note_loss(under_way, all);
+  if (tile) damage.culprit = culprit(*tile);
+  return damage;
+}
+
+std::string RenderJob::culprit(std::uint32_t tile) const {
+  const PixelRect r = scene_.plan->rect(tile);
+  const auto span = [](std::uint32_t from, std::uint32_t to) {
+    return std::to_string(from) + " to " + std::to_string(to - 1);
+  };
+  return "tile " + std::to_string(tile) + " (pixels x " + span(r.x0, r.x1) + ", y " +
+         span(r.y0, r.y1) + ") was under way";
+}
+
+void RenderJob::begin_next_epoch() {
+  ++epoch_;
+  light_.reopen(*scene_.plan);
+  tiles_.reopen(retries_);
+  verdict_.reset();
+  token_ = {};
+  barrier_.begin(epoch_);
+  if (!loads_all_again()) return;
+  barrier_.load_all();
+  loaded_ = RollCall(cube_.nodes());
+  if (sliding_) sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
+}
+
+std::vector<std::uint32_t> RenderJob::open_tiles() const {
+  if (is_roth() || sliding_ || (epoch_ == 0 && tiles_whole() == 0)) return {};
+  return tiles_.left_by_rank();
+}
+
 std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
+  if (!barrier_.can_trace(rank)) return {};
   if (!sliding_) return tiles_.next(rank);
   std::vector<std::uint32_t> tiles =
       tiles_.next(rank, sliding_->room_ahead(rank, tiles_.left(rank)));
@@ -82,14 +131,14 @@ void RenderJob::set_class_places(control::Load& m) const {
       1, limits_.outbox_rays / (4 * classes * std::max(1u, cube_.dimension()))));
 }
 
-std::string RenderJob::add_contributions(std::span<const std::byte> batch,
-                                         std::vector<Rank>& opened) {
+LightIntake::Taken RenderJob::add_contributions(std::span<const std::byte> batch,
+                                                std::vector<Rank>& opened) {
   LightIntake::Taken taken = light_.take(batch, epoch_);
   for (const std::uint32_t tile : taken.whole) {
     opened.push_back(tiles_.is_whole(tile));
     if (sliding_) sliding_->is_whole(tile);
   }
-  return std::move(taken.wrong);
+  return taken;
 }
 
 bool RenderJob::is_complete() const {

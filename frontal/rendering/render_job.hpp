@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontal/preparation/preparation.hpp"
+#include "frontal/rendering/barrier.hpp"
 #include "frontal/rendering/flow_limits.hpp"
 #include "frontal/rendering/light_intake.hpp"
 #include "frontal/rendering/node_reports.hpp"
@@ -26,7 +27,8 @@ inline constexpr std::uint64_t kBorrowBytes = std::uint64_t{256} << 20;
 class RenderJob {
  public:
   RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cube, std::uint32_t threads,
-            const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect);
+            const FlowLimits& limits = {}, SumsMode sums = SumsMode::kDirect,
+            std::uint32_t retries = kDefaultRetries);
   /// Not copyable, as its parts refer to the plan of its scene.
   RenderJob(const RenderJob&) = delete;
   RenderJob& operator=(const RenderJob&) = delete;
@@ -49,8 +51,30 @@ class RenderJob {
   std::optional<SpanningTree> slice_way() const { return graycube::slice_way(cube_, scene_.mesh); }
   /// Notes that a node knows of the job; true for the last one.
   [[nodiscard]] bool knows_of_it(Rank rank) { return loaded_.note(rank) && loaded_.is_complete(); }
-  void set_ready(Rank rank) { ready_.note(rank); }
-  bool all_ready() const { return ready_.is_complete(); }
+  /// Which nodes can trace.
+  Barrier& barrier() { return barrier_; }
+  void is_ready(Rank rank, std::uint32_t epoch) {
+    barrier_.is_ready(rank, epoch);
+    retries_.can_trace(rank);
+  }
+  const Barrier& barrier() const { return barrier_; }
+
+  /// How much of the job a loss concerns.
+  struct Damage {
+    /// Tiles that were under way, and are to be traced again.
+    std::uint32_t tiles = 0;
+    /// For people, if it has happened too often: what may be to blame.
+    std::string culprit;
+  };
+  /// The node has told of a loss or, if it `is_gone`, is itself lost.
+  [[nodiscard]] Damage note_loss(Rank rank, bool is_gone);
+  /// Begins the next epoch: tiles that are not whole are to be traced again.
+  void begin_next_epoch();
+  /// Whether all nodes are loaded anew in a later epoch, since slices go from node to node, or
+  /// boundaries have slid.
+  bool loads_all_again() const { return sliding_ || slice_way(); }
+  /// How many of each node's tiles are to be traced, by rank; empty if nodes know it.
+  std::vector<std::uint32_t> open_tiles() const;
 
   /// Tiles to hand to a node now.
   std::vector<std::uint32_t> next_tiles(Rank rank);
@@ -60,9 +84,9 @@ class RenderJob {
   /// Boundaries have slid: tiles that are left have other owners.
   void deal() { tiles_.deal(sliding_->owners()); }
   std::uint64_t next_assignment_sequence(Rank rank) { return tiles_.next_sequence(rank); }
-  /// Takes in a batch of contributions; returns what is wrong with it, or an empty string. The
-  /// nodes whose windows opened are appended to `opened`.
-  std::string add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
+  /// Takes in a batch of contributions. The nodes whose windows opened are appended to `opened`.
+  LightIntake::Taken add_contributions(std::span<const std::byte> batch,
+                                       std::vector<Rank>& opened);
   /// How many of each node's tiles neighbours made whole since the last call, indexed by rank.
   std::vector<std::uint32_t> take_relief() { return tiles_.take_relief(); }
 
@@ -72,6 +96,7 @@ class RenderJob {
   const control::TokenProgress& token() const { return token_; }
   std::size_t tiles() const { return light_.tiles().tile_count(); }
   std::size_t tiles_whole() const { return light_.tiles().whole_count(); }
+  bool film_is_complete() const { return light_.tiles().all_whole(); }
   bool is_complete() const;
   /// The error when the token says that nothing is left to do but a tile is open; empty if all is
   /// well.
@@ -90,6 +115,7 @@ class RenderJob {
     return verdict_ && light_.batches() == verdict_->contribution_batches;
   }
   TileHandout::Way way() const;
+  std::string culprit(std::uint32_t tile) const;
   void set_class_places(control::Load& m) const;
 
   std::uint32_t job_;
@@ -100,10 +126,12 @@ class RenderJob {
   FlowLimits limits_;
   SumsMode sums_;
   SliceStock slices_;
+  LightIntake light_;
+  Retries retries_;
   TileHandout tiles_;
   std::optional<Sliding> sliding_;
-  LightIntake light_;
-  RollCall loaded_, ready_;
+  RollCall loaded_;
+  Barrier barrier_;
   NodeReports reports_;
   std::optional<control::Terminated> verdict_;
   control::TokenProgress token_;

@@ -16,10 +16,13 @@ std::uint64_t SliceStock::own_bytes() const {
   return std::accumulate(slice_bytes_.begin(), slice_bytes_.end(), std::uint64_t{0});
 }
 
-SharedBytes SliceStock::take(Rank rank) {
-  if (slices_.size() == 1) return slices_.front();
-  SharedBytes& held = slices_[rank.value];
-  return rules_.are_lent || may_be_copied(rank) ? held : std::exchange(held, {});
+const SharedBytes& SliceStock::of(Rank rank) const {
+  return slices_.size() == 1 ? slices_.front() : slices_[rank.value];
+}
+
+void SliceStock::lose(Rank rank) {
+  copies_[rank.value] = 0;
+  if (slice_bytes_.size() > 1) held_bytes_[rank.value] = slice_bytes_[rank.value];
 }
 
 const SharedBytes* SliceStock::to_lend(std::uint32_t rank) const {
@@ -28,13 +31,6 @@ const SharedBytes* SliceStock::to_lend(std::uint32_t rank) const {
 
 bool SliceStock::has_room(Rank helper, Rank owner) const {
   return held_bytes_[helper.value] + slice_bytes_[owner.value] <= rules_.room;
-}
-
-bool SliceStock::may_be_copied(Rank owner) const {
-  for (std::uint32_t bit = 0; rules_.are_copied && bit < cube_.dimension(); ++bit) {
-    if (has_room(cube_.neighbour(owner, bit), owner)) return true;
-  }
-  return false;
 }
 
 const SharedBytes* SliceStock::to_copy(Rank owner, Rank helper) {

@@ -1,5 +1,6 @@
-// Keeps the nodes' slices of the scene as long as a node may still need them: the node itself, one
-// that borrows the slice, or a neighbour that gets a copy to help.
+// Keeps the nodes' slices of the scene, as a node may need one at any time: the node itself or, when
+// that is lost, its replacement; one that borrows the slice, or a neighbour that gets a copy to
+// help.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,10 @@ class SliceStock {
 
   /// Bytes of all nodes' own slices together.
   std::uint64_t own_bytes() const;
-  /// A node's own slice; forgotten here when no other node can ask for it.
-  SharedBytes take(Rank rank);
+  /// A node's own slice.
+  const SharedBytes& of(Rank rank) const;
+  /// The node is lost, and with it its copies of others' slices.
+  void lose(Rank rank);
   /// A slice to be lent; null if slices aren't lent, or there is no such node.
   const SharedBytes* to_lend(std::uint32_t rank) const;
   /// The owner's slice for a neighbour that is to help; null if that has no room, or has a copy.
@@ -35,8 +38,6 @@ class SliceStock {
 
  private:
   bool has_room(Rank helper, Rank owner) const;
-  /// Whether any neighbour can ever get a copy of the owner's slice.
-  bool may_be_copied(Rank owner) const;
 
   Hypercube cube_;
   std::vector<SharedBytes> slices_;

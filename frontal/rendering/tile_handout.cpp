@@ -6,22 +6,78 @@
 #include "proto/share_of.hpp"
 
 namespace graycube {
+namespace {
 
-TileHandout::TileHandout(const NodeMesh& mesh, const TilePlan& plan, Way way,
-                         const TileWindow& window)
+constexpr Rank kNobody{0xFFFF'FFFF};
+/// For each loss at which a tile was under way, a node may have 2^this times fewer tiles open.
+constexpr std::uint32_t kNarrowing = 3;
+
+}  // namespace
+
+TileHandout::TileHandout(const NodeMesh& mesh, const TilePlan& plan, const TileLedger& ledger,
+                         Way way, const TileWindow& window)
     : mesh_(mesh),
       plan_(plan),
+      ledger_(ledger),
       way_(way),
       window_(window),
-      holder_(plan.tile_count()),
+      holder_(plan.tile_count(), kNobody),
       open_(mesh.cube().nodes(), 0),
       relief_(mesh.cube().nodes(), 0),
       batches_(mesh.cube().nodes(), 0) {
-  if (way_ == Way::kAny) return;
+  if (way_ != Way::kAny) share_out();
+}
+
+/// Gives each node those of its tiles that are not whole.
+void TileHandout::share_out() {
+  const auto is_whole = [this](std::uint32_t tile) { return ledger_.is_whole(tile); };
+  own_tiles_.clear();
   for (std::uint32_t rank = 0; rank < mesh_.cube().nodes(); ++rank) {
     const auto tiles = plan_.tiles_of(share_of(mesh_, Rank{rank}));
     own_tiles_.emplace_back(tiles.begin(), tiles.end());
+    std::erase_if(own_tiles_.back(), is_whole);
   }
+}
+
+void TileHandout::reopen(const Retries& retries) {
+  retries_ = &retries;
+  const auto is_worse = [&retries](std::uint32_t a, std::uint32_t b) {
+    return retries.losses_of(a) > retries.losses_of(b);
+  };
+  if (way_ == Way::kAny) {
+    const std::vector<std::uint32_t> again = under_way();
+    again_.insert(again_.end(), again.begin(), again.end());
+    std::ranges::stable_sort(again_, is_worse);
+  } else {
+    share_out();
+    for (auto& own : own_tiles_) std::ranges::stable_sort(own, is_worse);
+  }
+  std::ranges::fill(holder_, kNobody);
+  std::ranges::fill(open_, 0);
+  std::ranges::fill(relief_, 0);
+  std::ranges::fill(batches_, 0);
+}
+
+std::vector<std::uint32_t> TileHandout::under_way(std::optional<Rank> holder) const {
+  std::vector<std::uint32_t> tiles;
+  for (std::uint32_t tile = 0; tile < holder_.size(); ++tile) {
+    if (holder_[tile] == kNobody || (holder && holder_[tile] != *holder)) continue;
+    if (!ledger_.is_whole(tile)) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+std::vector<std::uint32_t> TileHandout::left_by_rank() const {
+  std::vector<std::uint32_t> left;
+  for (const auto& own : own_tiles_) left.push_back(static_cast<std::uint32_t>(own.size()));
+  return left;
+}
+
+/// How many tiles a node may have open when this one is next, of `left`.
+std::uint32_t TileHandout::window_before(std::uint32_t tile, std::size_t left) const {
+  const std::uint32_t size = window_.size(left);
+  const std::uint32_t losses = retries_ == nullptr ? 0 : retries_->losses_of(tile);
+  return std::max(1u, size >> std::min(31u, kNarrowing * losses));
 }
 
 std::vector<std::uint32_t> TileHandout::next(Rank rank, std::uint32_t most) {
@@ -38,8 +94,14 @@ std::vector<std::uint32_t> TileHandout::next(Rank rank, std::uint32_t most) {
 }
 
 void TileHandout::take_any(std::uint32_t& open, std::vector<std::uint32_t>& tiles) {
-  while (next_tile_ < holder_.size() && open < window_.size(holder_.size() - next_tile_)) {
-    tiles.push_back(next_tile_++);
+  for (;;) {
+    while (again_.empty() && next_tile_ < holder_.size() && ledger_.is_whole(next_tile_))
+      ++next_tile_;
+    if (again_.empty() && next_tile_ == holder_.size()) return;
+    const std::uint32_t tile = again_.empty() ? next_tile_ : again_.front();
+    if (open >= window_before(tile, again_.size() + holder_.size() - next_tile_)) return;
+    again_.empty() ? static_cast<void>(++next_tile_) : again_.pop_front();
+    tiles.push_back(tile);
     ++open;
   }
 }
@@ -57,7 +119,7 @@ void TileHandout::deal(const std::vector<Rank>& owners) {
 void TileHandout::take_own(Rank rank, std::uint32_t most, std::uint32_t& open,
                            std::vector<std::uint32_t>& tiles) {
   auto& own = own_tiles_[rank.value];
-  while (!own.empty() && tiles.size() < most && open < window_.size(own.size())) {
+  while (!own.empty() && tiles.size() < most && open < window_before(own.front(), own.size())) {
     tiles.push_back(own.front());
     own.pop_front();
     ++open;
@@ -67,7 +129,7 @@ void TileHandout::take_own(Rank rank, std::uint32_t most, std::uint32_t& open,
 void TileHandout::take_over(Rank helper, std::uint32_t& open, std::vector<std::uint32_t>& tiles) {
   while (own_tiles_[helper.value].empty() && mesh_.cube().dimension() > 0) {
     auto& theirs = most_left_beside(helper);
-    if (theirs.empty() || open >= window_.size(theirs.size())) break;
+    if (theirs.empty() || open >= window_before(theirs.back(), theirs.size())) break;
     // The helper takes tiles from the far end, as the owner takes them from the front.
     tiles.push_back(theirs.back());
     theirs.pop_back();

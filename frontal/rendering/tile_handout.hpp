@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "coordination/tile_ledger.hpp"
+#include "frontal/rendering/retries.hpp"
 #include "frontal/rendering/tile_window.hpp"
 #include "topology/hypercube.hpp"
 #include "trace/tile_plan.hpp"
@@ -22,8 +25,16 @@ class TileHandout {
     kSliding,  ///< each node gets tiles of its macro-region of the moment
   };
 
-  /// The plan must outlive this.
-  TileHandout(const NodeMesh& mesh, const TilePlan& plan, Way way, const TileWindow& window);
+  /// Plan and ledger must outlive this. Tiles that are whole are not handed out.
+  TileHandout(const NodeMesh& mesh, const TilePlan& plan, const TileLedger& ledger, Way way,
+              const TileWindow& window);
+
+  /// A new epoch (`retries` must outlive this): all tiles that are not whole are to be handed out, those first that were under
+  /// way at most losses: the more these are, the fewer tiles are under way at a time, so that the
+  /// one which brings nodes down is found.
+  void reopen(const Retries& retries);
+  /// Tiles that are handed out and not whole; if a rank is given, those that this node had.
+  std::vector<std::uint32_t> under_way(std::optional<Rank> holder = std::nullopt) const;
 
   /// Takes tiles to hand to the node now, as many as its window allows, and kSliding at most
   /// `most`.
@@ -33,6 +44,8 @@ class TileHandout {
   void deal(const std::vector<Rank>& owners);
   /// Tiles that are left for the node to get; not for kAny.
   std::size_t left(Rank rank) const { return own_tiles_[rank.value].size(); }
+  /// The same of each node, by rank; empty for kAny.
+  std::vector<std::uint32_t> left_by_rank() const;
   /// The sequence number of the next batch that brings a node its tiles.
   std::uint64_t next_sequence(Rank rank) { return batches_[rank.value]++; }
   /// A tile that was handed out is whole. Returns the node that had it.
@@ -43,6 +56,8 @@ class TileHandout {
   const TileWindow& window() const { return window_; }
 
  private:
+  void share_out();
+  std::uint32_t window_before(std::uint32_t tile, std::size_t left) const;
   void take_any(std::uint32_t& open, std::vector<std::uint32_t>& tiles);
   void take_own(Rank rank, std::uint32_t most, std::uint32_t& open,
                 std::vector<std::uint32_t>& tiles);
@@ -51,11 +66,17 @@ class TileHandout {
 
   NodeMesh mesh_;
   const TilePlan& plan_;
+  const TileLedger& ledger_;
   Way way_;
   TileWindow window_;
-  std::vector<Rank> holder_;                          // of each tile handed out
+  /// The node that has each tile; kNobody if it isn't handed out.
+  std::vector<Rank> holder_;
   std::vector<std::deque<std::uint32_t>> own_tiles_;  // by rank, but for kAny: not handed out yet
-  std::uint32_t next_tile_ = 0;                       // kAny
+  /// kAny: tiles that an epoch left open, and the first of those that were never handed out.
+  std::deque<std::uint32_t> again_;
+  std::uint32_t next_tile_ = 0;
+  /// How often each tile was under way at a loss; null before the first.
+  const Retries* retries_ = nullptr;
   std::vector<std::uint32_t> open_, relief_;          // by rank
   std::vector<std::uint64_t> batches_;                // by rank
 };

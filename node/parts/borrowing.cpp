@@ -41,7 +41,10 @@ std::vector<RayTask> Borrowing::was_refused(Rank owner) {
 }
 
 void Borrowing::reset() {
-  for (Loan& loan : loans_) loan.waiting.clear();
+  for (Loan& loan : loans_) {
+    loan.waiting.clear();
+    if (loan.state == Loan::State::kAsked) loan.state = Loan::State::kUnasked;
+  }
 }
 
 }  // namespace graycube

@@ -33,7 +33,7 @@ class Borrowing {
   std::vector<RayTask> was_refused(Rank owner);
 
   void report(control::NodeStats& stats) const { stats.models_borrowed += models_; }
-  /// A new epoch: no ray waits.
+  /// A new epoch: no ray waits, and what was asked for in the last one won't come.
   void reset();
 
  private:

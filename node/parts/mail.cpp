@@ -34,7 +34,13 @@ void Mail::to_frontal(const ControlMessage& message) {
   outgoing_.push_back({std::nullopt, Message::of_text(encode(message))});
 }
 
-void Mail::fail(std::string why) { to_frontal(control::NodeError{first_.job, std::move(why)}); }
+void Mail::fail(std::string why) {
+  to_frontal(control::NodeError{first_.job, first_.epoch, std::move(why)});
+}
+
+void Mail::fail_for_good(std::string why) {
+  to_frontal(control::NodeError{first_.job, first_.epoch, std::move(why), true});
+}
 
 void Mail::signal(std::uint32_t bit, BatchType type) {
   post(links_[bit].peer, encode_signal(first_, type));

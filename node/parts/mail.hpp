@@ -37,8 +37,10 @@ class Mail {
   void begin(const BatchStamp& first);
 
   void to_frontal(const ControlMessage& message);
-  /// Tells the frontal that the job has failed, which ends it.
+  /// Tells the frontal that this epoch can't be brought to its end.
   void fail(std::string why);
+  /// The same where another epoch would end in the same way: the job fails.
+  void fail_for_good(std::string why);
   /// To the process that holds this node's FIFO (fifo/fifo_words.hpp).
   void to_fifo(Bytes message) { for_fifo_.push_back(std::move(message)); }
   /// A greeting or its answer: neither is numbered.

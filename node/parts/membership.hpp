@@ -58,7 +58,8 @@ class Membership {
 
   /// From here on batches of that job and epoch count, whoever sends them.
   void begin(std::uint32_t job, std::uint32_t epoch);
-  void begin_epoch(std::uint32_t epoch) { epoch_ = epoch; }
+  /// The same for a later epoch of the job.
+  void begin_epoch(std::uint32_t epoch) { begin(job_, epoch); }
   /// From here on only batches from processes with these start numbers count; indexed by rank.
   void accept_only(std::vector<std::uint32_t> incarnations) {
     incarnations_ = std::move(incarnations);

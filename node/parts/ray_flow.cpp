@@ -45,7 +45,7 @@ void RayFlow::post_rays(std::uint32_t bit, std::span<const RayTask> rays, BatchT
                         FlowCounts& counts, Mail& mail) {
   if (light_back_ != nullptr) {
     numbered_.assign(rays.begin(), rays.end());
-    if (!light_back_->leave(bit, numbered_)) return mail.fail(LightBack::kTooManyOpen);
+    if (!light_back_->leave(bit, numbered_)) return mail.fail_for_good(LightBack::kTooManyOpen);
     rays = numbered_;
   }
   ++counts.batches;

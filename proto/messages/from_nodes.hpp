@@ -67,6 +67,8 @@ struct NodeReport {
 struct Pong {
   static constexpr std::string_view kType = "pong";
   std::uint64_t sequence = 0;
+  /// Pieces of work that evaluators have done in the job so far, and those that are under way.
+  std::uint64_t moves = 0, working = 0;
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
@@ -103,11 +105,14 @@ struct Share {
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// The node can't go on with this job; job 0: it can't go on at all.
+/// The node can't go on with this epoch of the job, as something was lost; or, if it is final, with
+/// the job. Job 0: it can't go on at all.
 struct NodeError {
   static constexpr std::string_view kType = "node_error";
-  std::uint32_t job = 0;
+  std::uint32_t job = 0, epoch = 0;
   std::string message{};
+  /// Another epoch would end in the same way.
+  bool is_final = false;
   friend bool operator==(const NodeError&, const NodeError&) = default;
 };
 

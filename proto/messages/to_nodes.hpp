@@ -103,21 +103,23 @@ struct AllWhole {
   friend bool operator==(const AllWhole&, const AllWhole&) = default;
 };
 
-/// Asks to drop everything of epochs before this one, and to acknowledge that. Nodes do; no frontal
-/// sends it yet, since a job fails with a node. One that has a lost node replaced will.
+/// A node or a batch was lost: asks to drop everything of epochs before this one, and to acknowledge
+/// that.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
   std::uint32_t job = 0, epoch = 0;
   friend bool operator==(const Prepare&, const Prepare&) = default;
 };
 
-/// All nodes are ready: tracing begins. A node traces its own tiles in epoch 0, later those that
-/// assignments bring.
+/// All nodes are ready: tracing begins.
 struct Start {
   static constexpr std::string_view kType = "start";
   std::uint32_t job = 0, epoch = 0;
   /// The nodes' start numbers, indexed by rank; links accept no others.
   std::vector<std::uint32_t> incarnations{};
+  /// How many tiles of each node are not whole yet, indexed by rank: those that assignments bring,
+  /// or that neighbours trace. Empty if all own tiles are.
+  std::vector<std::uint32_t> open_tiles{};
   friend bool operator==(const Start&, const Start&) = default;
 };
 

@@ -70,6 +70,6 @@ TEST_CASE("mail leaves in the order in which it was written, for whom it is mean
   CHECK(sent.all[0].to == Rank{2});
   CHECK_FALSE(sent.all[1].to);
   CHECK(sent.all[2].to == Rank{1});
-  CHECK(sent.told<control::NodeError>() == std::vector{control::NodeError{1, "no reason"}});
+  CHECK(sent.told<control::NodeError>() == std::vector{control::NodeError{1, 0, "no reason"}});
   CHECK(mail.is_empty());
 }
