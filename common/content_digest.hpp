@@ -25,6 +25,10 @@ class ContentDigest {
   ContentDigest& add(std::string_view text) {
     return add(std::as_bytes(std::span(text.data(), text.size())));
   }
+  ContentDigest& add(std::uint64_t word) {
+    mix(word);
+    return *this;
+  }
   std::uint64_t value() const { return value_ ^ value_ >> 29; }
 
  private:

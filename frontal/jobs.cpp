@@ -10,6 +10,9 @@
 namespace graycube {
 namespace {
 
+/// A job at whose beginning so many frontals in a row have died fails, so that it can't bring down
+/// one after another for ever.
+constexpr std::uint32_t kMaxBegins = 5;
 /// Seconds after which it is asked again which ended jobs aren't to be kept any longer.
 constexpr double kClearInterval_s = 10;
 
@@ -33,17 +36,6 @@ Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post)
   if (!ended_.all().empty()) queue_.number_beyond(ended_.all().back().info.job);
   queue_.number_beyond(store.last_number());
   recover_accepted();
-}
-
-void Jobs::recover_accepted() {
-  for (AcceptedJob& accepted : store_.recover_accepted()) {
-    control::JobInfo info = std::move(accepted.info);
-    info.state = JobState::kQueued;
-    info.nodes = farm_.cube.nodes();
-    QueuedJob job = queued(std::move(info), accepted.options);
-    job.is_recovered = true;
-    queue_.restore(std::move(job));
-  }
 }
 
 QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options) const {
@@ -72,6 +64,7 @@ void Jobs::check_time() {
   }
   if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
   if (watchers_.are_due(now_.now_s)) tell_progress();
+  if (running_) record_tiles(false);
   if (now_.now_s - cleared_s_ >= kClearInterval_s) {
     cleared_s_ = now_.now_s;
     ended_.clear_old(now_.unix_s);
@@ -101,6 +94,7 @@ Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) 
     store_.add({info, m.options, m.key, content}, scene);
     QueuedJob job = queued(std::move(info), m.options);
     job.work.scene.assign(scene.begin(), scene.end());
+    job.content = content;
     return Reply{control::Accepted{queue_.add(std::move(job))}};
   } catch (const std::runtime_error& e) {
     return Refusal{0, FailureCode::kFailed, "the job store", e.what()};
@@ -195,6 +189,14 @@ std::optional<PreparationWork> Jobs::take_work() {
   tell_progress();
   try {
     if (next.is_recovered) next.work.scene = store_.scene(next.info.job);
+    const std::uint32_t begun = store_.begin(next.info.job);
+    if (begun > kMaxBegins) {
+      fail({JobState::kFailed,
+            FailureCode::kFailed,
+            {{"the frontal", "has died " + std::to_string(begun - 1) +
+                                 " times as soon as this job began; it isn't tried again"}}});
+      return std::nullopt;
+    }
   } catch (const std::runtime_error& e) {
     fail({JobState::kFailed, FailureCode::kFailed, {{"the job store", e.what()}}});
     return std::nullopt;
@@ -204,7 +206,10 @@ std::optional<PreparationWork> Jobs::take_work() {
 
 void Jobs::give_result(PreparationResult result) {
   if (!running_ || running_->id() != result.job) return;  // cancelled meanwhile
-  if (result.scene) return running_->prepared(*std::move(result.scene));
+  if (result.scene) {
+    running_->prepared(*std::move(result.scene));
+    return resume();
+  }
   const FailureCode code = result.is_internal ? FailureCode::kFailed : FailureCode::kBadInput;
   fail({JobState::kFailed, code, std::move(result.errors)});
 }
@@ -364,25 +369,6 @@ void Jobs::end(EndedJob job, JobFailure failure) {
   if (job.has_stats()) failed.stats = RawObject{job.stats_json};
   for (const PeerId& peer : watchers_.take(failed.job)) post_.to_peer(peer, failed);
   ended_.keep(std::move(job), {});
-}
-
-void Jobs::stop() {
-  if (farm_.keeps_jobs) return leave_to_next_frontal();
-  const JobFailure stopped{JobState::kCancelled, FailureCode::kCancelled, {{"", "the farm stops"}}};
-  if (running_) fail(stopped);
-  while (!queue_.is_empty()) end({queue_.take_first().info, "{}", false}, stopped);
-}
-
-void Jobs::leave_to_next_frontal() {
-  const auto tell = [this](std::uint32_t job) {
-    for (const PeerId& peer : watchers_.take(job)) post_.to_peer(peer, control::Bye{});
-  };
-  if (running_) {
-    if (running_->is_loaded()) post_.to_nodes(control::Finish{running_->id()});
-    tell(running_->id());
-    running_.reset();
-  }
-  while (!queue_.is_empty()) tell(queue_.take_first().info.job);
 }
 
 }  // namespace graycube

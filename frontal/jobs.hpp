@@ -80,6 +80,8 @@ class Jobs {
 
  private:
   void recover_accepted();
+  void resume();
+  void record_tiles(bool all);
   QueuedJob queued(control::JobInfo info, const control::JobOptions& options) const;
   bool is_rendered() const { return running_ && running_->is_prepared(); }
   std::optional<control::JobInfo> find(std::uint32_t job) const;

@@ -15,6 +15,7 @@
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
+#include "frontal/store/checkpoint_store.hpp"
 #include "frontal/store/database_store.hpp"
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
@@ -32,6 +33,9 @@ struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
   std::string listen, state, http;
   KeepRule keep;
+  /// Of a private frontal: where tiles are recorded, and the digest of what decides the picture.
+  std::string checkpoint;
+  std::uint64_t picture_content = 0;
   bool is_private = false, ends_jobs = false;
   double silence_s = 10;
   FlowLimits limits{};
@@ -70,6 +74,8 @@ class FrontalProcess {
                   .limits = a.limits,
                   .is_private = a.is_private,
                   .keeps_jobs = !a.state.empty() && !a.ends_jobs,
+                  .records_tiles = store_->records_tiles(),
+                  .picture_content = a.picture_content,
                   .endpoint = inbox_.endpoint(),
                   .pid = static_cast<std::uint64_t>(::getpid()),
                   .started_s = seconds_of(CLOCK_REALTIME)},
@@ -107,11 +113,13 @@ class FrontalProcess {
   static fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
   std::unique_ptr<JobStore> make_store(const FrontalArguments& a) const {
+    const auto warn = [](const std::string& sentence) {
+      std::fprintf(stderr, "graycube-frontal: job store: %s\n", sentence.c_str());
+    };
+    if (!a.checkpoint.empty()) return make_checkpoint_store(a.checkpoint, warn);
     if (a.is_private) return make_memory_store();
     const fs::path folder = a.state.empty() ? folder_.path() / "jobs" : fs::path(a.state);
-    return open_database_store(folder, a.keep, [](const std::string& sentence) {
-      std::fprintf(stderr, "graycube-frontal: job store: %s\n", sentence.c_str());
-    });
+    return open_database_store(folder, {a.keep, a.state.empty() || a.ends_jobs}, warn);
   }
 
   void take_events() {
@@ -183,6 +191,8 @@ int run_main(int argc, char** argv) {
   app.add_flag(
       "--ends-jobs", a.ends_jobs,
       "Cancel jobs that have not ended when the farm stops, instead of keeping them there");
+  app.add_option("--checkpoint", a.checkpoint, "With --private: a file for tiles that are whole");
+  app.add_option("--picture", a.picture_content, "With --checkpoint: a digest of the picture");
   std::string keep;
   app.add_option("--keep", keep, "Ended jobs to keep there: the newest N, or those of DAYSd");
   app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")

@@ -35,6 +35,11 @@ struct FrontalOptions {
   /// Jobs that have not ended when the farm stops go on when it is started again; else they are
   /// cancelled.
   bool keeps_jobs = false;
+  /// Tiles that are whole are recorded in the store.
+  bool records_tiles = false;
+  /// A digest of what decides the picture of the only job, by which records of tiles are known; 0
+  /// where it is that of what was submitted.
+  std::uint64_t picture_content = 0;
   /// Of the frontal's process, for those who ask: where it listens, its number, and since when it
   /// runs (Unix time).
   std::string endpoint{};

@@ -19,6 +19,8 @@ struct QueuedJob {
   PreparationWork work;
   /// Seconds on the frontal's clock.
   double submitted_at_s = 0;
+  /// Digest of all that was asked for.
+  std::uint64_t content = 0;
   /// An earlier frontal took it: its scene is still to be read from the store.
   bool is_recovered = false;
 };

@@ -61,6 +61,9 @@ class JobStore {
   virtual std::vector<EndedJob> recover() { return {}; }
   /// Its jobs that had not ended, in the order in which they were accepted.
   virtual std::vector<AcceptedJob> recover_accepted() { return {}; }
+  /// A job begins to be rendered. Returns how often it has begun since it got on, this time
+  /// included: more than once only after frontals died.
+  virtual std::uint32_t begin(std::uint32_t) { return 1; }
   /// The scene of a job that has not ended.
   virtual Bytes scene(std::uint32_t) { return {}; }
   /// The largest number that a job ever had; 0 if there never was one.
@@ -69,6 +72,17 @@ class JobStore {
   virtual std::optional<EndedJob> ended(std::uint32_t) { return std::nullopt; }
   /// Clears some of the jobs that are not to be kept any longer at that Unix time; returns which.
   virtual std::vector<std::uint32_t> clear_old(double) { return {}; }
+
+  // Records of the tiles of a job that is on, by which another frontal goes on with its picture.
+  // They are dropped when the job ends.
+
+  /// Whether the store takes them.
+  virtual bool records_tiles() const { return false; }
+  /// All that were made; the job isn't on yet.
+  virtual Bytes recorded_tiles(std::uint32_t) { return {}; }
+  /// Appends records, soon, without holding the caller up.
+  virtual void record_tiles(std::uint32_t, Bytes) {}
+  virtual void forget_tiles(std::uint32_t) {}
 };
 
 /// Keeps the last picture, and the keys of the newest jobs.

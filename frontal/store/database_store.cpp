@@ -8,8 +8,10 @@
 #include "frontal/store/job_files.hpp"
 #include "frontal/store/job_rows.hpp"
 #include "frontal/store/picture_folder.hpp"
+#include "frontal/store/record_file.hpp"
 #include "frontal/store/schema.hpp"
 #include "frontal/store/store_lock.hpp"
+#include "frontal/store/tile_writer.hpp"
 
 namespace graycube {
 namespace {
@@ -48,15 +50,17 @@ std::unique_ptr<Database> open_database(const fs::path& folder, const Warn& warn
 
 class DatabaseStore : public JobStore {
  public:
-  DatabaseStore(const fs::path& folder, const KeepRule& rule, Warn warn)
+  DatabaseStore(const fs::path& folder, const StoreOptions& options, Warn warn)
       : folder_(made(folder)),
-        rule_(rule),
+        rule_(options.keep),
         warn_(std::move(warn)),
         lock_(folder_),
         database_(open_database(folder_, warn_)),
         rows_(*database_),
-        pictures_(folder_, warn_) {
+        pictures_(folder_, !options.is_passing, warn_),
+        writer_(warn_) {
     remove_unfinished_files(folder_);
+    if (options.is_passing) database_->run("PRAGMA synchronous = OFF");
   }
 
   void add(const AcceptedJob& job, std::span<const std::byte> scene) override {
@@ -71,16 +75,29 @@ class DatabaseStore : public JobStore {
     Transaction transaction(*database_);
     rows_.end(job);
     transaction.commit();
+    forget_tiles(job.info.job);
   }
   const Picture* picture(std::uint32_t job) override { return pictures_.find(job); }
 
   std::vector<EndedJob> recover() override { return rows_.newest_ended(kMaxJobsListed, warn_); }
   std::vector<AcceptedJob> recover_accepted() override { return rows_.accepted(warn_); }
+  std::uint32_t begin(std::uint32_t job) override { return rows_.begin(job); }
   Bytes scene(std::uint32_t job) override { return rows_.scene(job); }
   std::uint32_t last_number() override {
     return std::max(rows_.last_number(), last_job_of_files(folder_));
   }
   std::optional<EndedJob> ended(std::uint32_t job) override { return rows_.ended(job); }
+
+  bool records_tiles() const override { return true; }
+  Bytes recorded_tiles(std::uint32_t job) override { return read_record_file(tiles_of(job)); }
+  void record_tiles(std::uint32_t job, Bytes records) override {
+    if (std::exchange(recorded_job_, job) != job) rows_.got_on(job);
+    writer_.append(tiles_of(job), std::move(records));
+  }
+  void forget_tiles(std::uint32_t job) override {
+    std::error_code ignored;
+    if (job == recorded_job_ || fs::exists(tiles_of(job), ignored)) writer_.remove(tiles_of(job));
+  }
 
   std::vector<std::uint32_t> clear_old(double unix_s) override {
     const auto old = rows_.beyond(rule_, unix_s);
@@ -93,6 +110,8 @@ class DatabaseStore : public JobStore {
   }
 
  private:
+  fs::path tiles_of(std::uint32_t job) const { return job_file(folder_, job, ".tiles"); }
+
   fs::path folder_;
   KeepRule rule_;
   Warn warn_;
@@ -100,13 +119,16 @@ class DatabaseStore : public JobStore {
   std::unique_ptr<Database> database_;
   JobRows rows_;
   PictureFolder pictures_;
+  TileWriter writer_;
+  /// The job of which tiles were recorded last.
+  std::uint32_t recorded_job_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<JobStore> open_database_store(const fs::path& folder, const KeepRule& rule,
+std::unique_ptr<JobStore> open_database_store(const fs::path& folder, const StoreOptions& options,
                                               Warn warn) {
-  return std::make_unique<DatabaseStore>(folder, rule, std::move(warn));
+  return std::make_unique<DatabaseStore>(folder, options, std::move(warn));
 }
 
 }  // namespace graycube

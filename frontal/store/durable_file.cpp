@@ -25,12 +25,12 @@ void reach_disk(const fs::path& path, int flags) {
 
 }  // namespace
 
-void put_in_place(const fs::path& written, const fs::path& place) {
-  reach_disk(written, O_RDONLY);
+void put_in_place(const fs::path& written, const fs::path& place, bool waits_for_disk) {
+  if (waits_for_disk) reach_disk(written, O_RDONLY);
   std::error_code error;
   fs::rename(written, place, error);
   if (error) throw std::runtime_error(place.string() + ": " + error.message());
-  reach_disk(place.parent_path(), O_RDONLY | O_DIRECTORY);
+  if (waits_for_disk) reach_disk(place.parent_path(), O_RDONLY | O_DIRECTORY);
 }
 
 }  // namespace graycube

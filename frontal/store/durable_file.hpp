@@ -5,8 +5,9 @@
 
 namespace graycube {
 
-/// Puts a file that was written into its place under another name, in the same folder, once its
-/// contents are on the disk. Throws std::runtime_error, which names the file.
-void put_in_place(const std::filesystem::path& written, const std::filesystem::path& place);
+/// Puts a file that was written into its place under another name, in the same folder; if
+/// `waits_for_disk`, once its contents are there. Throws std::runtime_error, which names the file.
+void put_in_place(const std::filesystem::path& written, const std::filesystem::path& place,
+                  bool waits_for_disk);
 
 }  // namespace graycube

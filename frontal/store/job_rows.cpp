@@ -49,6 +49,8 @@ JobRows::JobRows(Database& db)
       drop_scene_(db.handle(), "DELETE FROM scenes WHERE job = ?"),
       keep_statistics_(db.handle(), "INSERT OR REPLACE INTO statistics (job, json) VALUES (?, ?)"),
       remove_(db.handle(), "DELETE FROM jobs WHERE number = ?"),
+      begin_(db.handle(), "UPDATE jobs SET begun = begun + 1 WHERE number = ? RETURNING begun"),
+      got_on_(db.handle(), "UPDATE jobs SET begun = 0 WHERE number = ?"),
       by_key_(db.handle(), "SELECT number, content FROM jobs WHERE submit_key = ?"),
       scene_(db.handle(), "SELECT text FROM scenes WHERE job = ?"),
       last_(db.handle(), "SELECT seq FROM sqlite_sequence WHERE name = 'jobs'"),
@@ -82,6 +84,13 @@ void JobRows::end(const EndedJob& job) {
 }
 
 void JobRows::remove(std::uint32_t job) { remove_.set(std::int64_t{job}).run(); }
+
+std::uint32_t JobRows::begin(std::uint32_t job) {
+  const auto times = numbers_in(begin_.set(std::int64_t{job}));
+  return times.empty() ? 1 : times.front();
+}
+
+void JobRows::got_on(std::uint32_t job) { got_on_.set(std::int64_t{job}).run(); }
 
 std::optional<KeyedJob> JobRows::find_key(const std::string& key) {
   std::optional<KeyedJob> found;

@@ -27,6 +27,9 @@ class JobRows {
   /// The job has ended; its scene is dropped.
   void end(const EndedJob& job);
   void remove(std::uint32_t job);
+  /// Counts that the job begins; returns how often it has since it got on.
+  std::uint32_t begin(std::uint32_t job);
+  void got_on(std::uint32_t job);
 
   std::optional<KeyedJob> find_key(const std::string& key);
   Bytes scene(std::uint32_t job);
@@ -45,8 +48,9 @@ class JobRows {
   std::optional<AcceptedJob> read_accepted(Statement& row);
   void mark_damaged(const std::vector<std::uint32_t>& jobs, const Warn& warn);
 
-  Statement add_, add_scene_, end_, drop_scene_, keep_statistics_, remove_, by_key_, scene_, last_,
-      ended_, newest_ended_, accepted_, damaged_, beyond_count_, beyond_time_;
+  Statement add_, add_scene_, end_, drop_scene_, keep_statistics_, remove_, begin_, got_on_,
+      by_key_, scene_, last_, ended_, newest_ended_, accepted_, damaged_, beyond_count_,
+      beyond_time_;
 };
 
 }  // namespace graycube

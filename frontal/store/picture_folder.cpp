@@ -12,15 +12,15 @@ namespace graycube {
 
 namespace fs = std::filesystem;
 
-PictureFolder::PictureFolder(fs::path folder, Warn warn)
-    : folder_(std::move(folder)), warn_(std::move(warn)) {}
+PictureFolder::PictureFolder(fs::path folder, bool is_durable, Warn warn)
+    : folder_(std::move(folder)), is_durable_(is_durable), warn_(std::move(warn)) {}
 
 fs::path PictureFolder::file(std::uint32_t job) const { return job_file(folder_, job, ".exr"); }
 
 void PictureFolder::keep(std::uint32_t job, Picture picture, const std::string& scene) {
   const fs::path unfinished = job_file(folder_, job, ".exr.part");
   write_exr(unfinished, picture, {scene, kVersion});
-  put_in_place(unfinished, file(job));
+  put_in_place(unfinished, file(job), is_durable_);
   last_job_ = job;
   last_ = std::move(picture);
 }

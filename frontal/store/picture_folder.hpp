@@ -11,7 +11,8 @@ namespace graycube {
 
 class PictureFolder {
  public:
-  PictureFolder(std::filesystem::path folder, Warn warn);
+  /// `is_durable`: pictures are on the disk before they count as kept.
+  PictureFolder(std::filesystem::path folder, bool is_durable, Warn warn);
 
   /// Throws std::runtime_error when the picture can't be kept. `scene` is the scene's name.
   void keep(std::uint32_t job, Picture picture, const std::string& scene);
@@ -23,6 +24,7 @@ class PictureFolder {
   std::filesystem::path file(std::uint32_t job) const;
 
   std::filesystem::path folder_;
+  bool is_durable_;
   Warn warn_;
   /// The picture that was kept or found last: clients ask for one in several parts.
   std::uint32_t last_job_ = 0;

@@ -20,7 +20,8 @@ constexpr const char* kHowItIsKept = R"sql(
 )sql";
 
 /// A job's `info` is its job_info message, its `request` its submit message (proto/FORMAT.md);
-/// `state` is that of the info, or "damaged" when they can't be read. AUTOINCREMENT remembers the
+/// `state` is that of the info, or "damaged" when they can't be read; `begun` counts frontals that
+/// have begun to render it and recorded nothing. AUTOINCREMENT remembers the
 /// largest number when its job is gone.
 constexpr const char* kFirstTables = R"sql(
   CREATE TABLE jobs (
@@ -31,6 +32,7 @@ constexpr const char* kFirstTables = R"sql(
     submit_key    TEXT UNIQUE,
     content       INTEGER NOT NULL,
     is_deadlocked INTEGER NOT NULL DEFAULT 0,
+    begun         INTEGER NOT NULL DEFAULT 0,
     finished_s    REAL
   );
   CREATE INDEX jobs_by_end ON jobs (finished_s);

@@ -58,7 +58,7 @@ struct Place {
   std::vector<std::string> said;
 
   std::unique_ptr<JobStore> open(const KeepRule& rule = {}) {
-    return open_database_store(folder.path(), rule,
+    return open_database_store(folder.path(), {.keep = rule},
                                [this](const std::string& sentence) { said.push_back(sentence); });
   }
   bool has(const std::string& file) const { return fs::exists(folder / file); }
@@ -221,6 +221,33 @@ TEST_CASE("records of earlier frontals are taken over once, and damaged ones set
   CHECK(place.has("damaged/job-5.json"));
   CHECK(place.has("damaged/job-6.json"));
   CHECK(place.said.size() == 2);
+}
+
+TEST_CASE("records of tiles are there for the next frontal, in order, until their job ends") {
+  Place place;
+  {
+    const auto store = place.open();
+    store->add(accepted(1), {});
+    CHECK(store->recorded_tiles(1).empty());
+    for (const char* piece : {"first ", "second ", "third"})
+      store->record_tiles(1, bytes_of(piece));
+  }
+  {
+    const auto store = place.open();
+    CHECK(store->recorded_tiles(1) == bytes_of("first second third"));
+    store->record_tiles(1, bytes_of(", and more"));
+    store->record_tiles(2, bytes_of("another's"));
+  }
+  {
+    const auto store = place.open();
+    CHECK(store->recorded_tiles(1) == bytes_of("first second third, and more"));
+    CHECK(store->recorded_tiles(2) == bytes_of("another's"));
+    store->keep(ended(1), {});
+    store->forget_tiles(2);
+    store->record_tiles(2, bytes_of("anew"));
+  }
+  CHECK_FALSE(place.has("job-1.tiles"));
+  CHECK(place.open()->recorded_tiles(2) == bytes_of("anew"));
 }
 
 TEST_CASE("a damaged picture is named and set aside") {

@@ -12,6 +12,14 @@ using namespace graycube::testing;
 
 namespace {
 
+control::Submit request(const std::string& key, std::uint32_t samples = 1) {
+  control::Submit m;
+  m.scene_name = "a scene";
+  m.options.samples = samples;
+  m.key = key;
+  return m;
+}
+
 /// The jobs of one frontal after another, in the same folder.
 struct Farm {
   explicit Farm(const TemporaryFolder& folder)
@@ -24,9 +32,7 @@ struct Farm {
 
   Answer try_submit(const std::string& key, std::uint32_t samples = 1,
                     const std::string& text = "{}") {
-    control::Submit m{"a scene", {}, key};
-    m.options.samples = samples;
-    return jobs.submit(m, std::as_bytes(std::span(text)));
+    return jobs.submit(request(key, samples), std::as_bytes(std::span(text)));
   }
   std::uint32_t submit(const std::string& key = {}, std::uint32_t samples = 1,
                        const std::string& text = "{}") {
@@ -114,10 +120,9 @@ TEST_CASE("a store in memory knows keys, too") {
   const auto store = make_memory_store();
   Post post = post_of(2);
   Jobs jobs(options, *store, post);
-  const control::Submit m{"a scene", {}, "a"};
-  CHECK(granted<control::Accepted>(jobs.submit(m, {})).job == 1);
-  CHECK(granted<control::Accepted>(jobs.submit(m, {})).job == 1);
-  CHECK(granted<control::Accepted>(jobs.submit({"a scene", {}, "b"}, {})).job == 2);
+  CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
+  CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
+  CHECK(granted<control::Accepted>(jobs.submit(request("b"), {})).job == 2);
 }
 
 TEST_CASE("when all numbers are used, no job is taken any more") {
@@ -131,6 +136,32 @@ TEST_CASE("when all numbers are used, no job is taken any more") {
   }
   Farm farm(folder);
   CHECK(refused(farm.try_submit({})) == FailureCode::kFailed);
+}
+
+TEST_CASE("a job that brings down one frontal after another as it begins is given up") {
+  const TemporaryFolder folder;
+  for (int death = 0; death < 5; ++death) {
+    Farm farm(folder);
+    if (death == 0) farm.submit();
+    if (death == 0) farm.submit();
+    CHECK(farm.jobs.take_work()->job == 1);
+  }
+  Farm farm(folder);
+  CHECK_FALSE(farm.jobs.take_work());
+  CHECK(farm.state_of(1) == JobState::kFailed);
+  CHECK(granted<control::JobInfo>(farm.jobs.status(1)).message ==
+        "the frontal: has died 5 times as soon as this job began; it isn't tried again");
+  CHECK(farm.jobs.take_work()->job == 2);
+}
+
+TEST_CASE("a job that got on before each frontal's death goes on for ever") {
+  const TemporaryFolder folder;
+  for (int death = 0; death < 9; ++death) {
+    Farm farm(folder);
+    if (death == 0) farm.submit();
+    CHECK(farm.jobs.take_work()->job == 1);
+    farm.store->record_tiles(1, Bytes(1));
+  }
 }
 
 TEST_CASE("clients hear how many jobs there are") {
