@@ -95,6 +95,11 @@ class Parser {
     add_nodes(options, render.nodes);
     add_threads(options, render.threads, "Evaluator threads per node (default 1)");
     add_job_options(options, render.options);
+    options.option({.names = "--checkpoint",
+                    .value = "FILE",
+                    .help = "Keep there what is done; the same command goes on from it",
+                    .kind = ValueKind::kFile},
+                   [&render](const std::string& text) { render.checkpoint = text; });
     options.flag("--json", render.as_json, "Progress, and what was written, as lines of JSON");
     options.flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
   }

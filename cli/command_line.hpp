@@ -19,6 +19,8 @@ struct RenderCommand {
   std::string scene;
   ModelChoice choice;
   Outputs outputs;
+  /// Where tiles are recorded, so that the same command goes on; empty for nowhere.
+  std::filesystem::path checkpoint;
   control::JobOptions options;
   std::uint32_t nodes = 1, threads = 1;
   bool as_json = false, is_quiet = false;

@@ -13,6 +13,8 @@ namespace {
 
 /// Takes a farm of four nodes some seconds.
 constexpr const char* kLongSize = "1600x1600";
+/// Takes one long enough to be recorded on the way.
+constexpr const char* kLargeSize = "3000x3000";
 
 class Farm {
  public:
@@ -212,6 +214,68 @@ TEST_CASE("of the jobs that have ended a farm keeps as many as it is told") {
   const Outcome o = sandbox.run({"up", "--keep", "some"});
   CHECK(o.status == 2);
   CHECK(o.err.starts_with("graycube: usage: --keep some: expected a number of jobs"));
+}
+
+TEST_CASE("tiles that were whole when the frontal died are not traced again") {
+  Sandbox sandbox;
+  const std::string expected = serial(sandbox, kLargeSize);
+  Farm farm(sandbox, {"--state", "state"});
+  Running waiting = sandbox.start(
+      {"submit", first(), "--size", kLargeSize, "--wait", "-o", "a.exr", "--stats", "a.json"});
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  waiting.wait_for("1\n");
+  while (!std::filesystem::exists(sandbox / "state/job-1.tiles"))
+    REQUIRE(std::chrono::steady_clock::now() < until);
+  REQUIRE(::kill(frontal(sandbox), SIGKILL) == 0);
+  const Outcome o = waiting.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK((file_bytes(sandbox / "a.exr") == expected));
+  CHECK(sandbox.json("a.json").at("resumed_tiles") > 0);
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
+  CHECK_FALSE(std::filesystem::exists(sandbox / "state/job-1.tiles"));
+}
+
+TEST_CASE("a render that was interrupted goes on from its checkpoint, and removes it at the end") {
+  const std::string algorithm = GENERATE("serial", "roth", "macro");
+  INFO(algorithm);
+  Sandbox sandbox;
+  const Arguments command{"render",  first(),  "--size", kLargeSize,     "--algorithm",
+                          algorithm, "-n",     "4",      "-o",           "a.exr",
+                          "--stats", "a.json", "-q",     "--checkpoint", "a.checkpoint"};
+  Running render = sandbox.start(command);
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  while (!std::filesystem::exists(sandbox / "a.checkpoint"))
+    REQUIRE(std::chrono::steady_clock::now() < until);
+  render.signal(SIGINT);
+  const Outcome interrupted = render.wait(20s);
+  CHECK(interrupted.status != 0);
+  CHECK(interrupted.err.find("the same command goes on from it") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(sandbox / "a.exr"));
+  REQUIRE(std::filesystem::exists(sandbox / "a.checkpoint"));
+
+  Arguments other = command;
+  other.insert(other.end(), {"--samples", "2"});
+  const Outcome refused = sandbox.run(other);
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("a.checkpoint: it is of another scene") != std::string::npos);
+
+  ok(sandbox, command);
+  CHECK((file_bytes(sandbox / "a.exr") == serial(sandbox, kLargeSize)));
+  CHECK(sandbox.json("a.json").at("resumed_tiles") > 0);
+  CHECK_FALSE(std::filesystem::exists(sandbox / "a.checkpoint"));
+  CHECK(sandbox.processes().empty());
+}
+
+TEST_CASE("a file that is no checkpoint is refused and stays as it is") {
+  Sandbox sandbox;
+  sandbox.write("notes.txt", "notes that are longer than the head of a checkpoint is");
+  const Outcome o = sandbox.run(
+      {"render", first(), "--size", "16x16", "-o", "a.exr", "--checkpoint", "notes.txt"});
+  CHECK(o.status == 2);
+  CHECK(o.err.find("notes.txt: it is no checkpoint") != std::string::npos);
+  CHECK(file_bytes(sandbox / "notes.txt").starts_with("notes that"));
 }
 
 }  // namespace graycube
