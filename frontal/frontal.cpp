@@ -38,7 +38,13 @@ void Frontal::on_time(const Moment& now) {
   if (is_going_down_) return;
   if (const auto ping = heartbeat_.take_ping(now_s_)) post_.to_nodes(*ping);
   for (const Rank rank : nodes_.take_silent(now_s_)) lose(rank, "fell silent");
-  jobs_.check_time();
+  if (const auto rank = jobs_.standing_still()) {
+    nodes_.kill(*rank);
+    lose(*rank, "answered, but was at the same piece of work for " +
+                    std::to_string(static_cast<int>(options_.standstill_s)) + " seconds");
+  }
+  in_job(jobs_, [&] { jobs_.check_time(); });
+  get_on();
 }
 
 void Frontal::on_message(const PeerId& peer, const MessageView& message) {
@@ -84,8 +90,6 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
                    jobs_.on_wait_report(rank, m, heartbeat_.last_ping());
                  },
                  [&](const control::Goodbye&) { nodes_.has_left(rank); },
-                 // A pong tells only that the node was heard.
-                 [](const control::Pong&) {},
                  [](const control::Hello&) {},
                  [&](const FromNode auto& m) { jobs_.on_node(rank, m); },
                  [](const FromClient auto&) {},

@@ -63,12 +63,20 @@ void Jobs::check_time() {
           {{"--timeout", "the render did not end in time"}}});
   }
   if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
+  look_for_lost_messages();
   if (watchers_.are_due(now_.now_s)) tell_progress();
   if (running_) record_tiles(false);
   if (now_.now_s - cleared_s_ >= kClearInterval_s) {
     cleared_s_ = now_.now_s;
     ended_.clear_old(now_.unix_s);
   }
+}
+
+void Jobs::look_for_lost_messages() {
+  if (!running_) return;
+  if (auto failure = running_->look_for_lost_messages(now_.now_s, post_))
+    return fail(*std::move(failure));
+  if (running_->is_loaded()) finish_when_complete();
 }
 
 // ---- asked by clients
@@ -244,6 +252,10 @@ void Jobs::on_light(Rank from, std::span<const std::byte> batch) {
   finish_when_complete();
 }
 
+void Jobs::on_node(Rank rank, const control::Pong& m) {
+  if (running_) running_->on_pong(rank, m, now_.now_s);
+}
+
 void Jobs::on_node(Rank rank, const control::EpochAck& m) {
   if (running_) running_->on_epoch_ack(rank, m, post_);
 }
@@ -297,9 +309,7 @@ void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t
 void Jobs::node_was_lost(const NodeLoss& node) {
   if (!running_) return;
   if (auto failure = running_->lose(node, post_)) return fail(*std::move(failure));
-  if (!running_->is_loaded()) return;
-  finish_when_complete();
-  if (running_) end_when_over();
+  if (running_->is_loaded()) finish_when_complete();
 }
 
 bool Jobs::fail_internally(const std::string& why) {
@@ -316,7 +326,9 @@ void Jobs::tell_progress() {
 }
 
 void Jobs::finish_when_complete() {
-  if (auto failure = running_->finish_when_complete(now_.now_s, post_)) fail(*std::move(failure));
+  if (auto failure = running_->finish_when_complete(now_.now_s, post_))
+    return fail(*std::move(failure));
+  end_when_over();
 }
 
 void Jobs::end_when_over() {

@@ -58,6 +58,7 @@ class Jobs {
   /// `incarnations`: the nodes' start numbers, indexed by rank.
   void start(std::vector<std::uint32_t> incarnations);
   void on_node(Rank rank, const control::Ready& m);
+  void on_node(Rank rank, const control::Pong& m);
   void on_node(Rank rank, const control::EpochAck& m);
   void on_node(Rank rank, const control::TokenRound& m);
   void on_node(Rank rank, const control::Terminated& m);
@@ -73,6 +74,10 @@ class Jobs {
   /// Tells that a check failed, or an exception came, while the running job was worked on: that job
   /// fails. Without a job that is on, false.
   [[nodiscard]] bool fail_internally(const std::string& why);
+  /// A node that answers but doesn't get on, and may be taken for lost.
+  std::optional<Rank> standing_still() const {
+    return running_ ? running_->standing_still(now_.now_s) : std::nullopt;
+  }
   /// Tells that a node is lost: a job that it had goes on in another epoch.
   void node_was_lost(const NodeLoss& node);
   /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
@@ -87,6 +92,7 @@ class Jobs {
   std::optional<control::JobInfo> find(std::uint32_t job) const;
   /// The picture of a job that is done.
   std::variant<const Picture*, Refusal> picture(std::uint32_t job);
+  void look_for_lost_messages();
   void tell_progress();
   void finish_when_complete();
   void end_when_over();

@@ -99,10 +99,9 @@ Json sliding_json(const SlidingFigures& f) {
 Json losses_json(const Statistics& s) {
   Json losses = Json::array();
   for (const Loss& loss : std::span(s.losses).first(std::min(s.losses.size(), kMaxLossesListed))) {
-    losses.push_back({{"rank", loss.rank},
-                      {"why", loss.why},
-                      {"noticed_s", loss.noticed_s},
-                      {"tiles", loss.tiles}});
+    Json j{{"why", loss.why}, {"noticed_s", loss.noticed_s}, {"tiles", loss.tiles}};
+    if (loss.rank) j["rank"] = *loss.rank;
+    losses.push_back(std::move(j));
   }
   return losses;
 }

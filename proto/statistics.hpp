@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ inline constexpr std::size_t kMaxLossesListed = 256;
 
 /// What was lost while a job was on the nodes.
 struct Loss {
-  /// The node that was lost, or that told of a lost batch.
-  std::uint32_t rank = 0;
+  /// The node that was lost, or that told of a lost batch; nothing if nobody knows.
+  std::optional<std::uint32_t> rank;
   std::string why;
   /// Seconds for which nothing had been heard of a lost node; 0 for a batch.
   double noticed_s = 0;

@@ -36,7 +36,9 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
   FrontalOptions f{.cube = cube_,
                    .threads = options.threads,
                    .heartbeat_s = options.heartbeat_s,
-                   .silence_s = 1e12,
+                   .silence_s = options.silence_s,
+                   .start_patience_s = 1e12,
+                   .retries = options.retries,
                    .version = "simulated",
                    .replica_bytes = options.replica_bytes,
                    .limits = options.limits};
@@ -111,7 +113,9 @@ void Farm::start(const Frontal::Process& started) {
 void Farm::tick(unsigned render) {
   if (render != renders_) return;
   in_frontal({}, [this] { frontal_->on_time({timeline_.now_s(), timeline_.now_s()}); });
-  timeline_.after(options_.heartbeat_s, [this, render] { tick(render); });
+  // Often enough that it never seems held up where it looks for silence.
+  const double often = options_.silence_s < 1e9 ? 0.5 : 1;
+  timeline_.after(often * options_.heartbeat_s, [this, render] { tick(render); });
 }
 
 void Farm::frontal_receives(const PeerId& peer, const Message& message) {
@@ -169,7 +173,7 @@ void Farm::deliver(const Frontal::Outgoing& o) {
   const Rank rank = found->second;
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   if (o.to != peer_of(rank, incarnation)) return;
-  if (rank.value == 0) watch_to_node(o.message);
+  watch_to_node(o.message);
   if (on_sent) on_sent({}, rank, timeline_.now_s(), o.message);
   timeline_.at(machine_.arrival_s({}, rank, bytes_of(o.message), timeline_.now_s()),
                [this, rank, incarnation, message = o.message] {
@@ -185,6 +189,7 @@ void Farm::on_client_message(const Message& message) {
     in_frontal({}, [&] { frontal_->on_message(kClient, watch); });
   } else if (const auto* done = std::get_if<control::Done>(&m)) {
     outcome_.done = *done;
+    outcome_.epochs = epoch_ + 1;
     outcome_.ended = true;
   } else if (const auto* failed = std::get_if<control::Failed>(&m)) {
     outcome_.failed = *failed;
@@ -241,6 +246,7 @@ void Farm::deliver(Rank rank, const Node::Outgoing& o) {
   const std::uint32_t incarnation = processes_[rank.value].incarnation;
   const Place to = o.to;
   if (on_sent) on_sent(rank, to, timeline_.now_s(), o.message);
+  if (is_cut(rank, to)) return;
   if (to) {
     watch_batch(rank, *to, o.message.frame, true);
   } else {
@@ -276,7 +282,7 @@ void Farm::node_receives_ray(Rank rank, std::uint32_t incarnation, const Bytes& 
 /// An evaluator's turn on a core: it looks for a piece of work and does it.
 struct Farm::Turn {
   Rank rank;
-  std::uint32_t incarnation = 0;
+  std::uint32_t incarnation = 0, epoch = 0;
   std::optional<WorkResult> result;
   bool is_build = false, is_copying = false, is_primary = false, is_woken = false;
   double seconds = 0;
@@ -316,6 +322,7 @@ double Farm::begin(Turn& turn) {
   // be at work when the job is over.
   const bool is_sliding = std::holds_alternative<SlideWork>(work->what);
   turn.is_copying = is_sliding || std::holds_alternative<CopyWork>(work->what);
+  turn.epoch = epoch_;
   if (!turn.is_copying) ++p.working;
   PerUnit doings;
   turn.is_build = std::holds_alternative<BuildWork>(work->what);
@@ -346,7 +353,7 @@ double Farm::begin(Turn& turn) {
 void Farm::end(Turn& turn) {
   if (!turn.result || !is_alive(turn.rank, turn.incarnation)) return;
   Process& p = processes_[turn.rank.value];
-  if (!turn.is_copying) --p.working;
+  if (!turn.is_copying && turn.epoch == epoch_) --p.working;
   last_change_s_ = timeline_.now_s();
   if (!turn.is_build && !turn.is_copying) p.busy_s += turn.seconds;
   if (turn.is_primary) p.last_primary_s = timeline_.now_s();
@@ -358,11 +365,11 @@ void Farm::end(Turn& turn) {
   ask_for_turn(turn.rank, false);
 }
 
-void Farm::kill(Rank rank) {
-  Process& p = processes_[rank.value];
-  const std::uint32_t incarnation = p.incarnation;
-  p.node.reset();
-  in_frontal({}, [&] { frontal_->on_node_exit({rank, incarnation}, "killed by signal 9"); });
+void Farm::tell_of_death(Rank rank) {
+  in_frontal({}, [&] {
+    frontal_->on_time({timeline_.now_s(), timeline_.now_s()});
+    frontal_->on_node_exit({rank, processes_[rank.value].incarnation}, "killed by signal 9");
+  });
 }
 
 /// Collects reports of what they did from the nodes of a failed job that can still answer.
@@ -384,10 +391,8 @@ Outcome Farm::render(const std::string& scene_text, const control::JobOptions& o
   const Message submit = Message::of_text(encode(control::Submit{"simulated", options}),
                                           Bytes(text.begin(), text.end()));
   in_frontal({}, [&] { frontal_->on_message(kClient, submit); });
-  if (kill_) {
-    timeline_.after(kill_->second, [this, rank = kill_->first] { kill(rank); });
-    kill_.reset();
-  }
+  for (const Fault& fault : std::exchange(faults_, {}))
+    timeline_.after(fault.after_s, [this, fault] { happen(fault); });
   tick(renders_);
   while (!outcome_.ended && timeline_.now_s() - began_s < options_.stalled_s) timeline_.run_one();
   if (!outcome_.ended) outcome_.violations.push_back("the job has stalled");

@@ -27,11 +27,30 @@ struct FarmOptions {
   std::uint32_t nodes = 8;
   std::uint32_t threads = 1;
   double heartbeat_s = 1;
+  /// A node that says nothing for so long is taken for dead.
+  double silence_s = 1e12;
+  std::uint32_t retries = kDefaultRetries;
   /// A job that takes longer than this in simulated time has stalled.
   double stalled_s = 600;
   FlowLimits limits{};
   /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
+};
+
+/// Something that goes wrong while a job is rendered.
+struct Fault {
+  enum class Kind : std::uint8_t {
+    kDeath,  ///< the node's process ends
+    kStop,   ///< the node does nothing any more, and nobody is told
+    kCut,    ///< for `lasts_s` seconds nothing gets from `rank` to `to`
+  };
+  Kind kind = Kind::kDeath;
+  Rank rank;
+  /// Simulated seconds after the render begins.
+  double after_s = 0;
+  /// kCut: where the link leads; nothing for the frontal.
+  Place to{};
+  double lasts_s = 0;
 };
 
 /// The result of a job, and what was seen on the way.
@@ -40,6 +59,8 @@ struct Outcome {
   std::optional<control::Done> done;
   std::optional<control::Failed> failed;
   std::uint32_t rounds = 0;
+  /// Epochs of the job.
+  std::uint32_t epochs = 0;
   /// Broken promises, in words; empty when all held.
   std::vector<std::string> violations;
   /// The nodes' reports, indexed by rank, also of a job that failed; empty if none were asked for.
@@ -61,9 +82,8 @@ class Farm {
   /// Renders a scene; the picture is then in store().
   Outcome render(const std::string& scene_text, const control::JobOptions& options);
   JobStore& store() { return *store_; }
-  /// The node stops answering, and its links go dead, `after_s` simulated seconds after the next
-  /// render begins.
-  void kill_node_at(Rank rank, double after_s) { kill_ = {rank, after_s}; }
+  /// Will happen in the next render.
+  void will_happen(const Fault& fault) { faults_.push_back(fault); }
 
   /// Called with the work that a brain or evaluator did, and the CPU seconds that it took on this
   /// machine. If it isn't set, nothing is measured.
@@ -130,13 +150,16 @@ class Farm {
   struct Turn;
   double begin(Turn& turn);
   void end(Turn& turn);
-  void kill(Rank rank);
+  void happen(const Fault& fault);
+  void tell_of_death(Rank rank);
+  bool is_cut(Rank from, Place to) const;
   void collect_reports();
 
   // The watch over promises and time
   void watch_time(Process& p);
   void fill_in(Process& p, control::NodeStats& stats);
   void watch_to_node(const Message& message);
+  void watch_epoch(std::uint32_t epoch);
   void watch_to_frontal(const Message& message);
   void watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent);
   void watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type, bool is_sent);
@@ -159,10 +182,13 @@ class Farm {
   std::int64_t rays_under_way_ = 0, sums_under_way_ = 0;
   /// Whether the token has found the end; and whether nodes were told to report without that.
   bool is_over_ = false, has_failed_ = false;
-  std::optional<std::pair<Rank, double>> kill_;
+  std::vector<Fault> faults_;
+  /// Until when links are cut.
+  std::map<std::pair<Rank, Place>, double> cut_until_s_;
   double render_began_s_ = 0, last_change_s_ = 0;
-  /// The message that loaded the running job.
+  /// The message that loaded the running job, and the job's epoch.
   control::Load load_;
+  std::uint32_t epoch_ = 0;
   unsigned renders_ = 0;
   std::uint32_t reports_ = 0;
   Outcome outcome_;

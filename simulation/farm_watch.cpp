@@ -57,12 +57,26 @@ void Farm::watch_to_node(const Message& message) {
   if (std::holds_alternative<control::Finish>(*m)) {
     has_failed_ = !is_over_ && load_.algorithm == Algorithm::kMacro;
   }
+  if (const auto* prepare = std::get_if<control::Prepare>(m)) watch_epoch(prepare->epoch);
   if (const auto* load = std::get_if<control::Load>(m)) {
+    const bool is_new = load->job != load_.job;
     load_ = *load;
-    for (Process& p : processes_) {
-      std::ranges::fill(p.unreturned, 0);
-      std::ranges::fill(p.places_out, ClassPlaces{});
-    }
+    if (is_new) epoch_ = load->epoch + 1;  // whatever it was, another one begins
+    watch_epoch(load->epoch);
+  }
+}
+
+/// An epoch begins: nothing of those before counts.
+void Farm::watch_epoch(std::uint32_t epoch) {
+  if (epoch == epoch_) return;
+  epoch_ = epoch;
+  is_over_ = false;
+  rays_under_way_ = 0;
+  sums_under_way_ = 0;
+  for (Process& p : processes_) {
+    p.working = 0;
+    std::ranges::fill(p.unreturned, 0);
+    std::ranges::fill(p.places_out, ClassPlaces{});
   }
 }
 
@@ -85,12 +99,11 @@ void Farm::watch_to_frontal(const Message& message) {
 void Farm::watch_batch(Rank from, Rank to, const Bytes& batch, bool is_sent) {
   const auto header = peek_header(batch);
   const auto* h = std::get_if<BatchHeader>(&header);
-  if (h == nullptr) return;
+  if (h == nullptr || h->stamp.job != load_.job || h->stamp.epoch != epoch_) return;
   if (h->type == BatchType::kRays || h->type == BatchType::kClassRays)
     rays_under_way_ += is_sent ? 1 : -1;
   if (h->type == BatchType::kContributions || h->type == BatchType::kAnswers)
     sums_under_way_ += is_sent ? 1 : -1;
-  if (h->stamp.job != load_.job) return;
   if (h->type == BatchType::kClassRays || h->type == BatchType::kClassCredit) {
     return watch_classes(from, to, batch, h->type, is_sent);
   }

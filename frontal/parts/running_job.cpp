@@ -37,7 +37,11 @@ std::string deadlock_text(const std::vector<Rank>& cycle, std::uint32_t blocked,
 
 RunningJob::RunningJob(const FrontalOptions& farm, const QueuedJob& job, const Moment& now,
                        const CpuMeter& cpu)
-    : farm_(farm), content_(job.content), info_(job.info), options_(job.work.options) {
+    : farm_(farm),
+      content_(job.content),
+      info_(job.info),
+      options_(job.work.options),
+      progress_(farm.cube.nodes()) {
   times_.submitted_s = job.submitted_at_s;
   times_.began_s = now.now_s;
   info_.started_s = now.unix_s;
@@ -118,6 +122,7 @@ void RunningJob::start(std::vector<std::uint32_t> incarnations, double now_s, Po
     return;
   }
   stage_ = JobStage::kRendering;
+  progress_.begin();
   if (render_->epoch() == 0) {
     times_.render_began_s = now_s;
     log_.begin(now_s, has_records_ ? std::nullopt : std::optional(recorded_picture()));
@@ -145,15 +150,27 @@ std::optional<JobFailure> RunningJob::on_error(Rank rank, const control::NodeErr
   return go_on_without({rank.value, m.message, 0, 0}, name, false, post);
 }
 
+std::optional<JobFailure> RunningJob::look_for_lost_messages(double now_s, Post& post) {
+  const PreparedScene* scene = render_ ? &render_->scene() : nullptr;
+  // Blocking flow may stand still without a loss, and tells so itself.
+  if (!is_rendering() || scene->flow == FlowMode::kBlocking || render_->sliding() != nullptr)
+    return std::nullopt;
+  if (!progress_.all_wait(now_s, 2 * farm_.silence_s)) return std::nullopt;
+  return go_on_without({std::nullopt, "all nodes wait for messages that were lost", 0, 0},
+                       "the farm", false, post);
+}
+
 /// Begins the next epoch. Once all tiles are whole none is needed: the picture is complete.
 std::optional<JobFailure> RunningJob::go_on_without(Loss loss, const std::string& name,
                                                     bool is_gone, Post& post) {
-  RenderJob::Damage damage = render_->note_loss(Rank{loss.rank}, is_gone);
+  std::optional<Rank> rank;
+  if (loss.rank) rank = Rank{*loss.rank};
+  RenderJob::Damage damage = render_->note_loss(rank, is_gone);
   loss.tiles = damage.tiles;
   losses_.push_back(loss);
   if (render_->film_is_complete()) {
     is_cut_short_ = true;
-    if (is_gone) render_->reports().will_not_come(Rank{loss.rank});
+    if (is_gone) render_->reports().will_not_come(*rank);
     return std::nullopt;
   }
   if (!damage.culprit.empty()) {
@@ -292,6 +309,10 @@ void RunningJob::on_wait_report(Rank rank, const control::WaitReport& m, std::ui
 void RunningJob::ask_for_reports(double now_s, Post& post) {
   stage_ = JobStage::kReporting;
   times_.render_ended_s = now_s;
+  // A node that has taken another's place, and was not loaded yet, has nothing to tell.
+  for (std::uint32_t rank = 0; rank < farm_.cube.nodes(); ++rank) {
+    if (render_->barrier().needs_load(Rank{rank})) render_->reports().will_not_come(Rank{rank});
+  }
   post.to_nodes(control::Finish{id()});
 }
 

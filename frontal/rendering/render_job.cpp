@@ -20,7 +20,7 @@ RenderJob::RenderJob(std::uint32_t job, PreparedScene scene, const Hypercube& cu
       tiles_({cube_, scene_.mesh}, *scene_.plan, light_.tiles(), way(),
              {scene_, cube_.nodes(), threads_, limits_}),
       loaded_(cube_.nodes()),
-      barrier_(cube_.nodes(), !is_roth()),
+      barrier_(cube_.nodes(), has_links()),
       reports_(cube_) {
   if (scene_.boundaries == BoundariesMode::kSliding)
     sliding_.emplace(job_, cube_, scene_, threads_, limits_.sliding);
@@ -32,15 +32,15 @@ TileHandout::Way RenderJob::way() const {
   return scene_.has_replicas ? TileHandout::Way::kHelp : TileHandout::Way::kOwn;
 }
 
-RenderJob::Damage RenderJob::note_loss(Rank rank, bool is_gone) {
+RenderJob::Damage RenderJob::note_loss(std::optional<Rank> rank, bool is_gone) {
   const std::vector<std::uint32_t> under_way = tiles_.under_way();
   Damage damage{static_cast<std::uint32_t>(under_way.size()), {}};
-  const bool was_building = barrier_.is_building(rank);
+  const bool was_building = rank && barrier_.is_building(*rank);
   if (is_gone) {
-    barrier_.lose(rank);
-    slices_.lose(rank);
+    barrier_.lose(*rank);
+    slices_.lose(*rank);
   }
-  if (was_building && retries_.note_loss_before_it_could_trace(rank))
+  if (was_building && retries_.note_loss_before_it_could_trace(*rank))
     damage.culprit = "its part of the scene was being subdivided";
   // In `roth` a tile's rays stay with the node that has it, so that only its tiles can be at fault.
   const auto all = static_cast<std::uint32_t>(tiles());

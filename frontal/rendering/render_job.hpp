@@ -67,7 +67,7 @@ class RenderJob {
     std::string culprit;
   };
   /// The node has told of a loss or, if it `is_gone`, is itself lost.
-  [[nodiscard]] Damage note_loss(Rank rank, bool is_gone);
+  [[nodiscard]] Damage note_loss(std::optional<Rank> rank, bool is_gone);
   /// Begins the next epoch: tiles that are not whole are to be traced again.
   void begin_next_epoch();
   /// Whether all nodes are loaded anew in a later epoch, since slices go from node to node, or
@@ -116,6 +116,8 @@ class RenderJob {
   bool all_batches_in() const {
     return verdict_ && light_.batches() == verdict_->contribution_batches;
   }
+  /// Whether nodes send each other anything, so that none can do without the others.
+  bool has_links() const { return !is_roth() || sums_ != SumsMode::kDirect; }
   TileHandout::Way way() const;
   std::string culprit(std::uint32_t tile) const;
   void set_class_places(control::Load& m) const;

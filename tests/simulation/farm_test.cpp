@@ -86,33 +86,6 @@ TEST_CASE("a farm renders one job after another") {
   }
 }
 
-TEST_CASE("a node's death fails the running job with its name, and the next job works") {
-  const std::string text = scene_text(36, 24);
-  const Picture expected = serial_picture(text);
-  std::set<std::string> messages;
-  int failed = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    INFO("seed " << seed);
-    RandomFarm farm({.nodes = 8, .seed = seed});
-    const Rank victim{static_cast<std::uint32_t>(seed % 8)};
-    farm.kill_node_at(victim, 2e-3 * static_cast<double>(seed));
-    // It may also die between two jobs, or in the second.
-    std::uint32_t jobs = 0;
-    for (bool has_failed = false; jobs < 2 && !has_failed;) {
-      const Outcome outcome = farm.render(text, with(Algorithm::kMacro));
-      ++jobs;
-      REQUIRE(outcome.ended);
-      has_failed = outcome.failed.has_value();
-      if (!has_failed) continue;
-      ++failed;
-      REQUIRE(outcome.failed->errors.size() == 1);
-      CHECK(outcome.failed->errors.front().where.find("node " + std::to_string(victim.value)) == 0);
-    }
-    check_same_picture(farm, farm.render(text, with(Algorithm::kMacro)), jobs + 1, expected);
-  }
-  CHECK(failed > 10);
-}
-
 TEST_CASE("a farm whose nodes can't be started gives up, and says why") {
   const auto store = make_memory_store();
   FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "simulated"};

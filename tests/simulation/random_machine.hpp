@@ -55,6 +55,8 @@ struct RandomFarmOptions {
   double heartbeat_s = 1, stalled_s = 600;
   FlowLimits limits{};
   std::uint64_t replica_bytes = kReplicaBytes;
+  double silence_s = 1e12;
+  std::uint32_t retries = kDefaultRetries;
 };
 
 class RandomFarm : private RandomMachine, public Farm {
@@ -64,6 +66,8 @@ class RandomFarm : private RandomMachine, public Farm {
         Farm({.nodes = o.nodes,
               .threads = o.threads,
               .heartbeat_s = o.heartbeat_s,
+              .silence_s = o.silence_s,
+              .retries = o.retries,
               .stalled_s = o.stalled_s,
               .limits = o.limits,
               .replica_bytes = o.replica_bytes},
