@@ -13,6 +13,7 @@
 #include "cli/options/man_page.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/options/usage.hpp"
+#include "keep_rule.hpp"
 #include "transport/endpoint.hpp"
 #include "version.hpp"
 
@@ -94,6 +95,11 @@ class Parser {
     add_nodes(options, render.nodes);
     add_threads(options, render.threads, "Evaluator threads per node (default 1)");
     add_job_options(options, render.options);
+    options.option({.names = "--checkpoint",
+                    .value = "FILE",
+                    .help = "Keep there what is done; the same command goes on from it",
+                    .kind = ValueKind::kFile},
+                   [&render](const std::string& text) { render.checkpoint = text; });
     options.flag("--json", render.as_json, "Progress, and what was written, as lines of JSON");
     options.flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
   }
@@ -113,6 +119,14 @@ class Parser {
                     .help = "Keep jobs and pictures there, over restarts",
                     .kind = ValueKind::kFolder},
                    [&up](const std::string& text) { up.state = text; });
+    options.option(
+        {.names = "--keep",
+         .value = "N|DAYS",
+         .help = "Ended jobs to keep: the newest N, or those of e.g. 30d (default: all)"},
+        [&up](const std::string& text) {
+          if (!parse_keep_rule(text)) throw usage_failure("--keep " + text, kKeepRuleText);
+          up.keep = text;
+        });
     options.option({.names = "--http",
                     .value = "HOST:PORT",
                     .help = "A web page of the farm at this loopback address"},
@@ -172,10 +186,16 @@ class Parser {
                 jobs.skip = parse_count("--skip", text, 0, kMaxJobsShown);
               });
         });
-    declare_client<StatusCommand>("status", "How a job is getting on",
-                                  [](Declaring& options, StatusCommand& status) {
-                                    options.flag("--json", status.as_json, "As one line of JSON");
-                                  });
+    declare_client<StatusCommand>(
+        "status", "How a job is getting on, or the farm",
+        [](Declaring& options, StatusCommand& status) {
+          options.option({.names = "JOB", .help = "The job's id, as 'submit' and 'jobs' print it"},
+                         [&status](const std::string& text) {
+                           status.number = parse_count("JOB", text, 1, 0xFFFFFFFFu);
+                         });
+          options.flag("--farm", status.is_of_farm, "The farm itself, instead of a job");
+          options.flag("--json", status.as_json, "As one line of JSON");
+        });
     declare_client<WatchCommand>(
         "watch", "Follow a job to its end", [](Declaring& options, WatchCommand& watch) {
           options.flag("--json", watch.as_json, "Progress, and the job's end, as lines of JSON");

@@ -19,6 +19,8 @@ struct RenderCommand {
   std::string scene;
   ModelChoice choice;
   Outputs outputs;
+  /// Where tiles are recorded, so that the same command goes on; empty for nowhere.
+  std::filesystem::path checkpoint;
   control::JobOptions options;
   std::uint32_t nodes = 1, threads = 1;
   bool as_json = false, is_quiet = false;
@@ -36,6 +38,8 @@ struct SubmitCommand {
 
 struct UpCommand {
   std::string listen, state, http;
+  /// A text of parse_keep_rule(); empty to keep everything.
+  std::string keep;
   std::uint32_t nodes = 1, threads = 1;
   /// 0 for the frontal's default.
   std::uint32_t outbox_rays = 0;
@@ -48,8 +52,9 @@ struct JobsCommand {
 };
 struct StatusCommand {
   std::string connect;
-  std::uint32_t job = 0;
-  bool as_json = false;
+  /// 0 where the farm itself is asked about.
+  std::uint32_t number = 0;
+  bool is_of_farm = false, as_json = false;
 };
 struct WatchCommand {
   std::string connect;

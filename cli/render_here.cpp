@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/interrupts.hpp"
 #include "process/clocks.hpp"
 #include "proto/job_settings.hpp"
 #include "proto/messages/search_report.hpp"
@@ -56,10 +57,17 @@ control::NodeStats node_stats(const SerialResult& r, double threads, double rend
   return n;
 }
 
+/// Takes up what is recorded, and has tiles recorded that become whole.
+void use(Checkpoint& checkpoint, Film& film, SerialOptions& how) {
+  checkpoint.restore(film);
+  how.is_wanted = [&checkpoint](const PixelRect& tile) { return checkpoint.is_wanted(tile); };
+  how.tile_done = [&checkpoint](const PixelRect& tile) { checkpoint.note(tile); };
+}
+
 }  // namespace
 
 Rendered render_here(SceneInput scene, const control::JobOptions& options, std::uint32_t threads,
-                     ProgressDisplay& display) {
+                     ProgressDisplay& display, Checkpoint* checkpoint) {
   Statistics s;
   s.version = kVersion;
   s.scene = scene.name;
@@ -87,9 +95,17 @@ Rendered render_here(SceneInput scene, const control::JobOptions& options, std::
   how.threads = threads;
   how.progress = [&](double share) {
     display.show(progress_at(share, rendering));
-    return true;
+    if (checkpoint == nullptr) return true;
+    checkpoint->write(film, false);
+    return !is_interrupted();
   };
+  if (checkpoint != nullptr) use(*checkpoint, film, how);
   const SerialResult result = render_serial(domain, how, film);
+  if (checkpoint != nullptr) s.resumed_tiles = checkpoint->resumed();
+  if (!result.finished) {
+    checkpoint->write(film, true);
+    throw_if_interrupted();
+  }
   s.render_s = seconds_since(rendering);
   s.per_node.push_back(node_stats(result, threads, s.render_s));
   s.per_node.front().primitives = s.primitives;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cli/checkpoint.hpp"
 #include "cli/display/progress.hpp"
 #include "cli/scene_input.hpp"
 #include "film/film.hpp"
@@ -20,8 +21,9 @@ struct Rendered {
   double written_cpu_s = 0;
 };
 
-/// Renders with the algorithm `serial`; no process, no socket.
+/// Renders with the algorithm `serial`; no process, no socket. With a checkpoint it goes on from
+/// that; interrupts, which must be held then, end it with a Failure once what is done is recorded.
 Rendered render_here(SceneInput scene, const control::JobOptions& options, std::uint32_t threads,
-                     ProgressDisplay& display);
+                     ProgressDisplay& display, Checkpoint* checkpoint = nullptr);
 
 }  // namespace graycube

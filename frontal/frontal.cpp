@@ -146,6 +146,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      },
                      [&](const control::Fetch& m) { return jobs_.fetch(m); },
                      [&](const control::Write& m) { return jobs_.write(m); },
+                     [&](const control::Farm&) -> Answer { return Reply{info()}; },
                      [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
                      [&](const control::Hello&) { return refuse_type(); },
                      [&](const FromNode auto&) { return refuse_type(); },
@@ -161,9 +162,21 @@ Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scen
   return jobs_.submit(m, scene);
 }
 
+control::FarmInfo Frontal::info() const {
+  control::FarmInfo info;
+  info.pid = options_.pid;
+  info.endpoint = options_.endpoint;
+  info.version = options_.version;
+  info.started_s = options_.started_s;
+  info.nodes = options_.cube.nodes();
+  info.nodes_here = nodes_.count_here();
+  jobs_.count(info);
+  return info;
+}
+
 void Frontal::go_down() {
   if (is_going_down_) return;
-  jobs_.cancel_all();
+  jobs_.stop();
   is_going_down_ = true;
   post_.to_nodes(control::Shutdown{});
 }

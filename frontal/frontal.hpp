@@ -62,6 +62,7 @@ class Frontal {
   void on_client(const PeerId& peer, const ControlMessage& message,
                  std::span<const std::byte> payload);
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
+  control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
   void get_on();
 

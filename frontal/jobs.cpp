@@ -1,6 +1,7 @@
 #include "frontal/jobs.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "frontal/parts/picture_answers.hpp"
@@ -8,6 +9,12 @@
 
 namespace graycube {
 namespace {
+
+/// A job at whose beginning so many frontals in a row have died fails, so that it can't bring down
+/// one after another for ever.
+constexpr std::uint32_t kMaxBegins = 5;
+/// Seconds after which it is asked again which ended jobs aren't to be kept any longer.
+constexpr double kClearInterval_s = 10;
 
 Refusal unknown(std::uint32_t job) { return {job, FailureCode::kUnknownJob, "", "no such job"}; }
 
@@ -25,8 +32,28 @@ ControlMessage end_of(const EndedJob& job) {
 }  // namespace
 
 Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post)
-    : farm_(farm), post_(post), ended_(store) {
+    : farm_(farm), store_(store), post_(post), ended_(store) {
   if (!ended_.all().empty()) queue_.number_beyond(ended_.all().back().info.job);
+  queue_.number_beyond(store.last_number());
+  recover_accepted();
+}
+
+QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options) const {
+  QueuedJob job;
+  job.submitted_at_s = now_.now_s;
+  job.work.job = info.job;
+  job.work.scene_name = info.scene;
+  job.work.options = options;
+  job.work.cube = farm_.cube;
+  job.work.replica_bytes = farm_.replica_bytes;
+  job.info = std::move(info);
+  return job;
+}
+
+void Jobs::count(control::FarmInfo& farm) const {
+  farm.queued = static_cast<std::uint32_t>(queue_.all().size());
+  farm.running = running_ ? 1 : 0;
+  farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
 void Jobs::check_time() {
@@ -38,6 +65,11 @@ void Jobs::check_time() {
   if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
   look_for_lost_messages();
   if (watchers_.are_due(now_.now_s)) tell_progress();
+  if (running_) record_tiles(false);
+  if (now_.now_s - cleared_s_ >= kClearInterval_s) {
+    cleared_s_ = now_.now_s;
+    ended_.clear_old(now_.unix_s);
+  }
 }
 
 void Jobs::look_for_lost_messages() {
@@ -50,24 +82,31 @@ void Jobs::look_for_lost_messages() {
 // ---- asked by clients
 
 Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) {
-  if (queue_.is_full()) {
-    return Refusal{0, FailureCode::kBusy, "",
-                   "the queue is full (" + std::to_string(kMaxQueuedJobs) + " jobs)"};
-  }
   if (auto refusal = refusal_of(m, scene, farm_.is_private)) return *std::move(refusal);
-  QueuedJob job;
-  job.info.state = JobState::kQueued;
-  job.info.scene = m.scene_name;
-  job.info.algorithm = m.options.algorithm;
-  job.info.nodes = farm_.cube.nodes();
-  job.info.submitted_s = now_.unix_s;
-  job.submitted_at_s = now_.now_s;
-  job.work.scene_name = m.scene_name;
-  job.work.scene.assign(scene.begin(), scene.end());
-  job.work.options = m.options;
-  job.work.cube = farm_.cube;
-  job.work.replica_bytes = farm_.replica_bytes;
-  return Reply{control::Accepted{queue_.add(std::move(job))}};
+  const std::uint64_t content = content_of(m, scene);
+  try {
+    if (const auto known = m.key.empty() ? std::nullopt : store_.find_key(m.key)) {
+      if (known->content == content) return Reply{control::Accepted{known->job}};
+      return Refusal{known->job, FailureCode::kBadRequest, "key",
+                     "another scene or other options were submitted under this key"};
+    }
+    if (auto refusal = refusal_for_want_of_room(queue_)) return *std::move(refusal);
+    control::JobInfo info;
+    info.job = queue_.next_number();
+    info.scene = m.scene_name;
+    info.algorithm = m.options.algorithm;
+    info.nodes = farm_.cube.nodes();
+    info.submitted_s = now_.unix_s;
+    // The number is told only once the store has it: it must be the job's after any end of this
+    // process.
+    store_.add({info, m.options, m.key, content}, scene);
+    QueuedJob job = queued(std::move(info), m.options);
+    job.work.scene.assign(scene.begin(), scene.end());
+    job.content = content;
+    return Reply{control::Accepted{queue_.add(std::move(job))}};
+  } catch (const std::runtime_error& e) {
+    return Refusal{0, FailureCode::kFailed, "the job store", e.what()};
+  }
 }
 
 std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
@@ -151,14 +190,34 @@ Answer Jobs::write(const control::Write& m) {
 std::optional<PreparationWork> Jobs::take_work() {
   if (running_ || queue_.is_empty()) return std::nullopt;
   QueuedJob next = queue_.take_first();
+  // Its client has waited since it was submitted to an earlier frontal.
+  if (next.is_recovered)
+    next.submitted_at_s = now_.now_s - std::max(0.0, now_.unix_s - next.info.submitted_s);
   running_.emplace(farm_, next, now_, cpu_);
   tell_progress();
+  try {
+    if (next.is_recovered) next.work.scene = store_.scene(next.info.job);
+    const std::uint32_t begun = store_.begin(next.info.job);
+    if (begun > kMaxBegins) {
+      fail({JobState::kFailed,
+            FailureCode::kFailed,
+            {{"the frontal", "has died " + std::to_string(begun - 1) +
+                                 " times as soon as this job began; it isn't tried again"}}});
+      return std::nullopt;
+    }
+  } catch (const std::runtime_error& e) {
+    fail({JobState::kFailed, FailureCode::kFailed, {{"the job store", e.what()}}});
+    return std::nullopt;
+  }
   return std::move(next.work);
 }
 
 void Jobs::give_result(PreparationResult result) {
   if (!running_ || running_->id() != result.job) return;  // cancelled meanwhile
-  if (result.scene) return running_->prepared(*std::move(result.scene));
+  if (result.scene) {
+    running_->prepared(*std::move(result.scene));
+    return resume();
+  }
   const FailureCode code = result.is_internal ? FailureCode::kFailed : FailureCode::kBadInput;
   fail({JobState::kFailed, code, std::move(result.errors)});
 }
@@ -322,12 +381,6 @@ void Jobs::end(EndedJob job, JobFailure failure) {
   if (job.has_stats()) failed.stats = RawObject{job.stats_json};
   for (const PeerId& peer : watchers_.take(failed.job)) post_.to_peer(peer, failed);
   ended_.keep(std::move(job), {});
-}
-
-void Jobs::cancel_all() {
-  const JobFailure stopped{JobState::kCancelled, FailureCode::kCancelled, {{"", "the farm stops"}}};
-  if (running_) fail(stopped);
-  while (!queue_.is_empty()) end({queue_.take_first().info, "{}", false}, stopped);
 }
 
 }  // namespace graycube

@@ -27,6 +27,8 @@ class Jobs {
   void set_time(const Moment& now) { now_ = now; }
   /// Ends the job that is on if it is out of time; tells of its progress now and then.
   void check_time();
+  /// Jobs that wait, and those that are on and have ended and are listed.
+  void count(control::FarmInfo& farm) const;
 
   // Asked by clients
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
@@ -78,10 +80,14 @@ class Jobs {
   }
   /// Tells that a node is lost: a job that it had goes on in another epoch.
   void node_was_lost(const NodeLoss& node);
-  /// Cancels every job, as the farm stops.
-  void cancel_all();
+  /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
+  void stop();
 
  private:
+  void recover_accepted();
+  void resume();
+  void record_tiles(bool all);
+  QueuedJob queued(control::JobInfo info, const control::JobOptions& options) const;
   bool is_rendered() const { return running_ && running_->is_prepared(); }
   std::optional<control::JobInfo> find(std::uint32_t job) const;
   /// The picture of a job that is done.
@@ -95,10 +101,14 @@ class Jobs {
   void fail(JobFailure failure);
   /// Keeps a job that has no picture, and tells those who watch it.
   void end(EndedJob job, JobFailure failure);
+  void leave_to_next_frontal();
 
   const FrontalOptions& farm_;
+  JobStore& store_;
   Post& post_;
   Moment now_;
+  /// When old jobs were cleared last.
+  double cleared_s_ = 0;
   CpuMeter cpu_;
   JobQueue queue_;
   std::optional<RunningJob> running_;

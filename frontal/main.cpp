@@ -15,6 +15,8 @@
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/preparation_thread.hpp"
+#include "frontal/store/checkpoint_store.hpp"
+#include "frontal/store/database_store.hpp"
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
 #include "process/temporary_folder.hpp"
@@ -30,7 +32,11 @@ namespace fs = std::filesystem;
 struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
   std::string listen, state, http;
-  bool is_private = false;
+  KeepRule keep;
+  /// Of a private frontal: where tiles are recorded, and the digest of what decides the picture.
+  std::string checkpoint;
+  std::uint64_t picture_content = 0;
+  bool is_private = false, ends_jobs = false;
   double silence_s = 10;
   FlowLimits limits{};
 };
@@ -59,19 +65,26 @@ class FrontalProcess {
       : signals_(signals),
         inbox_(context_,
                a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
-        store_(a.state.empty() ? default_store(a) : make_folder_store(a.state)),
+        store_(make_store(a)),
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
                   .threads = a.threads,
                   .silence_s = a.silence_s,
                   .version = kVersion,
                   .limits = a.limits,
-                  .is_private = a.is_private},
+                  .is_private = a.is_private,
+                  .keeps_jobs = !a.state.empty() && !a.ends_jobs,
+                  .records_tiles = store_->records_tiles(),
+                  .picture_content = a.picture_content,
+                  .endpoint = inbox_.endpoint(),
+                  .pid = static_cast<std::uint64_t>(::getpid()),
+                  .started_s = seconds_of(CLOCK_REALTIME)},
                  *store_),
         preparation_(wakeup_) {
     frontal_.set_cpu_meter({[this] { return process_cpu_seconds() + processes_.start_cpu_s(); },
                             [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
     if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
+    std::cout << "folder " << folder_.path().string() << std::endl;
     if (http_) std::cout << "page " << http_->url() << std::endl;
     std::cout << "listening " << inbox_.endpoint() << std::endl;
     own_start_cpu_s_ = process_cpu_seconds();
@@ -99,8 +112,14 @@ class FrontalProcess {
  private:
   static fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-  std::unique_ptr<JobStore> default_store(const FrontalArguments& a) const {
-    return a.is_private ? make_memory_store() : make_folder_store(folder_.path() / "jobs");
+  std::unique_ptr<JobStore> make_store(const FrontalArguments& a) const {
+    const auto warn = [](const std::string& sentence) {
+      std::fprintf(stderr, "graycube-frontal: job store: %s\n", sentence.c_str());
+    };
+    if (!a.checkpoint.empty()) return make_checkpoint_store(a.checkpoint, warn);
+    if (a.is_private) return make_memory_store();
+    const fs::path folder = a.state.empty() ? folder_.path() / "jobs" : fs::path(a.state);
+    return open_database_store(folder, {a.keep, a.state.empty() || a.ends_jobs}, warn);
   }
 
   void take_events() {
@@ -169,6 +188,13 @@ int run_main(int argc, char** argv) {
       ->check(CLI::Range(1u, kMaxThreads));
   app.add_option("--listen", a.listen, "Endpoint for clients");
   app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
+  app.add_flag(
+      "--ends-jobs", a.ends_jobs,
+      "Cancel jobs that have not ended when the farm stops, instead of keeping them there");
+  app.add_option("--checkpoint", a.checkpoint, "With --private: a file for tiles that are whole");
+  app.add_option("--picture", a.picture_content, "With --checkpoint: a digest of the picture");
+  std::string keep;
+  app.add_option("--keep", keep, "Ended jobs to keep there: the newest N, or those of DAYSd");
   app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")
       ->check(CLI::Range(0.1, 3600.0));
   app.add_option("--outbox-rays", a.limits.outbox_rays, "Rays to be sent that a node may hold")
@@ -185,6 +211,11 @@ int run_main(int argc, char** argv) {
   }
   if (!Hypercube::of_size(a.nodes)) {
     return fail("usage: --nodes", "expected a power of two, 1 to " + std::to_string(kMaxNodes), 2);
+  }
+  if (!keep.empty()) {
+    const auto rule = parse_keep_rule(keep);
+    if (!rule) return fail("usage: --keep " + keep, kKeepRuleText, 2);
+    a.keep = *rule;
   }
   if (a.listen.empty()) a.listen = default_endpoint();
   if (const auto problem = endpoint_problem(a.listen)) return fail("usage: --listen", *problem, 2);

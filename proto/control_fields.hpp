@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "proto/messages.hpp"
+#include "proto/messages/farm_fields.hpp"
 #include "proto/messages/field_limits.hpp"
 #include "proto/messages/sliding_fields.hpp"
 #include "shading/settings.hpp"
@@ -294,6 +295,7 @@ void each_field(auto&, Is<Shutdown> auto&) {}
 void each_field(auto& visit, Is<Submit> auto& m) {
   visit("scene_name", m.scene_name);
   visit("options", m.options);
+  visit("key", m.key, kKey);
 }
 
 void each_field(auto& visit, Is<Status> auto& m) { visit("job", m.job, at_least_one()); }

@@ -21,8 +21,9 @@ using ControlMessage = std::variant<
     control::HandOn, control::Relieved, control::AllWhole, control::Prepare, control::Start,
     control::Finish, control::Ping, control::Shutdown, control::Submit, control::Status,
     control::List, control::Watch, control::Cancel, control::Nodes, control::Fetch, control::Write,
-    control::Down, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-    control::NodeList, control::Done, control::Picture, control::Written, control::Failed,
-    control::Bye, control::Slide, control::Slid, control::Turn, control::Dealt, control::Worked>;
+    control::Down, control::Farm, control::Accepted, control::JobInfo, control::Jobs,
+    control::Progress, control::NodeList, control::FarmInfo, control::Done, control::Picture,
+    control::Written, control::Failed, control::Bye, control::Slide, control::Slid, control::Turn,
+    control::Dealt, control::Worked>;
 
 }  // namespace graycube

@@ -162,6 +162,7 @@ std::string statistics_json(const Statistics& s) {
   if (s.boundaries == BoundariesMode::kSliding) j["sliding"] = sliding_json(s.sliding);
   j["epochs"] = s.epochs;
   j["losses"] = losses_json(s);
+  j["resumed_tiles"] = s.resumed_tiles;
   j["token"] = {{"rounds", s.token_rounds}, {"hops", s.token_hops}};
   double endgame_s = s.per_node.empty() ? 0 : s.per_node.front().endgame_s;
   for (const NodeStats& n : s.per_node) endgame_s = std::min(endgame_s, n.endgame_s);

@@ -57,6 +57,8 @@ struct Statistics {
   /// Tries at the picture, each but the first after a loss (docs/design/epochs.md).
   std::uint32_t epochs = 1;
   std::vector<Loss> losses;
+  /// Tiles that were not traced, since an earlier process had recorded them.
+  std::uint64_t resumed_tiles = 0;
   std::uint32_t token_rounds = 0, token_hops = 0;
   /// Slices that the frontal sent when the job was loaded.
   std::uint64_t slices = 0, slice_bytes = 0;

@@ -26,6 +26,7 @@ ExitStatus run(const DownCommand& command) {
   const pid_t process = find_listener(command.connect).process;
   {
     FarmClient farm(command.connect);
+    farm.expect_end();
     farm.ask<control::Bye>(control::Down{}, "down");
   }
   const auto until = std::chrono::steady_clock::now() + kDownLimit;

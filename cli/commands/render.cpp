@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "cli/commands/commands.hpp"
@@ -20,9 +22,29 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<std::string> frontal_arguments(const RenderCommand& command) {
-  return {"--private", "--nodes", std::to_string(command.nodes), "--threads",
-          std::to_string(command.threads)};
+std::vector<std::string> frontal_arguments(const RenderCommand& command,
+                                           const std::unique_ptr<Checkpoint>& checkpoint) {
+  std::vector<std::string> arguments{"--private", "--nodes", std::to_string(command.nodes),
+                                     "--threads", std::to_string(command.threads)};
+  if (checkpoint != nullptr) {
+    arguments.insert(arguments.end(), {"--checkpoint", checkpoint->file().string(), "--picture",
+                                       std::to_string(checkpoint->picture().content)});
+  }
+  return arguments;
+}
+
+/// Refuses a file that can't be a checkpoint, before anything is rendered.
+std::unique_ptr<Checkpoint> checkpoint_of(const RenderCommand& command, const Outputs& outputs,
+                                          const SceneInput& scene) {
+  if (command.checkpoint.empty()) return nullptr;
+  check_output("--checkpoint", command.checkpoint, command.scene);
+  for (const auto* file : {&outputs.exr, &outputs.png, &outputs.stats}) {
+    if (std::filesystem::absolute(*file).lexically_normal() ==
+        std::filesystem::absolute(command.checkpoint).lexically_normal())
+      throw usage_failure("--checkpoint " + command.checkpoint.string(),
+                          "is written to as another file, too");
+  }
+  return std::make_unique<Checkpoint>(command.checkpoint, picture_of(scene, command.options));
 }
 
 /// A compiled scene may be at most so many times as long as its text, which holds a shape only once
@@ -107,6 +129,25 @@ void write_outputs(const RenderCommand& command, const Outputs& outputs, const s
   std::clearerr(stdout);
 }
 
+void render_serially(const RenderCommand& command, const Outputs& outputs, SceneInput scene,
+                     Checkpoint* checkpoint, Clock::time_point started, double load_s) {
+  std::optional<InterruptsHeld> held;
+  if (checkpoint != nullptr) held.emplace();
+  const std::string name = scene.name;
+  ProgressDisplay display(stdout, command.is_quiet, command.as_json);
+  Rendered rendered;
+  try {
+    rendered = render_here(std::move(scene), command.options, command.threads, display, checkpoint);
+  } catch (const Failure&) {
+    display.clear();
+    if (checkpoint != nullptr) checkpoint->print_hint();
+    throw;
+  }
+  if (!held) held.emplace();
+  write_outputs(command, outputs, name, rendered, started, load_s);
+  if (checkpoint != nullptr) checkpoint->remove();
+}
+
 }  // namespace
 
 ExitStatus run(const RenderCommand& command) {
@@ -123,18 +164,16 @@ ExitStatus run(const RenderCommand& command) {
   if (!command.is_quiet) {
     for (const Problem& warning : scene.warnings) print(warning);
   }
+  const auto checkpoint = checkpoint_of(command, outputs, scene);
   if (command.options.algorithm == Algorithm::kSerial) {
-    ProgressDisplay display(stdout, command.is_quiet, command.as_json);
-    Rendered rendered = render_here(std::move(scene), command.options, command.threads, display);
-    const InterruptsHeld held;
-    write_outputs(command, outputs, name, rendered, started, load_s);
+    render_serially(command, outputs, std::move(scene), checkpoint.get(), started, load_s);
     return ExitStatus::kDone;
   }
   const auto preparing = Clock::now();
   prepare_for_farm(scene, command.options);
   load_s += seconds_since(preparing);
   const InterruptsHeld held;
-  FrontalProcess frontal(frontal_arguments(command));
+  FrontalProcess frontal(frontal_arguments(command, checkpoint));
   Rendered rendered;
   try {
     const auto compiling = Clock::now();
@@ -144,12 +183,17 @@ ExitStatus run(const RenderCommand& command) {
     rendered = render_on_farm(command, outputs, name, std::move(bytes), size, frontal);
   } catch (const Failure& failure) {
     write_timed_stats(outputs, failure.statistics(), started, load_s);
+    if (checkpoint != nullptr) {
+      frontal.stop();  // it records what is whole
+      checkpoint->print_hint();
+    }
     throw;
   }
   // The files are written while the farm stops; from here on an interrupt changes nothing any more.
   frontal.request_stop();
   write_outputs(command, outputs, name, rendered, started, load_s);
   frontal.stop();
+  if (checkpoint != nullptr) checkpoint->remove();
   return ExitStatus::kDone;
 }
 

@@ -1,7 +1,8 @@
-// graycube status: how one job is getting on.
+// graycube status: how one job is getting on, or the farm.
 #include <cstdio>
 
 #include "cli/commands/commands.hpp"
+#include "cli/display/farm_text.hpp"
 #include "cli/display/job_text.hpp"
 #include "cli/farm/job_client.hpp"
 #include "proto/control.hpp"
@@ -9,8 +10,16 @@
 namespace graycube {
 
 ExitStatus run(const StatusCommand& command) {
+  if (command.is_of_farm == (command.number != 0)) {
+    throw usage_failure("status", "expected either a job's id or --farm");
+  }
   FarmClient farm(command.connect);
-  const control::JobInfo info = job_info(farm, command.job);
+  if (command.is_of_farm) {
+    const auto info = farm.ask<control::FarmInfo>(control::Farm{}, "farm").first;
+    std::fputs(command.as_json ? farm_json(info).c_str() : farm_text(info).c_str(), stdout);
+    return ExitStatus::kDone;
+  }
+  const control::JobInfo info = job_info(farm, command.number);
   std::fputs(command.as_json ? (encode(info) + "\n").c_str() : job_text(info).c_str(), stdout);
   return ExitStatus::kDone;
 }

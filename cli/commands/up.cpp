@@ -1,5 +1,4 @@
 // graycube up: a farm in the foreground.
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -7,21 +6,22 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "cli/commands/commands.hpp"
 #include "cli/farm/client.hpp"
-#include "cli/farm/frontal_process.hpp"
 #include "cli/farm/listener.hpp"
+#include "cli/farm/supervised_frontal.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/temporary_place.hpp"
+#include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
 
 namespace graycube {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::chrono::milliseconds kWatchInterval{500};
 
 fs::path folder_of(const std::string& ipc_endpoint) {
   return fs::path(ipc_endpoint.substr(std::string("ipc://").size())).parent_path();
@@ -82,14 +82,17 @@ void refuse_second_farm(const std::string& endpoint, bool is_default) {
                                : "something listens there already, and it is no farm"});
 }
 
-std::vector<std::string> frontal_arguments(const UpCommand& command, const std::string& endpoint) {
-  std::vector<std::string> arguments{"--nodes",   std::to_string(command.nodes),
-                                     "--threads", std::to_string(command.threads),
-                                     "--listen",  endpoint};
-  if (!command.state.empty()) {
+/// All arguments but those that SupervisedFrontal adds. Jobs that lie in `passing` rather than
+/// where the user wants them end with the farm.
+std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::path& passing) {
+  std::vector<std::string> arguments{"--nodes", std::to_string(command.nodes), "--threads",
+                                     std::to_string(command.threads)};
+  if (command.state.empty()) {
+    arguments.insert(arguments.end(), {"--state", passing.string(), "--ends-jobs"});
+  } else {
     arguments.insert(arguments.end(), {"--state", command.state});
   }
-  if (!command.http.empty()) arguments.insert(arguments.end(), {"--http", command.http});
+  if (!command.keep.empty()) arguments.insert(arguments.end(), {"--keep", command.keep});
   if (command.outbox_rays != 0) {
     arguments.insert(arguments.end(), {"--outbox-rays", std::to_string(command.outbox_rays)});
   }
@@ -142,20 +145,17 @@ ExitStatus run(const UpCommand& command) {
   refuse_second_farm(endpoint, is_default);
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
-  FrontalProcess frontal(frontal_arguments(command, endpoint));
-  const std::string listening = frontal.wait_until_listening();
-  if (!frontal.page().empty()) std::printf("web page at %s\n", frontal.page().c_str());
-  print_usage_hint(command, listening, is_default);
-  while (!frontal.has_ended()) {
-    if (is_interrupted()) {
-      frontal.stop();
-      return ExitStatus::kDone;
-    }
-    pollfd wait{wakeup_descriptor(), POLLIN, 0};
-    ::poll(&wait, 1, static_cast<int>(kWatchInterval.count()));
-    clear_wakeup();
+  std::optional<TemporaryFolder> passing;
+  if (command.state.empty()) {
+    check_temporary_place();
+    passing.emplace();
   }
-  if (frontal.exit_status() != 0) frontal.check_running();
+  SupervisedFrontal frontal(frontal_arguments(command, passing ? passing->path() : fs::path()),
+                            endpoint, command.http);
+  if (!frontal.page().empty()) std::printf("web page at %s\n", frontal.page().c_str());
+  print_usage_hint(command, frontal.endpoint(), is_default);
+  frontal.run();
+  frontal.stop();
   return ExitStatus::kDone;
 }
 

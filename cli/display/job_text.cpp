@@ -1,23 +1,13 @@
 #include "cli/display/job_text.hpp"
 
-#include <array>
 #include <cmath>
-#include <ctime>
 
+#include "cli/display/local_time.hpp"
 #include "cli/display/progress.hpp"
 #include "cli/display/table.hpp"
 
 namespace graycube {
 namespace {
-
-std::string local_time(double unix_s) {
-  const auto seconds = static_cast<std::time_t>(unix_s);
-  std::tm parts{};
-  if (::localtime_r(&seconds, &parts) == nullptr) return "?";
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts);
-  return text.data();
-}
 
 std::string percent(double fraction) {
   return std::to_string(static_cast<int>(std::floor(100 * fraction + 1e-9))) + " %";

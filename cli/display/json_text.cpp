@@ -1,6 +1,8 @@
 #include "cli/display/json_text.hpp"
 
+#include <array>
 #include <cstddef>
+#include <cstdio>
 
 #include "utf8.hpp"
 
@@ -23,6 +25,13 @@ std::string json_string(std::string_view text) {
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return quoted + '"';
+}
+
+std::string json_seconds(double seconds) {
+  // The longest double has 309 digits before its point.
+  std::array<char, 328> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", seconds);
+  return text.data();
 }
 
 }  // namespace graycube

@@ -1,6 +1,7 @@
 #include "cli/farm/client.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/farm/listener.hpp"
 #include "cli/interrupts.hpp"
@@ -10,6 +11,8 @@ namespace graycube {
 namespace {
 
 constexpr std::chrono::milliseconds kCheckInterval{100};
+/// A frontal that is back so soon after its end isn't missed.
+constexpr std::chrono::milliseconds kNoticed{300};
 
 ExitStatus status_of(FailureCode code) {
   switch (code) {
@@ -34,28 +37,60 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
 }
 
 FarmClient::FarmClient(std::string endpoint, std::function<void()> check)
-    : endpoint_(std::move(endpoint)), check_(std::move(check)), connection_(context_, endpoint_) {}
+    : endpoint_(std::move(endpoint)), check_(std::move(check)) {
+  connection_.emplace(context_, endpoint_);
+  connection_->watch_loss();
+}
 
 void FarmClient::send(const ControlMessage& message, SharedBytes payload) {
-  connection_.send(Message::of_text(encode(message), std::move(payload)));
+  last_ = Message::of_text(encode(message), std::move(payload));
+  connection_->send(last_);
+}
+
+void FarmClient::go_on_after_loss() {
+  if (!waits_for_restart_ || !connection_->is_lost()) return;
+  if (Clock::now() - connected_at_ < kCheckInterval) return;
+  // A new connection has a new name, so that late answers of the old one can't come.
+  connection_.emplace(context_, endpoint_);
+  connection_->watch_loss();
+  connected_at_ = Clock::now();
+  if (!last_.frame.empty()) {
+    connection_->send(last_);
+    has_asked_again_ = true;
+  }
+  if (!lost_at_) lost_at_ = Clock::now();
+}
+
+FarmClient::Clock::time_point FarmClient::end_of_wait(Clock::time_point until) const {
+  if (!lost_at_ || !has_answered_) return until;
+  return std::max<Clock::time_point>(until, *lost_at_ + kRestartWait);
 }
 
 std::optional<Received> FarmClient::receive(Clock::duration timeout) {
   const auto until = Clock::now() + timeout;
   for (;;) {
     check_();
-    if (auto message = connection_.receive()) {
+    if (auto message = connection_->receive()) {
       auto decoded = decode(message->text());
       // A message that can't be read, perhaps from a newer frontal, answers none of our questions.
       if (auto* control = std::get_if<ControlMessage>(&decoded)) {
         has_answered_ = true;
+        lost_at_.reset();
         return Received{std::move(*control), std::move(message->payload)};
       }
       continue;
     }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+    go_on_after_loss();
+    const auto now = Clock::now();
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end_of_wait(until) - now);
     if (left.count() <= 0) return std::nullopt;
-    Readable* const sockets[] = {&connection_};
+    if (lost_at_ && has_answered_ && now - *lost_at_ > kNoticed &&
+        !std::exchange(has_said_so_, true)) {
+      print({"farm", endpoint_,
+             "its frontal has gone; waiting up to " + std::to_string(kRestartWait.count()) +
+                 " s for another"});
+    }
+    Readable* const sockets[] = {&*connection_};
     const int descriptors[] = {wakeup_descriptor()};
     const std::size_t known = descriptors[0] >= 0 ? 1 : 0;
     wait_readable(sockets, std::span(descriptors, known), std::min(left, kCheckInterval));

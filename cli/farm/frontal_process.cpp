@@ -41,11 +41,8 @@ fs::path frontal_program() {
   return program;
 }
 
-/// Removes the folder of a private frontal's sockets, which one that was killed leaves behind.
-void remove_socket_folder(const std::string& endpoint) {
-  constexpr std::string_view ipc = "ipc://";
-  if (!endpoint.starts_with(ipc)) return;
-  const fs::path folder = fs::path(endpoint.substr(ipc.size())).parent_path();
+/// Removes the folder of a frontal's sockets, which one that was killed leaves behind.
+void remove_socket_folder(const fs::path& folder) {
   std::error_code ignored;
   if (folder.parent_path() == fs::temp_directory_path(ignored) &&
       folder.filename().string().starts_with("graycube-")) {
@@ -86,7 +83,7 @@ FrontalProcess::~FrontalProcess() {
 
 const std::string& FrontalProcess::wait_until_listening() {
   constexpr std::string_view prefix = "listening ";
-  constexpr std::string_view page_prefix = "page ";
+  constexpr std::string_view page_prefix = "page ", folder_prefix = "folder ";
   const auto until = std::chrono::steady_clock::now() + kStartLimit;
   std::string line;
   while (std::chrono::steady_clock::now() < until) {
@@ -110,6 +107,7 @@ const std::string& FrontalProcess::wait_until_listening() {
       return endpoint_;
     } else {
       if (line.starts_with(page_prefix)) page_ = line.substr(page_prefix.size());
+      if (line.starts_with(folder_prefix)) folder_ = line.substr(folder_prefix.size());
       line.clear();
     }
   }
@@ -125,6 +123,10 @@ bool FrontalProcess::has_ended() {
 
 int FrontalProcess::exit_status() const {
   return WIFEXITED(wait_status_) ? WEXITSTATUS(wait_status_) : 128 + WTERMSIG(wait_status_);
+}
+
+int FrontalProcess::death_signal() const {
+  return WIFSIGNALED(wait_status_) ? WTERMSIG(wait_status_) : 0;
 }
 
 Failure FrontalProcess::ended() const {
@@ -156,7 +158,7 @@ void FrontalProcess::stop() noexcept {
   ::kill(-pid_, SIGKILL);
   if (!has_ended_) wait_status_ = wait_for_end(pid_);
   has_ended_ = true;
-  if (is_private_) remove_socket_folder(endpoint_);
+  remove_socket_folder(folder_);
 }
 
 }  // namespace graycube

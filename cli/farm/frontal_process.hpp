@@ -35,6 +35,8 @@ class FrontalProcess {
   bool has_ended();
   /// Its exit status, or 128 + the number of the signal that ended it; it must have ended.
   int exit_status() const;
+  /// The signal that ended it, 0 if it ended by itself; it must have ended.
+  int death_signal() const;
 
   /// Asks it to stop, without waiting.
   void request_stop() noexcept;
@@ -48,7 +50,7 @@ class FrontalProcess {
   int output_ = -1;
   bool has_ended_ = false, is_stop_requested_ = false, is_private_ = false;
   int wait_status_ = 0;
-  std::string endpoint_, page_;
+  std::string endpoint_, page_, folder_;
 };
 
 }  // namespace graycube

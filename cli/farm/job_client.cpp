@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
 #include <span>
 
 #include "proto/control.hpp"
@@ -13,6 +14,17 @@ namespace {
 
 /// After so long without a message, the frontal is asked whether it is still there.
 constexpr std::chrono::seconds kQuiet{2};
+
+/// 128 random bits, as digits.
+std::string random_key() {
+  std::random_device random;
+  std::string key;
+  for (int i = 0; i < 4; ++i) {
+    for (std::uint32_t bits = random(), digits = 0; digits < 8; bits >>= 4, ++digits)
+      key += "0123456789abcdef"[bits & 15];
+  }
+  return key;
+}
 
 Failure nonsense(std::uint32_t job) {
   return {ExitStatus::kFailed,
@@ -66,7 +78,8 @@ Bytes bytes_of(const std::string& text) {
 
 std::uint32_t submit_scene(FarmClient& farm, const std::string& name, SharedBytes scene,
                            const control::JobOptions& options) {
-  const control::Submit request{name, options};
+  // Random, so that nobody else's job is taken for this one.
+  const control::Submit request{name, options, random_key()};
   return farm.ask<control::Accepted>(request, "submit", std::move(scene)).first.job;
 }
 
@@ -82,7 +95,7 @@ std::string follow_job(FarmClient& farm, std::uint32_t job, ProgressDisplay& dis
     const auto received = farm.receive(kQuiet);
     if (!received) {
       if (FarmClient::Clock::now() - heard > kLaterAnswer) throw farm.silence();
-      farm.send(control::Status{job});
+      farm.send(control::Watch{job});
       continue;
     }
     heard = FarmClient::Clock::now();

@@ -147,6 +147,16 @@ void Film::clear(std::uint32_t pixel) {
   }
 }
 
+std::optional<FixedRgb> Film::short_sum(std::uint32_t pixel) const {
+  const Low& low = low_[pixel];
+  const High high = has_high() ? high_[pixel] : High{};
+  const FixedRgb sum{static_cast<std::int64_t>(low.r), static_cast<std::int64_t>(low.g),
+                     static_cast<std::int64_t>(low.b)};
+  const auto fits = [](std::int64_t l, std::int64_t h) { return h == (l < 0 ? -1 : 0); };
+  if (!fits(sum.r, high.r) || !fits(sum.g, high.g) || !fits(sum.b, high.b)) return std::nullopt;
+  return sum;
+}
+
 Picture Film::develop() const {
   const ShortMean short_mean(rays_per_pixel_);
   const auto long_mean = [this](std::uint64_t low, std::int64_t high) {

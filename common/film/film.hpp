@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "film/aov.hpp"
@@ -42,6 +43,17 @@ class Film {
   void add(std::uint32_t slot, const FixedRgb& light);
   /// Forgets what a pixel has received, its AOVs too (its tile will be traced again).
   void clear(std::uint32_t pixel);
+  // For records of what a film holds.
+  /// A pixel's sums, unless they leave 64 bits.
+  std::optional<FixedRgb> short_sum(std::uint32_t pixel) const;
+  bool has_plane_of_aovs(std::size_t plane) const { return !planes_[plane].empty(); }
+  /// The words of a plane that is kept.
+  const AovWords& aov_words(std::size_t plane, std::uint32_t pixel) const {
+    return planes_[plane][pixel];
+  }
+  void set_aov_words(std::size_t plane, std::uint32_t pixel, const AovWords& words) {
+    planes_[plane][pixel] = words;
+  }
   /// The mean over each pixel's rays, rounded to float once.
   Picture develop() const;
 

@@ -34,12 +34,14 @@ class SerialRender {
     for (;;) {
       const std::uint32_t i = next_.fetch_add(1);
       if (i >= plan_.tile_count() || cancelled_) break;
+      if (options_.is_wanted && !options_.is_wanted(plan_.rect(i))) continue;
       step.clear();
       evaluator.trace_pixels(plan_.rect(i), step);
       // A pixel belongs to one tile and a tile to one thread: no lock.
       for (const PixelReturn& r : step.returns) film_.add(r.pixel, r.light);
       own.rays.add(step.rays);
       own.rounding.add(step.rounding);
+      if (options_.tile_done) options_.tile_done(plan_.rect(i));
       report(i);
     }
     own.busy_s = thread_cpu_seconds() - started;

@@ -12,7 +12,11 @@ struct SerialOptions {
   unsigned threads = 1;
   /// Called now and then, from one thread at a time, with the share of the tiles done; false
   /// cancels.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress{};
+  /// Whether the film is without a tile's light yet; the others are passed over.
+  std::function<bool(const PixelRect&)> is_wanted{};
+  /// Called by whichever thread has traced a tile, once the film holds it.
+  std::function<void(const PixelRect&)> tile_done{};
 };
 
 struct SerialResult {

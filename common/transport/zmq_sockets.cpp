@@ -124,10 +124,14 @@ void Wakeup::clear() {
 }
 
 struct Connection::Impl {
-  explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::dealer) {}
+  explicit Impl(zmq::context_t& c) : context(c), socket(c, zmq::socket_type::dealer) {}
+  zmq::context_t& context;
   zmq::socket_t socket;
   /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
+  /// Where ZeroMQ tells that the connection is closed, once that is watched.
+  std::optional<zmq::socket_t> losses;
+  bool is_lost = false;
 };
 
 Connection::Connection(ZmqContext& context, const std::string& endpoint)
@@ -174,6 +178,31 @@ std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {
     Readable* const self = this;
     wait_readable({&self, 1}, {}, left);
   }
+}
+
+void Connection::watch_loss() {
+  // A name that no other watched connection of this process has.
+  static std::atomic<std::uint64_t> watched{0};
+  const std::string endpoint = "inproc://losses-" + std::to_string(watched.fetch_add(1));
+  try {
+    if (zmq_socket_monitor(impl_->socket.handle(), endpoint.c_str(), ZMQ_EVENT_DISCONNECTED) != 0)
+      throw zmq::error_t();
+    impl_->losses.emplace(impl_->context, zmq::socket_type::pair);
+    impl_->losses->set(zmq::sockopt::linger, 0);
+    impl_->losses->connect(endpoint);
+  } catch (const zmq::error_t& e) {
+    throw TransportError(endpoint + ": " + e.what());
+  }
+}
+
+bool Connection::is_lost() {
+  std::vector<zmq::message_t> frames;
+  if (!impl_->is_lost && impl_->losses) {
+    receive_frames(*impl_->losses, frames);
+    // Nothing else is told there.
+    impl_->is_lost = !frames.empty();
+  }
+  return impl_->is_lost;
 }
 
 void* Connection::socket() { return impl_->socket.handle(); }

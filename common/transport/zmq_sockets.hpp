@@ -94,6 +94,10 @@ class Connection : public Readable {
   std::optional<MessageView> receive_view();
   /// Like receive(), but waits for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
+  /// From now on is_lost() tells whether the peer's process, once reached, has closed the
+  /// connection since, as it does when it dies. What was sent to it and not answered is lost then.
+  void watch_loss();
+  bool is_lost();
 
  private:
   void* socket() override;

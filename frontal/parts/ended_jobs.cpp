@@ -28,7 +28,22 @@ const EndedJob& EndedJobs::list(EndedJob job) {
 
 const EndedJob* EndedJobs::find(std::uint32_t job) const {
   const auto at = std::ranges::find(jobs_, job, [](const EndedJob& j) { return j.info.job; });
-  return at == jobs_.end() ? nullptr : &*at;
+  if (at != jobs_.end()) return &*at;
+  try {
+    old_ = store_.ended(job);
+  } catch (const std::runtime_error&) {
+    old_.reset();
+  }
+  return old_ ? &*old_ : nullptr;
+}
+
+void EndedJobs::clear_old(double unix_s) {
+  try {
+    for (const std::uint32_t job : store_.clear_old(unix_s))
+      std::erase_if(jobs_, [job](const EndedJob& j) { return j.info.job == job; });
+  } catch (const std::runtime_error&) {
+    // They are cleared another time, when the disk takes changes again.
+  }
 }
 
 }  // namespace graycube

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "frontal/parts/job_store.hpp"
 
@@ -19,18 +20,22 @@ class EndedJobs {
   /// listed; valid until the next call.
   const EndedJob& keep(EndedJob job, Picture picture);
 
-  /// Null if no such job is listed. Valid until keep().
+  /// Null if there is no such job. Valid until the next call of anything here.
   const EndedJob* find(std::uint32_t job) const;
   /// Null when it isn't kept (any longer). Valid until the next call of anything here.
   const Picture* picture(std::uint32_t job) { return store_.picture(job); }
   /// The listed jobs, the oldest first.
   const std::deque<EndedJob>& all() const { return jobs_; }
+  /// Clears jobs that the store keeps no longer at that Unix time, at most some at a time.
+  void clear_old(double unix_s);
 
  private:
   const EndedJob& list(EndedJob job);
 
   JobStore& store_;
   std::deque<EndedJob> jobs_;
+  /// The job that find() has found in the store, since it is too old to be listed.
+  mutable std::optional<EndedJob> old_;
 };
 
 }  // namespace graycube

@@ -32,6 +32,19 @@ struct FrontalOptions {
   /// Clients may send scenes that they have compiled. Only for a client that is trusted: what
   /// readers of scenes check, such as that a camera has a direction, is not checked again.
   bool is_private = false;
+  /// Jobs that have not ended when the farm stops go on when it is started again; else they are
+  /// cancelled.
+  bool keeps_jobs = false;
+  /// Tiles that are whole are recorded in the store.
+  bool records_tiles = false;
+  /// A digest of what decides the picture of the only job, by which records of tiles are known; 0
+  /// where it is that of what was submitted.
+  std::uint64_t picture_content = 0;
+  /// Of the frontal's process, for those who ask: where it listens, its number, and since when it
+  /// runs (Unix time).
+  std::string endpoint{};
+  std::uint64_t pid = 0;
+  double started_s = 0;
 };
 
 /// Seconds on a clock that never goes back, and Unix time.

@@ -19,20 +19,35 @@ struct QueuedJob {
   PreparationWork work;
   /// Seconds on the frontal's clock.
   double submitted_at_s = 0;
+  /// Digest of all that was asked for.
+  std::uint64_t content = 0;
+  /// An earlier frontal took it: its scene is still to be read from the store.
+  bool is_recovered = false;
 };
 
 class JobQueue {
  public:
   /// Tells that number `job` has been used: later jobs get larger ones.
-  void number_beyond(std::uint32_t job) { next_job_ = std::max(next_job_, job + 1); }
+  void number_beyond(std::uint32_t job) {
+    if (next_job_ != 0 && job >= next_job_) next_job_ = job + 1;
+  }
 
+  /// The largest number was used: no other job can be added.
+  bool is_out_of_numbers() const { return next_job_ == 0; }
   bool is_full() const { return jobs_.size() >= kMaxQueuedJobs; }
   bool is_empty() const { return jobs_.empty(); }
-  /// Returns the number that the job gets. The queue must not be full.
+  /// The number that the next job will get.
+  std::uint32_t next_number() const { return next_job_; }
+  /// Returns the number that the job gets. The queue must not be full, nor out of numbers.
   std::uint32_t add(QueuedJob job) {
     job.info.job = job.work.job = next_job_++;
     jobs_.push_back(std::move(job));
     return jobs_.back().info.job;
+  }
+  /// Takes up a job that an earlier frontal has numbered.
+  void restore(QueuedJob job) {
+    number_beyond(job.info.job);
+    jobs_.push_back(std::move(job));
   }
   /// Takes the job that was added first. The queue must not be empty.
   QueuedJob take_first() {

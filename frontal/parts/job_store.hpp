@@ -1,16 +1,17 @@
-// Where finished jobs are kept: in memory for a private farm, in a folder for a daemon.
+// Where jobs are kept: those that have ended, and those that are to be rendered. In memory for a
+// private farm, else in a folder, so that another frontal goes on with them.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "film/film.hpp"
 #include "proto/messages.hpp"
+#include "transport/message.hpp"
 
 namespace graycube {
 
@@ -20,27 +21,71 @@ struct EndedJob {
   /// The statistics file; "{}" when nothing is known.
   std::string stats_json = "{}";
   bool has_stats() const { return stats_json != "{}"; }
-  /// Of jobs that an earlier frontal left it is known by their messages.
   bool is_deadlocked = false;
 };
 
+/// A job that was accepted, and what its client asked for.
+struct AcceptedJob {
+  control::JobInfo info;
+  control::JobOptions options;
+  /// By which its client knows that it was accepted; empty if the client gave none.
+  std::string key;
+  /// Digest of all that was asked for, the scene's text too.
+  std::uint64_t content = 0;
+};
+
+/// A job that was accepted under a key.
+struct KeyedJob {
+  std::uint32_t job = 0;
+  std::uint64_t content = 0;
+};
+
+/// What can't be kept or read throws std::runtime_error, which says why.
 class JobStore {
  public:
   virtual ~JobStore() = default;
-  /// `picture` is empty (no pixels) unless the job is done. Throws std::runtime_error when it can't
-  /// be kept.
+
+  /// Keeps a job and its scene until it ends.
+  virtual void add(const AcceptedJob& job, std::span<const std::byte> scene) = 0;
+  /// The job that was accepted under a key, if it is still known.
+  virtual std::optional<KeyedJob> find_key(const std::string& key) = 0;
+  /// Keeps a job that has ended. `picture` is empty (no pixels) unless it is done.
   virtual void keep(const EndedJob& job, Picture picture) = 0;
   /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next
   /// call.
   virtual const Picture* picture(std::uint32_t job) = 0;
-  /// The jobs that an earlier frontal left, oldest first.
-  virtual std::vector<EndedJob> recover() = 0;
+
+  // What an earlier frontal left. A store in memory has nothing.
+
+  /// Its ended jobs, at most the newest kMaxJobsListed, oldest first.
+  virtual std::vector<EndedJob> recover() { return {}; }
+  /// Its jobs that had not ended, in the order in which they were accepted.
+  virtual std::vector<AcceptedJob> recover_accepted() { return {}; }
+  /// A job begins to be rendered. Returns how often it has begun since it got on, this time
+  /// included: more than once only after frontals died.
+  virtual std::uint32_t begin(std::uint32_t) { return 1; }
+  /// The scene of a job that has not ended.
+  virtual Bytes scene(std::uint32_t) { return {}; }
+  /// The largest number that a job ever had; 0 if there never was one.
+  virtual std::uint32_t last_number() { return 0; }
+  /// A job that has ended, however old.
+  virtual std::optional<EndedJob> ended(std::uint32_t) { return std::nullopt; }
+  /// Clears some of the jobs that are not to be kept any longer at that Unix time; returns which.
+  virtual std::vector<std::uint32_t> clear_old(double) { return {}; }
+
+  // Records of the tiles of a job that is on, by which another frontal goes on with its picture.
+  // They are dropped when the job ends.
+
+  /// Whether the store takes them.
+  virtual bool records_tiles() const { return false; }
+  /// All that were made; the job isn't on yet.
+  virtual Bytes recorded_tiles(std::uint32_t) { return {}; }
+  /// Appends records, soon, without holding the caller up.
+  virtual void record_tiles(std::uint32_t, Bytes) {}
+  virtual void forget_tiles(std::uint32_t) {}
 };
 
-/// Keeps the last picture.
+/// Keeps the last picture, and the keys of the newest jobs.
 std::unique_ptr<JobStore> make_memory_store();
-/// Keeps every picture as job-N.exr, with job-N.json beside it; the folder is made when it isn't
-/// there. Throws std::runtime_error when it can't be.
-std::unique_ptr<JobStore> make_folder_store(const std::filesystem::path& folder);
 
 }  // namespace graycube

@@ -20,7 +20,7 @@ concept FromNode =
 template <typename M>
 concept FromClient =
     OneOf<M, control::Submit, control::Status, control::List, control::Watch, control::Cancel,
-          control::Nodes, control::Fetch, control::Write, control::Down>;
+          control::Nodes, control::Fetch, control::Write, control::Farm, control::Down>;
 
 template <typename M>
 concept FromFrontal =
@@ -28,6 +28,7 @@ concept FromFrontal =
           control::Relieved, control::AllWhole, control::Slide, control::Turn, control::Dealt,
           control::Prepare, control::Start, control::Finish, control::Ping, control::Shutdown,
           control::Accepted, control::JobInfo, control::Jobs, control::Progress, control::NodeList,
-          control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
+          control::FarmInfo, control::Done, control::Picture, control::Written, control::Failed,
+          control::Bye>;
 
 }  // namespace graycube

@@ -72,6 +72,10 @@ NodeRegistry::Lost NodeRegistry::lose(Rank rank, double now_s) {
 
 bool NodeRegistry::all_here() const { return std::ranges::all_of(nodes_, &Record::is_here); }
 
+std::uint32_t NodeRegistry::count_here() const {
+  return static_cast<std::uint32_t>(std::ranges::count_if(nodes_, &Record::is_here));
+}
+
 bool NodeRegistry::all_left() const { return std::ranges::all_of(nodes_, &Record::has_left); }
 
 std::vector<std::string> NodeRegistry::endpoints() const {

@@ -65,6 +65,7 @@ class NodeRegistry {
   void has_left(Rank rank) { nodes_[rank.value].has_left = true; }
 
   bool all_here() const;
+  std::uint32_t count_here() const;
   bool all_left() const;
   /// Endpoints of the nodes' inboxes, and the nodes' start numbers; indexed by rank.
   std::vector<std::string> endpoints() const;

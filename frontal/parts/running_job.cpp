@@ -38,6 +38,7 @@ std::string deadlock_text(const std::vector<Rank>& cycle, std::uint32_t blocked,
 RunningJob::RunningJob(const FrontalOptions& farm, const QueuedJob& job, const Moment& now,
                        const CpuMeter& cpu)
     : farm_(farm),
+      content_(job.content),
       info_(job.info),
       options_(job.work.options),
       progress_(farm.cube.nodes()) {
@@ -122,7 +123,10 @@ void RunningJob::start(std::vector<std::uint32_t> incarnations, double now_s, Po
   }
   stage_ = JobStage::kRendering;
   progress_.begin();
-  if (render_->epoch() == 0) times_.render_began_s = now_s;
+  if (render_->epoch() == 0) {
+    times_.render_began_s = now_s;
+    log_.begin(now_s, has_records_ ? std::nullopt : std::optional(recorded_picture()));
+  }
   post.to_nodes(start);
   for (std::uint32_t rank = 0; rank < farm_.cube.nodes(); ++rank) hand_out(Rank{rank}, post);
 }
@@ -138,8 +142,7 @@ std::optional<JobFailure> RunningJob::lose(const NodeLoss& node, Post& post) {
   return go_on_without({node.rank.value, node.how, node.noticed_s, 0}, node.name, true, post);
 }
 
-std::optional<JobFailure> RunningJob::on_error(Rank rank, const control::NodeError& m,
-                                               Post& post) {
+std::optional<JobFailure> RunningJob::on_error(Rank rank, const control::NodeError& m, Post& post) {
   const std::string name = "node " + std::to_string(rank.value);
   if (m.job != id() || !is_on_nodes()) return std::nullopt;
   if (m.is_final) return JobFailure{JobState::kFailed, FailureCode::kFailed, {{name, m.message}}};
@@ -204,6 +207,7 @@ std::optional<JobFailure> RunningJob::on_light(Rank from, std::span<const std::b
   if (taken.is_lost)
     return go_on_without({from.value, std::move(taken.wrong), 0, 0}, "the frontal", false, post);
   if (!taken.wrong.empty()) return own_failure(std::move(taken.wrong));
+  if (farm_.records_tiles) log_.note(taken.whole);
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
   for (const Rank rank : opened) hand_out(rank, post);
@@ -361,8 +365,9 @@ control::Progress RunningJob::progress_at(double now_s) const {
   control::Progress p = progress_of(info());
   if (!render_) return p;
   p.fraction = p.tiles == 0 ? 1 : static_cast<double>(p.tiles_whole) / p.tiles;
-  if (stage_ >= JobStage::kRendering && p.fraction > 0) {
-    p.eta_s = std::max(0.0, (now_s - times_.render_began_s) * (1 - p.fraction) / p.fraction);
+  const double traced = p.tiles == 0 ? 1 : p.fraction - 1.0 * resumed_tiles_ / p.tiles;
+  if (stage_ >= JobStage::kRendering && traced > 0) {
+    p.eta_s = std::max(0.0, (now_s - times_.render_began_s) * (1 - p.fraction) / traced);
   }
   if (p.rounds > 0) p.token = render_->token();
   return p;
@@ -408,6 +413,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.slice_bytes = render_->slices().own_bytes();
   s.epochs = render_->epoch() + 1;
   s.losses = losses_;
+  s.resumed_tiles = resumed_tiles_;
   s.token_rounds = render_->token().round;
   s.token_hops = render_->token().hops;
   s.per_node = render_->reports().stats();

@@ -10,6 +10,7 @@
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
 #include "frontal/parts/post.hpp"
+#include "frontal/parts/tile_log.hpp"
 #include "frontal/rendering/deadlock_watch.hpp"
 #include "frontal/rendering/progress_watch.hpp"
 #include "frontal/rendering/render_job.hpp"
@@ -59,6 +60,12 @@ class RunningJob {
   bool is_overdue(double now_s) const;
 
   void prepared(PreparedScene scene);
+  /// Once it is prepared: goes on with the picture where these records of tiles, if there are any,
+  /// end. False if they are of another picture; then they are to be forgotten.
+  [[nodiscard]] bool resume(std::span<const std::byte> records);
+  /// Records of tiles that have become whole, in pieces; empty when none are due. `all`: whenever
+  /// the last ones were made.
+  Bytes take_records(double now_s, bool all);
   /// Sends their slices to the nodes that need them, once all nodes are here.
   void load(double now_s, Post& post);
   bool waits_to_be_loaded() const;
@@ -132,6 +139,8 @@ class RunningJob {
                                           Post& post);
   Sliding* sliding() { return is_rendering() ? render_->sliding() : nullptr; }
   void hand_out(Rank rank, Post& post);
+  /// What its records are of.
+  RecordedPicture recorded_picture() const;
   void ask_for_reports(double now_s, Post& post);
 
   struct Times {
@@ -142,6 +151,8 @@ class RunningJob {
   };
 
   const FrontalOptions& farm_;
+  /// Digest of what was submitted.
+  std::uint64_t content_;
   control::JobInfo info_;
   control::JobOptions options_;
   JobStage stage_ = JobStage::kPreparing;
@@ -151,6 +162,10 @@ class RunningJob {
   std::optional<RenderJob> render_;
   ProgressWatch progress_;
   std::vector<Loss> losses_;
+  TileLog log_;
+  /// Whether there are records of this picture already.
+  bool has_records_ = false;
+  std::uint32_t resumed_tiles_ = 0;
   /// All tiles were whole when a node was lost: nobody waits for the token's verdict.
   bool is_cut_short_ = false;
   /// Nodes that have become ready while others trace.

@@ -1,5 +1,7 @@
 #include "frontal/parts/submission.hpp"
 
+#include "content_digest.hpp"
+#include "proto/control.hpp"
 #include "proto/model_slice.hpp"
 
 namespace graycube {
@@ -18,6 +20,24 @@ std::optional<Refusal> refusal_of(const control::Submit& m, std::span<const std:
                    "this farm compiles scenes itself: expected JSON or CBOR"};
   }
   return std::nullopt;
+}
+
+std::optional<Refusal> refusal_for_want_of_room(const JobQueue& queue) {
+  if (queue.is_full()) {
+    return Refusal{0, FailureCode::kBusy, "",
+                   "the queue is full (" + std::to_string(kMaxQueuedJobs) + " jobs)"};
+  }
+  if (queue.is_out_of_numbers()) {
+    return Refusal{0, FailureCode::kFailed, "the job store",
+                   "all numbers of jobs are used; begin with another folder"};
+  }
+  return std::nullopt;
+}
+
+std::uint64_t content_of(const control::Submit& m, std::span<const std::byte> scene) {
+  control::Submit asked = m;
+  asked.key.clear();
+  return ContentDigest().add(encode(asked)).add(scene).value();
 }
 
 }  // namespace graycube

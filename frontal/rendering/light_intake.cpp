@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "proto/records/tile_records.hpp"
+
 namespace graycube {
 namespace {
 
@@ -12,6 +14,13 @@ std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
     rays[i] = static_cast<std::uint32_t>(plan.primary_rays(i));
   }
   return rays;
+}
+
+template <typename Do>
+void each_pixel_of(const PixelRect& rect, std::uint32_t width, Do&& act) {
+  for (std::uint32_t y = rect.y0; y < rect.y1; ++y) {
+    for (std::uint32_t x = rect.x0; x < rect.x1; ++x) act(y * width + x);
+  }
 }
 
 }  // namespace
@@ -34,11 +43,27 @@ void LightIntake::reopen(const TilePlan& plan) {
   const std::uint32_t width = film_.width();
   for (const std::uint32_t tile : ledger_.open_tiles()) {
     ledger_.clear(tile);
-    const PixelRect rect = plan.rect(tile);
-    for (std::uint32_t y = rect.y0; y < rect.y1; ++y) {
-      for (std::uint32_t x = rect.x0; x < rect.x1; ++x) film_.clear(y * width + x);
+    each_pixel_of(plan.rect(tile), width, [this](std::uint32_t p) { film_.clear(p); });
+  }
+}
+
+std::uint32_t LightIntake::restore(std::span<const std::byte> records, const TilePlan& plan) {
+  const std::vector<bool> known = restore_tiles(records, film_);
+  std::uint32_t restored = 0;
+  for (std::uint32_t tile = 0; tile < plan.tile_count(); ++tile) {
+    if (ledger_.is_whole(tile)) continue;
+    const bool is_last_open = ledger_.whole_count() + 1 == ledger_.tile_count();
+    std::vector<std::uint32_t> pixels;
+    each_pixel_of(plan.rect(tile), film_.width(), [&](std::uint32_t p) { pixels.push_back(p); });
+    if (!is_last_open && std::ranges::all_of(pixels, [&](std::uint32_t p) { return known[p]; })) {
+      const auto rays = plan.primary_rays(tile);
+      ledger_.add(tile, Credit::from_words({rays, 0, 0, 0, 0}));
+      ++restored;
+    } else {
+      for (const std::uint32_t p : pixels) film_.clear(p);
     }
   }
+  return restored;
 }
 
 LightIntake::Taken LightIntake::take(std::span<const std::byte> batch, std::uint32_t epoch) {
@@ -49,7 +74,8 @@ LightIntake::Taken LightIntake::take(std::span<const std::byte> batch, std::uint
   const BatchStamp& s = std::get<BatchHeader>(result).stamp;
   if (s.job != job_ || s.epoch != epoch) return {};
   if (s.sender >= batches_.size() || s.sequence != batches_[s.sender]) {
-    return {"a batch of contributions from node " + std::to_string(s.sender) + " was lost", true, {}};
+    return {
+        "a batch of contributions from node " + std::to_string(s.sender) + " was lost", true, {}};
   }
   ++batches_[s.sender];
   Taken taken{add_light(), false, {}};

@@ -29,8 +29,13 @@ class LightIntake {
   LightIntake(std::uint32_t job, const RenderSettings& settings, const TilePlan& plan,
               std::uint32_t nodes);
 
-  /// A new epoch: forgets the light and credit of tiles that are not whole, and counts batches anew.
+  /// A new epoch: forgets the light and credit of tiles that are not whole, and counts batches
+  /// anew.
   void reopen(const TilePlan& plan);
+  /// Before any light comes: takes up tiles of which there are records
+  /// (proto/records/tile_records.hpp). One tile stays open, since a picture ends with its last
+  /// light. Returns how many are whole now.
+  std::uint32_t restore(std::span<const std::byte> records, const TilePlan& plan);
   /// Batches of another job or epoch are passed over.
   Taken take(std::span<const std::byte> batch, std::uint32_t epoch);
 

@@ -76,6 +76,13 @@ void RenderJob::begin_next_epoch() {
   }
 }
 
+std::uint32_t RenderJob::restore(std::span<const std::byte> records) {
+  if (sliding_) return 0;
+  const std::uint32_t restored = light_.restore(records, *scene_.plan);
+  if (restored > 0) tiles_.reopen(retries_);
+  return restored;
+}
+
 std::vector<std::uint32_t> RenderJob::open_tiles() const {
   if (is_roth() || sliding_ || (epoch_ == 0 && tiles_whole() == 0)) return {};
   return tiles_.left_by_rank();

@@ -76,6 +76,9 @@ class RenderJob {
   /// How many of each node's tiles are to be traced, by rank; empty if nodes know it.
   std::vector<std::uint32_t> open_tiles() const;
 
+  /// Before the job is loaded: takes up tiles of which there are records. Returns how many. Where
+  /// boundaries slide none are, since those who decide on slides go by what tiles have cost.
+  std::uint32_t restore(std::span<const std::byte> records);
   /// Tiles to hand to a node now.
   std::vector<std::uint32_t> next_tiles(Rank rank);
   /// Null unless boundaries slide.
@@ -85,8 +88,7 @@ class RenderJob {
   void deal() { tiles_.deal(sliding_->owners()); }
   std::uint64_t next_assignment_sequence(Rank rank) { return tiles_.next_sequence(rank); }
   /// Takes in a batch of contributions. The nodes whose windows opened are appended to `opened`.
-  LightIntake::Taken add_contributions(std::span<const std::byte> batch,
-                                       std::vector<Rank>& opened);
+  LightIntake::Taken add_contributions(std::span<const std::byte> batch, std::vector<Rank>& opened);
   /// How many of each node's tiles neighbours made whole since the last call, indexed by rank.
   std::vector<std::uint32_t> take_relief() { return tiles_.take_relief(); }
 

@@ -16,6 +16,9 @@ struct Submit {
   static constexpr std::string_view kType = "submit";
   std::string scene_name{};
   JobOptions options{};
+  /// Made by the client at random, or empty: a second submit under the same key is the same job, so
+  /// that a client that had no answer can ask again.
+  std::string key{};
   friend bool operator==(const Submit&, const Submit&) = default;
 };
 
@@ -64,6 +67,12 @@ struct Write {
   /// Absolute paths of the files.
   std::string exr{}, png{};
   friend bool operator==(const Write&, const Write&) = default;
+};
+
+/// Asks for the farm itself.
+struct Farm {
+  static constexpr std::string_view kType = "farm";
+  friend bool operator==(const Farm&, const Farm&) = default;
 };
 
 /// Asks the frontal to stop the farm.
@@ -124,6 +133,21 @@ struct NodeList {
   static constexpr std::string_view kType = "node_list";
   std::vector<NodeInfo> nodes{};
   friend bool operator==(const NodeList&, const NodeList&) = default;
+};
+
+/// The farm: its frontal's process, and how much there is of what.
+struct FarmInfo {
+  static constexpr std::string_view kType = "farm_info";
+  std::uint64_t pid = 0;
+  /// Where the frontal listens for clients.
+  std::string endpoint{};
+  std::string version{};
+  /// Unix time of the frontal's start.
+  double started_s = 0;
+  std::uint32_t nodes = 1, nodes_here = 0;
+  /// Jobs that wait, that are on, and that have ended and are listed.
+  std::uint32_t queued = 0, running = 0, ended = 0;
+  friend bool operator==(const FarmInfo&, const FarmInfo&) = default;
 };
 
 struct Done {

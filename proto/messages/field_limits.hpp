@@ -40,6 +40,7 @@ inline constexpr FieldLimits kPlaneRange{.max = kAovPlanes, .has_default = true}
 inline constexpr FieldLimits kAovText{.has_default = true};
 inline constexpr FieldLimits kDefaulted{.has_default = true};
 inline constexpr FieldLimits kRare{.has_default = true, .is_rare = true};
+inline constexpr FieldLimits kKey{.length = kMaxKeyBytes, .has_default = true, .is_rare = true};
 inline constexpr FieldLimits kRareSeconds{.min = 0, .has_default = true, .is_rare = true};
 
 constexpr FieldLimits at_least_one() { return {.min = 1}; }

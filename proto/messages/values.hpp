@@ -19,6 +19,8 @@ inline constexpr std::uint32_t kMaxThreads = 1024;
 /// Most UTF-8 bytes of names, endpoints and versions, and of messages for people.
 inline constexpr std::size_t kMaxNameBytes = 256;
 inline constexpr std::size_t kMaxTextBytes = 1024;
+/// Most bytes of the key under which a job is submitted.
+inline constexpr std::size_t kMaxKeyBytes = 64;
 /// Most bytes of the JSON text of a job's statistics.
 inline constexpr std::size_t kMaxStatsBytes = 768 * 1024;
 inline constexpr std::size_t kMaxJobsListed = 256;

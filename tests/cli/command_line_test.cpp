@@ -125,6 +125,9 @@ TEST_CASE("clients look for the farm where they are told, then in the environmen
 
 TEST_CASE("jobs are named by their numbers") {
   CHECK(std::get<StatusCommand>(parsed({"status", "3", "--json"})).as_json);
+  CHECK(std::get<StatusCommand>(parsed({"status", "3"})).number == 3);
+  CHECK(std::get<StatusCommand>(parsed({"status", "--farm"})).is_of_farm);
+  CHECK(std::get<UpCommand>(parsed({"up", "--keep", "30d"})).keep == "30d");
   CHECK(std::get<WatchCommand>(parsed({"watch", "4"})).job == 4);
   CHECK(std::get<CancelCommand>(parsed({"cancel", "5"})).job == 5);
   CHECK(std::get<FetchCommand>(parsed({"fetch", "6", "-o", "x.exr"})).job == 6);

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "process/temporary_folder.hpp"
 
 using namespace graycube;
 
@@ -20,6 +19,8 @@ EndedJob job_of(std::uint32_t number, JobState state = JobState::kDone) {
 class FullStore : public JobStore {
  public:
   explicit FullStore(std::uint32_t jobs) : jobs_(jobs) {}
+  void add(const AcceptedJob&, std::span<const std::byte>) override {}
+  std::optional<KeyedJob> find_key(const std::string&) override { return std::nullopt; }
   void keep(const EndedJob&, Picture) override { throw std::runtime_error("the disk is full"); }
   const Picture* picture(std::uint32_t) override { return nullptr; }
   std::vector<EndedJob> recover() override {
@@ -56,21 +57,6 @@ TEST_CASE(
   CHECK(done.info.state == JobState::kFailed);
   CHECK(done.info.message == "the disk is full");
   CHECK(ended.keep(job_of(2, JobState::kCancelled), {}).info.state == JobState::kCancelled);
-}
-
-TEST_CASE("a deadlock is known for one after a restart, and no other failure is") {
-  const TemporaryFolder folder;
-  EndedJob deadlocked = job_of(1, JobState::kFailed), failed = job_of(2, JobState::kFailed);
-  deadlocked.info.message = "--flow blocking: deadlock: node 0 waits for node 1 waits for node 0";
-  deadlocked.is_deadlocked = true;
-  failed.info.message = "node 1: killed by signal 9";
-  const auto store = make_folder_store(folder.path());
-  store->keep(deadlocked, {});
-  store->keep(failed, {});
-  const auto again = make_folder_store(folder.path())->recover();
-  REQUIRE(again.size() == 2);
-  CHECK(again[0].is_deadlocked);
-  CHECK_FALSE(again[1].is_deadlocked);
 }
 
 TEST_CASE("what an earlier frontal left is listed, and only the newest jobs are") {

@@ -146,13 +146,15 @@ TEST_CASE("when the farm stops all jobs are cancelled, and no other begins") {
   Farm farm;
   for (int i = 0; i < 3; ++i) farm.submit();
   farm.load_next();
-  farm.jobs.cancel_all();
+  farm.jobs.stop();
   for (std::uint32_t job = 1; job <= 3; ++job) CHECK(farm.state_of(job) == JobState::kCancelled);
   CHECK_FALSE(farm.jobs.take_work());
 }
 
 TEST_CASE("numbers go on where an earlier frontal stopped") {
   class LeftOver : public JobStore {
+    void add(const AcceptedJob&, std::span<const std::byte>) override {}
+    std::optional<KeyedJob> find_key(const std::string&) override { return std::nullopt; }
     void keep(const EndedJob&, Picture) override {}
     const Picture* picture(std::uint32_t) override { return nullptr; }
     std::vector<EndedJob> recover() override {

@@ -1,6 +1,8 @@
 #include "frontal/rendering/light_intake.hpp"
 
 #include "catch.hpp"
+#include "proto/records/tile_records.hpp"
+#include "transport/message.hpp"
 
 using namespace graycube;
 
@@ -82,4 +84,45 @@ TEST_CASE("light is added to the film, and AOVs only where somebody asked for th
 TEST_CASE("what is no batch of contributions is told to be broken") {
   Intake in;
   CHECK(in.intake.take({}, 0).wrong.starts_with("a broken batch of contributions: "));
+}
+
+TEST_CASE("tiles that were recorded are whole from the beginning, with their light") {
+  Intake before;
+  before.take(0, 0, 0, kTileRays, {{0, {1, 2, 3}}});
+  before.take(0, 1, 2, kTileRays, {{17 * 32, {4, 5, 6}}});
+  const RecordedPicture picture{1, 32, 32, {}};
+  Bytes records = encode_records_head(picture);
+  for (const std::uint32_t tile : {0u, 2u})
+    append_tile_record(records, before.intake.film(), before.plan.rect(tile));
+  Intake in;
+  CHECK(in.intake.restore(records, in.plan) == 2);
+  CHECK(in.intake.tiles().is_whole(0));
+  CHECK(in.intake.tiles().open_tiles() == std::vector<std::uint32_t>{1, 3});
+  CHECK(in.intake.film().short_sum(0) == FixedRgb{1, 2, 3});
+  CHECK(in.intake.film().short_sum(17 * 32) == FixedRgb{4, 5, 6});
+  CHECK(in.intake.batches() == 0);
+}
+
+TEST_CASE("a tile of which only a part was recorded is traced whole, without that light") {
+  Film film(32, 32, 1);
+  for (std::uint32_t p = 0; p < 32 * 32; ++p) film.add(p, {1, 1, 1});
+  Bytes records = encode_records_head({1, 32, 32, {}});
+  // Tiles of another plan: all of tile 0, and half of tile 1.
+  append_tile_record(records, film, {0, 0, 24, 16});
+  Intake in;
+  CHECK(in.intake.restore(records, in.plan) == 1);
+  CHECK(in.intake.tiles().open_tiles() == std::vector<std::uint32_t>{1, 2, 3});
+  CHECK(in.intake.film().short_sum(16) == FixedRgb{});
+}
+
+TEST_CASE("of a picture that was recorded whole one tile is left to trace") {
+  Film film(32, 32, 1);
+  for (std::uint32_t p = 0; p < 32 * 32; ++p) film.add(p, {1, 1, 1});
+  Bytes records = encode_records_head({1, 32, 32, {}});
+  append_tile_record(records, film, {0, 0, 32, 32});
+  Intake in;
+  CHECK(in.intake.restore(records, in.plan) == 3);
+  CHECK(in.intake.tiles().open_tiles() == std::vector<std::uint32_t>{3});
+  CHECK(in.intake.film().short_sum(31 * 32) == FixedRgb{1, 1, 1});
+  CHECK(in.intake.film().short_sum(31 * 32 + 31) == FixedRgb{});
 }

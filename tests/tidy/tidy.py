@@ -42,6 +42,7 @@ VENDORS = {
     "nlohmann/": ("formats/json/parser.cpp", "formats/json/cbor_parser.cpp", "proto/"),
     "png.h": ("common/film/png_file.cpp",),
     "polyclipping/": ("common/flat/polygon.cpp",),
+    "sqlite3.h": ("frontal/store/database.cpp",),
     "simdjson": ("formats/json/fast_parser.cpp",),
     "zlib.h": ("formats/brlcad/database/binary.cpp",),
     "zmq": ("common/transport/zmq_sockets.cpp",),

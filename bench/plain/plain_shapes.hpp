@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "bench/plain_solids.hpp"
+#include "bench/plain/plain_solids.hpp"
 
 namespace graycube::plain {
 

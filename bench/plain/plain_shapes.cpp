@@ -1,4 +1,4 @@
-#include "bench/plain_shapes.hpp"
+#include "bench/plain/plain_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

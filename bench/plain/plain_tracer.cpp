@@ -11,7 +11,7 @@
 #include <string>
 
 #include "bench/clocks.hpp"
-#include "bench/plain_solids.hpp"
+#include "bench/plain/plain_solids.hpp"
 #include "bench/scene_arguments.hpp"
 #include "film/picture_files.hpp"
 

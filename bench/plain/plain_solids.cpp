@@ -1,9 +1,9 @@
-#include "bench/plain_solids.hpp"
+#include "bench/plain/plain_solids.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "bench/plain_shapes.hpp"
+#include "bench/plain/plain_shapes.hpp"
 #include "check.hpp"
 
 namespace graycube::plain {

@@ -1,0 +1,70 @@
+#include "cli/farm/supervised_frontal.hpp"
+
+#include <poll.h>
+
+#include <chrono>
+#include <utility>
+
+#include "cli/farm/listener.hpp"
+#include "cli/interrupts.hpp"
+
+namespace graycube {
+namespace {
+
+constexpr std::chrono::milliseconds kWatchInterval{500};
+
+/// HOST:PORT of http://HOST:PORT/.
+std::string address_of(const std::string& page) {
+  const std::string scheme = "http://";
+  const std::string rest = page.starts_with(scheme) ? page.substr(scheme.size()) : page;
+  return rest.substr(0, rest.find('/'));
+}
+
+}  // namespace
+
+SupervisedFrontal::SupervisedFrontal(std::vector<std::string> arguments, std::string endpoint,
+                                     std::string http)
+    : arguments_(std::move(arguments)), endpoint_(std::move(endpoint)), http_(std::move(http)) {
+  start();
+}
+
+void SupervisedFrontal::start() {
+  std::vector<std::string> arguments = arguments_;
+  arguments.insert(arguments.end(), {"--listen", endpoint_});
+  if (!http_.empty()) arguments.insert(arguments.end(), {"--http", http_});
+  frontal_ = std::make_unique<FrontalProcess>(arguments);
+  endpoint_ = frontal_->wait_until_listening();
+  if (!http_.empty()) http_ = address_of(frontal_->page());
+}
+
+void SupervisedFrontal::start_again() {
+  const std::string how = "killed by signal " + std::to_string(frontal_->death_signal());
+  if (!restarts_.allows(std::chrono::steady_clock::now())) {
+    throw Failure(ExitStatus::kFailed,
+                  Problem{"farm", "graycube-frontal",
+                          how + "; it has been started again " + std::to_string(kMaxRestarts) +
+                              " times within " + std::to_string(kRestartSpan.count()) +
+                              " s, so the farm ends"});
+  }
+  print({"farm", "graycube-frontal", how + "; it is started again"});
+  frontal_.reset();  // clears away what it has left: its nodes, its sockets
+  remove_stale_socket(endpoint_);
+  start();
+}
+
+void SupervisedFrontal::run() {
+  while (!is_interrupted()) {
+    if (frontal_->has_ended()) {
+      if (frontal_->death_signal() == 0) {
+        if (frontal_->exit_status() != 0) frontal_->check_running();
+        return;
+      }
+      start_again();
+    }
+    pollfd wait{wakeup_descriptor(), POLLIN, 0};
+    ::poll(&wait, 1, static_cast<int>(kWatchInterval.count()));
+    clear_wakeup();
+  }
+}
+
+}  // namespace graycube

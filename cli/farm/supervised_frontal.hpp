@@ -1,0 +1,41 @@
+// A farm's frontal under supervision: when it dies, another one is started in its place.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/failure.hpp"
+#include "cli/farm/frontal_process.hpp"
+#include "cli/farm/restart_limit.hpp"
+
+namespace graycube {
+
+class SupervisedFrontal {
+ public:
+  /// Starts a frontal that is to listen at `endpoint` and, unless it is empty, have its web page at
+  /// `http`; `arguments` are all others. Returns once it listens. Throws a Failure.
+  SupervisedFrontal(std::vector<std::string> arguments, std::string endpoint, std::string http);
+
+  /// Where it listens, and its web page's address or nothing. Another frontal has the same, with
+  /// the ports that the first one has picked.
+  const std::string& endpoint() const { return endpoint_; }
+  const std::string& page() const { return frontal_->page(); }
+
+  /// Waits until the frontal has ended by itself. One that died, by a signal, is started again, and
+  /// that is said. Returns early when an interrupt comes. Throws a Failure when it has ended for a
+  /// reason, or has died too often.
+  void run();
+  void stop() noexcept { frontal_->stop(); }
+
+ private:
+  void start();
+  void start_again();
+
+  std::vector<std::string> arguments_;
+  std::string endpoint_, http_;
+  RestartLimit restarts_;
+  std::unique_ptr<FrontalProcess> frontal_;
+};
+
+}  // namespace graycube

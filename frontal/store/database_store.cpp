@@ -1,0 +1,134 @@
+#include "frontal/store/database_store.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "frontal/store/database.hpp"
+#include "frontal/store/job_files.hpp"
+#include "frontal/store/job_rows.hpp"
+#include "frontal/store/picture_folder.hpp"
+#include "frontal/store/record_file.hpp"
+#include "frontal/store/schema.hpp"
+#include "frontal/store/store_lock.hpp"
+#include "frontal/store/tile_writer.hpp"
+
+namespace graycube {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDatabaseFile = "jobs.sqlite";
+
+fs::path made(fs::path folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  return folder;
+}
+
+std::unique_ptr<Database> open_sound(const fs::path& folder, const Warn& warn) {
+  auto database = std::make_unique<Database>(folder / kDatabaseFile);
+  database->check_soundness();
+  prepare_tables(*database, folder, warn);
+  return database;
+}
+
+/// A damaged database is set aside with its log, which belongs to it.
+std::unique_ptr<Database> open_database(const fs::path& folder, const Warn& warn) {
+  try {
+    return open_sound(folder, warn);
+  } catch (const DatabaseError& e) {
+    if (!e.is_damaged) throw;
+    for (const char* ending : {"", "-wal", "-shm"}) {
+      const fs::path file = (folder / kDatabaseFile).string() + ending;
+      if (fs::exists(file)) set_aside(folder, file, e.what(), warn);
+    }
+  }
+  return open_sound(folder, warn);
+}
+
+class DatabaseStore : public JobStore {
+ public:
+  DatabaseStore(const fs::path& folder, const StoreOptions& options, Warn warn)
+      : folder_(made(folder)),
+        rule_(options.keep),
+        warn_(std::move(warn)),
+        lock_(folder_),
+        database_(open_database(folder_, warn_)),
+        rows_(*database_),
+        pictures_(folder_, !options.is_passing, warn_),
+        writer_(warn_) {
+    remove_unfinished_files(folder_);
+    if (options.is_passing) database_->run("PRAGMA synchronous = OFF");
+  }
+
+  void add(const AcceptedJob& job, std::span<const std::byte> scene) override {
+    Transaction transaction(*database_);
+    rows_.add(job, scene);
+    transaction.commit();
+  }
+  std::optional<KeyedJob> find_key(const std::string& key) override { return rows_.find_key(key); }
+  void keep(const EndedJob& job, Picture picture) override {
+    // The picture comes first: a job without it would be rendered again, but not one that is done.
+    if (!picture.rgb.empty()) pictures_.keep(job.info.job, std::move(picture), job.info.scene);
+    Transaction transaction(*database_);
+    rows_.end(job);
+    transaction.commit();
+    forget_tiles(job.info.job);
+  }
+  const Picture* picture(std::uint32_t job) override { return pictures_.find(job); }
+
+  std::vector<EndedJob> recover() override { return rows_.newest_ended(kMaxJobsListed, warn_); }
+  std::vector<AcceptedJob> recover_accepted() override { return rows_.accepted(warn_); }
+  std::uint32_t begin(std::uint32_t job) override { return rows_.begin(job); }
+  Bytes scene(std::uint32_t job) override { return rows_.scene(job); }
+  std::uint32_t last_number() override {
+    return std::max(rows_.last_number(), last_job_of_files(folder_));
+  }
+  std::optional<EndedJob> ended(std::uint32_t job) override { return rows_.ended(job); }
+
+  bool records_tiles() const override { return true; }
+  Bytes recorded_tiles(std::uint32_t job) override { return read_record_file(tiles_of(job)); }
+  void record_tiles(std::uint32_t job, Bytes records) override {
+    if (std::exchange(recorded_job_, job) != job) rows_.got_on(job);
+    writer_.append(tiles_of(job), std::move(records));
+  }
+  void forget_tiles(std::uint32_t job) override {
+    std::error_code ignored;
+    if (job == recorded_job_ || fs::exists(tiles_of(job), ignored)) writer_.remove(tiles_of(job));
+  }
+
+  std::vector<std::uint32_t> clear_old(double unix_s) override {
+    const auto old = rows_.beyond(rule_, unix_s);
+    if (old.empty()) return old;
+    Transaction transaction(*database_);
+    for (const std::uint32_t job : old) rows_.remove(job);
+    transaction.commit();
+    for (const std::uint32_t job : old) pictures_.remove(job);
+    return old;
+  }
+
+ private:
+  fs::path tiles_of(std::uint32_t job) const { return job_file(folder_, job, ".tiles"); }
+
+  fs::path folder_;
+  KeepRule rule_;
+  Warn warn_;
+  StoreLock lock_;
+  std::unique_ptr<Database> database_;
+  JobRows rows_;
+  PictureFolder pictures_;
+  TileWriter writer_;
+  /// The job of which tiles were recorded last.
+  std::uint32_t recorded_job_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<JobStore> open_database_store(const fs::path& folder, const StoreOptions& options,
+                                              Warn warn) {
+  return std::make_unique<DatabaseStore>(folder, options, std::move(warn));
+}
+
+}  // namespace graycube
