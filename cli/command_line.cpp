@@ -95,6 +95,7 @@ class Parser {
     add_nodes(options, render.nodes);
     add_threads(options, render.threads, "Evaluator threads per node (default 1)");
     add_job_options(options, render.options);
+    add_losses(options, render.losses);
     options.option({.names = "--checkpoint",
                     .value = "FILE",
                     .help = "Keep there what is done; the same command goes on from it",
@@ -131,6 +132,7 @@ class Parser {
                     .value = "HOST:PORT",
                     .help = "A web page of the farm at this loopback address"},
                    [&up](const std::string& text) { up.http = text; });
+    add_losses(options, up.losses);
     options.option({.names = "--outbox-rays",
                     .value = "N",
                     .help = "Rays to be sent that a node may hold (default " +

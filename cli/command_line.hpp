@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/farm/loss_options.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
 #include "figures/figure_name.hpp"
@@ -22,6 +23,7 @@ struct RenderCommand {
   /// Where tiles are recorded, so that the same command goes on; empty for nowhere.
   std::filesystem::path checkpoint;
   control::JobOptions options;
+  LossOptions losses;
   std::uint32_t nodes = 1, threads = 1;
   bool as_json = false, is_quiet = false;
 };
@@ -41,6 +43,7 @@ struct UpCommand {
   /// A text of parse_keep_rule(); empty to keep everything.
   std::string keep;
   std::uint32_t nodes = 1, threads = 1;
+  LossOptions losses;
   /// 0 for the frontal's default.
   std::uint32_t outbox_rays = 0;
 };

@@ -10,10 +10,12 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <thread>
 
 #include "frontal/frontal.hpp"
 #include "frontal/http_server.hpp"
 #include "frontal/node_processes.hpp"
+#include "frontal/parts/patience.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "frontal/store/checkpoint_store.hpp"
 #include "frontal/store/database_store.hpp"
@@ -37,7 +39,9 @@ struct FrontalArguments {
   std::string checkpoint;
   std::uint64_t picture_content = 0;
   bool is_private = false, ends_jobs = false;
-  double silence_s = 10;
+  /// 0 for what is usual.
+  double silence_s = 0;
+  std::uint32_t retries = kDefaultRetries;
   FlowLimits limits{};
 };
 
@@ -49,6 +53,11 @@ constexpr double kGrace_s = 2;
 constexpr auto kTick = std::chrono::milliseconds(50);
 
 Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
+
+double silence_of(const FrontalArguments& a) {
+  return a.silence_s > 0 ? a.silence_s
+                         : usual_silence_s(a.nodes, std::thread::hardware_concurrency());
+}
 
 /// A descriptor of the signals that ask for the end, and of SIGCHLD, which wakes the loop.
 int signal_descriptor() {
@@ -69,7 +78,11 @@ class FrontalProcess {
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
                   .threads = a.threads,
-                  .silence_s = a.silence_s,
+                  .heartbeat_s = ping_interval_s(silence_of(a)),
+                  .silence_s = silence_of(a),
+                  .start_patience_s = start_patience_s(a.nodes),
+                  .standstill_s = standstill_s(silence_of(a)),
+                  .retries = a.retries,
                   .version = kVersion,
                   .limits = a.limits,
                   .is_private = a.is_private,
@@ -197,6 +210,8 @@ int run_main(int argc, char** argv) {
   app.add_option("--keep", keep, "Ended jobs to keep there: the newest N, or those of DAYSd");
   app.add_option("--silence", a.silence_s, "Seconds until a silent node is taken for dead")
       ->check(CLI::Range(0.1, 3600.0));
+  app.add_option("--retries", a.retries, "Losses at which a part of the picture may be under way")
+      ->check(CLI::Range(0u, kMaxRetries));
   app.add_option("--outbox-rays", a.limits.outbox_rays, "Rays to be sent that a node may hold")
       ->check(CLI::PositiveNumber);
   app.add_option("--http", a.http, "HOST:PORT for the farm's web page, HOST a loopback address");

@@ -10,6 +10,7 @@
 #include "cli/display/json_text.hpp"
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/job_client.hpp"
+#include "cli/farm/loss_options.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/option_sense.hpp"
 #include "cli/render_here.hpp"
@@ -26,6 +27,7 @@ std::vector<std::string> frontal_arguments(const RenderCommand& command,
                                            const std::unique_ptr<Checkpoint>& checkpoint) {
   std::vector<std::string> arguments{"--private", "--nodes", std::to_string(command.nodes),
                                      "--threads", std::to_string(command.threads)};
+  for (const std::string& word : loss_arguments(command.losses)) arguments.push_back(word);
   if (checkpoint != nullptr) {
     arguments.insert(arguments.end(), {"--checkpoint", checkpoint->file().string(), "--picture",
                                        std::to_string(checkpoint->picture().content)});

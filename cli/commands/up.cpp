@@ -13,6 +13,7 @@
 #include "cli/farm/client.hpp"
 #include "cli/farm/listener.hpp"
 #include "cli/farm/supervised_frontal.hpp"
+#include "cli/farm/loss_options.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/temporary_place.hpp"
 #include "process/temporary_folder.hpp"
@@ -92,6 +93,7 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::p
   } else {
     arguments.insert(arguments.end(), {"--state", command.state});
   }
+  for (const std::string& word : loss_arguments(command.losses)) arguments.push_back(word);
   if (!command.keep.empty()) arguments.insert(arguments.end(), {"--keep", command.keep});
   if (command.outbox_rays != 0) {
     arguments.insert(arguments.end(), {"--outbox-rays", std::to_string(command.outbox_rays)});

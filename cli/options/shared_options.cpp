@@ -207,6 +207,23 @@ void add_job_options(Declaring& options, control::JobOptions& o) {
                  [&o](const auto& text) { o.timeout_s = parse_seconds("--timeout", text); });
 }
 
+void add_losses(Declaring& options, LossOptions& losses) {
+  options.option({.names = "--silence",
+                  .value = "S",
+                  .help = "Seconds until a silent node is taken for dead (default 2, and more "
+                          "where more than 8 nodes share a core)"},
+                 [&losses](const auto& text) {
+                   losses.silence_s = parse_number("--silence", text, 0.1, 3600);
+                 });
+  options.option({.names = "--retries",
+                  .value = "N",
+                  .help = "How often nodes may be lost at the same part of the picture (default " +
+                          std::to_string(kDefaultRetries) + ")"},
+                 [&losses](const auto& text) {
+                   losses.retries = parse_count("--retries", text, 0, kMaxRetries);
+                 });
+}
+
 void add_table_options(Declaring& options, bool& as_json, bool& is_quiet,
                        std::filesystem::path& plot) {
   options.flag("--json", as_json, "All statistics as one line of JSON, instead of a table");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/farm/loss_options.hpp"
 #include "cli/options/declaring.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
@@ -42,6 +43,9 @@ void add_how(Declaring& options, control::JobOptions& o);
 
 /// Options that decide how the picture is computed.
 void add_job_options(Declaring& options, control::JobOptions& o);
+
+/// Options for how a farm takes the loss of a node.
+void add_losses(Declaring& options, LossOptions& losses);
 
 /// Options to print a table as JSON, or nothing but the table, or to draw a picture of it, too.
 void add_table_options(Declaring& options, bool& as_json, bool& is_quiet,

@@ -8,13 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "proto/messages.hpp"
 #include "topology/rank.hpp"
 
 namespace graycube {
-
-/// Losses that a tile or slice may have to do with, unless the farm is started with another number.
-inline constexpr std::uint32_t kDefaultRetries = 3;
-inline constexpr std::uint32_t kMaxRetries = 100;
 
 class Retries {
  public:

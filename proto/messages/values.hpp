@@ -35,6 +35,9 @@ inline constexpr std::uint32_t kMaxScatter = 8;
 /// Rays that a node's input queues hold together if flow is blocking.
 inline constexpr std::uint32_t kDefaultQueue = 64;
 inline constexpr std::uint32_t kMaxQueue = 1u << 16;
+/// Losses that a tile or slice may have to do with, unless the farm is started with another number.
+inline constexpr std::uint32_t kDefaultRetries = 3;
+inline constexpr std::uint32_t kMaxRetries = 100;
 /// Rays that a node's outboxes hold before it is full, unless a frontal sets another number.
 inline constexpr std::uint32_t kDefaultOutboxRays = 1u << 18;
 

@@ -27,7 +27,7 @@ struct Farm {
     auto work = jobs.take_work();
     REQUIRE(work);
     jobs.give_result(prepare(*work, [] { return 0.0; }));
-    jobs.load_what_waits();
+    if (jobs.waits_to_be_loaded()) jobs.load();
   }
   JobState state_of(std::uint32_t job) { return granted<control::JobInfo>(jobs.status(job)).state; }
 };
@@ -81,7 +81,7 @@ TEST_CASE("a job that is cancelled while it is prepared stays cancelled") {
   const auto work = farm.jobs.take_work();
   CHECK(granted<control::JobInfo>(farm.jobs.cancel(job)).state == JobState::kCancelled);
   farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
-  farm.jobs.load_what_waits();
+  if (farm.jobs.waits_to_be_loaded()) farm.jobs.load();
   CHECK(farm.state_of(job) == JobState::kCancelled);
   CHECK(SentPost(farm.post).all.empty());
   CHECK(refused(farm.jobs.cancel(job)) == FailureCode::kBadRequest);
@@ -100,25 +100,39 @@ TEST_CASE("a job that waits can be cancelled, and those who watch it hear of it"
   CHECK(farm.jobs.keep_nodes_busy());
 }
 
-TEST_CASE(
-    "a lost node ends a job that is loaded, and one that can't be "
-    "started any") {
+TEST_CASE("a lost node sends a job that is loaded into its next epoch, and leaves others alone") {
   Farm farm;
   const std::uint32_t job = farm.submit();
   const auto work = farm.jobs.take_work();
-  farm.jobs.node_was_lost("node 1", "died", false);
+  const NodeLoss loss{Rank{1}, "node 1", "died", 0.1};
+  farm.jobs.node_was_lost(loss);
   CHECK(farm.state_of(job) == JobState::kLoading);
-  SECTION("loaded") {
-    farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
-    farm.jobs.load_what_waits();
-    SentPost(farm.post);
-    farm.jobs.node_was_lost("node 1", "died", false);
-    CHECK(SentPost(farm.post).names() ==
-          std::vector<std::string>{"node 0: finish", "node 1: finish"});
+  farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
+  REQUIRE(farm.jobs.waits_to_be_loaded());
+  farm.jobs.load();
+  SentPost(farm.post);
+  farm.jobs.node_was_lost(loss);
+  CHECK(SentPost(farm.post).names() ==
+        std::vector<std::string>{"node 0: prepare", "node 1: prepare"});
+  // Only the process that takes the node's place needs its slice.
+  REQUIRE(farm.jobs.waits_to_be_loaded());
+  farm.jobs.load();
+  CHECK(SentPost(farm.post).names() == std::vector<std::string>{"node 1: load"});
+}
+
+TEST_CASE("a slice that brings one process after another down fails its job") {
+  Farm farm;
+  const std::uint32_t job = farm.submit();
+  farm.load_next();
+  for (std::uint32_t loss = 1; loss <= kDefaultRetries + 1; ++loss) {
+    CHECK(farm.state_of(job) == JobState::kBuilding);
+    farm.jobs.node_was_lost({Rank{1}, "node 1", "died", 0.1});
+    if (farm.jobs.waits_to_be_loaded()) farm.jobs.load();
   }
-  SECTION("not started") { farm.jobs.node_was_lost("node 1", "died", true); }
   CHECK(farm.state_of(job) == JobState::kFailed);
-  CHECK(granted<control::JobInfo>(farm.jobs.status(job)).message == "node 1: died");
+  CHECK(granted<control::JobInfo>(farm.jobs.status(job)).message ==
+        "node 1: died; that was loss 4 of the job, and each time its part of the scene was being "
+        "subdivided");
 }
 
 TEST_CASE("a job whose time is up has failed for that reason") {

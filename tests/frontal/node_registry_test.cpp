@@ -8,7 +8,7 @@ using namespace graycube::testing;
 
 namespace {
 
-constexpr double kSilence_s = 10;
+constexpr double kSilence_s = 10, kStart_s = 40;
 
 control::Hello hello(const NodeRegistry::Process& process) {
   return {process.rank.value,
@@ -21,7 +21,7 @@ control::Hello hello(const NodeRegistry::Process& process) {
 
 /// A registry of four nodes, and the processes that it has asked for.
 struct Four {
-  NodeRegistry nodes{*Hypercube::of_size(4), kSilence_s};
+  NodeRegistry nodes{*Hypercube::of_size(4), {kSilence_s, kStart_s}};
   std::vector<NodeRegistry::Process> processes = nodes.take_starts();
 
   void all_say_hello(double now_s) {
@@ -88,9 +88,8 @@ TEST_CASE(
     "place") {
   Four four;
   four.all_say_hello(1);
-  const auto lost = four.nodes.lose(Rank{2});
+  const auto lost = four.nodes.lose(Rank{2}, 103);
   CHECK(lost.name == "node 2 (process 4003)");
-  CHECK_FALSE(lost.was_starting);
   CHECK_FALSE(lost.is_hopeless);
   CHECK_FALSE(four.nodes.rank_of(peer_of(2)));
   four.nodes.start(Rank{2}, 2);
@@ -109,16 +108,15 @@ TEST_CASE(
     "a row") {
   Four four;
   for (unsigned i = 1; i < kMaxFailedStarts; ++i) {
-    const auto lost = four.nodes.lose(Rank{1});
-    CHECK(lost.was_starting);
+    const auto lost = four.nodes.lose(Rank{1}, 103);
     CHECK(lost.name == "node 1");
     CHECK_FALSE(lost.is_hopeless);
     four.nodes.start(Rank{1}, i);
   }
-  SECTION("so many") { CHECK(four.nodes.lose(Rank{1}).is_hopeless); }
+  SECTION("so many") { CHECK(four.nodes.lose(Rank{1}, 103).is_hopeless); }
   SECTION("but one that says hello is a new hope") {
     CHECK_FALSE(four.nodes.hello(peer_of(0), hello(four.processes[0]), 9));
-    CHECK_FALSE(four.nodes.lose(Rank{1}).is_hopeless);
+    CHECK_FALSE(four.nodes.lose(Rank{1}, 103).is_hopeless);
   }
 }
 

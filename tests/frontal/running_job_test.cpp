@@ -38,8 +38,10 @@ struct OnTwo {
   }
   void start() {
     job.load(101, post);
-    CHECK_FALSE(job.on_ready(Rank{0}, {3, 0, 1, 1, 1, 0}));
-    REQUIRE(job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
+    job.on_ready(Rank{0}, {3, 0, 1, 1, 1, 0});
+    CHECK_FALSE(job.can_start());
+    job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0});
+    REQUIRE(job.can_start());
     job.start({7, 8}, 103, post);
   }
   /// Sends all credit of the tiles that were handed out, and of those handed out then.
@@ -60,7 +62,7 @@ struct OnTwo {
           const Bytes batch =
               encode_contributions({3, 0, rank, 7, sent[rank]++},
                                    {{{tile, Credit::from_words({units, 0, 0, 0, 0})}}}, {});
-          REQUIRE_FALSE(job.on_light(batch, post));
+          REQUIRE_FALSE(job.on_light(Rank{0}, batch, post));
         }
       }
       if (!any) return;
@@ -85,11 +87,13 @@ TEST_CASE("a job goes through its stages, of which clients are told five") {
   CHECK(on.job.is_loaded());
   CHECK(on.job.info().state == JobState::kBuilding);
   CHECK(SentPost(on.post).names() == std::vector<std::string>{"node 0: load", "node 1: load"});
-  CHECK_FALSE(on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
+  on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0});
   // A message for another job counts as little as one that the same node repeats.
-  CHECK_FALSE(on.job.on_ready(Rank{0}, {2, 0, 1, 1, 1, 0}));
-  CHECK_FALSE(on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0}));
-  CHECK(on.job.on_ready(Rank{0}, {3, 0, 1, 1, 1, 0}));
+  on.job.on_ready(Rank{0}, {2, 0, 1, 1, 1, 0});
+  on.job.on_ready(Rank{1}, {3, 0, 1, 1, 1, 0});
+  CHECK_FALSE(on.job.can_start());
+  on.job.on_ready(Rank{0}, {3, 0, 1, 1, 1, 0});
+  CHECK(on.job.can_start());
   on.job.start({7, 8}, 103, on.post);
   CHECK(on.job.info().state == JobState::kRendering);
   const SentPost sent(on.post);
@@ -116,12 +120,15 @@ TEST_CASE(
   CHECK_FALSE(on.job.finish_when_complete(106, on.post));
   CHECK(SentPost(on.post).all.empty());
   control::NodeReport report{3, 0, {}};
-  CHECK_FALSE(on.job.on_report(report));
+  on.job.on_report(report);
+  CHECK_FALSE(on.job.is_over());
   report.stats.rank = 1;
   report.job = 2;
-  CHECK_FALSE(on.job.on_report(report));
+  on.job.on_report(report);
+  CHECK_FALSE(on.job.is_over());
   report.job = 3;
-  CHECK(on.job.on_report(report));
+  on.job.on_report(report);
+  CHECK(on.job.is_over());
   const auto stats = nlohmann::json::parse(on.job.statistics(110, on.cpu, {}));
   CHECK(stats["phases"]["build_s"] == 2);
   CHECK(stats["phases"]["render_s"] == 2);
@@ -148,11 +155,35 @@ TEST_CASE("a broken batch of light fails the job; one of another job is let go")
   OnTwo on;
   on.prepare_as(Algorithm::kRoth);
   on.start();
-  CHECK_FALSE(on.job.on_light(encode_contributions({2, 0, 0, 7, 5}, {}, {}), on.post));
-  const auto lost = on.job.on_light(encode_contributions({3, 0, 0, 7, 5}, {}, {}), on.post);
-  REQUIRE(lost);
-  CHECK(lost->state == JobState::kFailed);
-  CHECK(lost->errors.front().where == "the frontal");
+  CHECK_FALSE(on.job.on_light(Rank{0}, encode_contributions({2, 0, 0, 7, 5}, {}, {}), on.post));
+  Bytes broken = encode_contributions({3, 0, 0, 7, 0}, {}, {});
+  broken.push_back({});
+  const auto wrong = on.job.on_light(Rank{0}, broken, on.post);
+  REQUIRE(wrong);
+  CHECK(wrong->state == JobState::kFailed);
+  CHECK(wrong->errors.front().where == "the frontal");
+}
+
+TEST_CASE("a batch of light that is missing begins the next epoch") {
+  OnTwo on;
+  on.prepare_as(Algorithm::kMacro);
+  on.start();
+  SentPost(on.post);
+  const Bytes late = encode_contributions({3, 0, 1, 8, 5}, {}, {});
+  CHECK_FALSE(on.job.on_light(Rank{1}, late, on.post));
+  CHECK(SentPost(on.post).names() ==
+        std::vector<std::string>{"node 0: prepare", "node 1: prepare"});
+  CHECK(on.job.info().state == JobState::kRendering);
+  // Nobody may trace before both have dropped what is old.
+  on.job.on_epoch_ack(Rank{0}, {3, 1}, on.post);
+  on.job.on_epoch_ack(Rank{1}, {3, 0}, on.post);
+  CHECK_FALSE(on.job.can_start());
+  on.job.on_epoch_ack(Rank{1}, {3, 1}, on.post);
+  REQUIRE(on.job.can_start());
+  on.job.start({7, 8}, 104, on.post);
+  const auto start = SentPost(on.post).told<control::Start>(peer_of(0)).front();
+  CHECK(start.epoch == 1);
+  CHECK(start.open_tiles.size() == kNodes);
 }
 
 TEST_CASE("a token that finds the end while a tile is open is an error") {

@@ -40,7 +40,7 @@ TEST_CASE("a neighbour gets a copy of a slice once, another node never") {
 
 TEST_CASE("a slice is there to be copied when its node has got it") {
   SliceStock stock = stock_of({1000, 2000, 3000, 4000});
-  const std::size_t sent = stock.take(kOwner).size();
+  const std::size_t sent = stock.of(kOwner).size();
   const SharedBytes* slice = stock.to_copy(kOwner, kCube.neighbour(kOwner, 0));
   REQUIRE(slice != nullptr);
   CHECK(slice->size() == sent);

@@ -48,7 +48,7 @@ TEST_CASE("in macro tiles are handed out again when a quarter of the window is f
     std::vector<Rank> opened;
     const Bytes batch =
         encode_contributions(stamp, {{{tile, Credit::from_words({units, 0, 0, 0, 0})}}}, {});
-    REQUIRE(job.add_contributions(batch, opened).empty());
+    REQUIRE(job.add_contributions(batch, opened).wrong.empty());
     REQUIRE(opened == std::vector<Rank>{Rank{0}});
   };
   for (std::size_t i = 0; i < 3; ++i) {

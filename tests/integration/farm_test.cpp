@@ -246,51 +246,6 @@ TEST_CASE("submit --wait is a render on the farm") {
   ok(sandbox, {"down"});
 }
 
-TEST_CASE("a killed node fails the running job by name, and the next job works") {
-  Sandbox sandbox;
-  Farm farm(sandbox);
-  Running submitted = sandbox.start(
-      {"submit", first(), "--wait", "--size", kLongSize, "--algorithm", "macro", "-o", "a.exr"});
-  submitted.wait_for("1\n");
-  wait_for_state(sandbox, "1", "rendering");
-  const pid_t killed = pid_of_node(sandbox, "2");
-  ::kill(killed, SIGKILL);
-  const Outcome o = submitted.wait(20s);
-  CHECK(o.status == 1);
-  CHECK(lines_of(o.err).back() ==
-        "graycube: render: node 2 (process " + std::to_string(killed) + "): killed by signal 9");
-  CHECK(ok(sandbox, {"jobs"}).find("node 2 (process") != std::string::npos);
-  CHECK(sandbox.files().empty());
-
-  const Outcome next = sandbox.run({"submit", first(), "--wait", "--size", "64x48", "-o", "b.exr"});
-  INFO(next.err);
-  CHECK(next.status == 0);
-  CHECK(pid_of_node(sandbox, "2") != killed);
-  ok(sandbox, {"down"});
-  CHECK(farm.up().wait(10s).status == 0);
-  CHECK(sandbox.processes().empty());
-}
-
-TEST_CASE("a render whose node is killed says which, and leaves nothing") {
-  Sandbox sandbox;
-  Running running =
-      sandbox.start({"render", first(), "--size", kLongSize, "--algorithm", "macro", "-n", "4"});
-  running.wait_for("rendering");
-  for (const std::string& process : sandbox.processes()) {
-    if (process.find("graycube-node") == std::string::npos) continue;
-    ::kill(std::stoi(process), SIGKILL);
-    break;
-  }
-  const Outcome o = running.wait(20s);
-  INFO(o.err);
-  CHECK(o.status == 1);
-  CHECK(o.err.starts_with("graycube: render: node "));
-  CHECK(o.err.ends_with(": killed by signal 9\n"));
-  CHECK(sandbox.files().empty());
-  CHECK(sandbox.processes().empty());
-  CHECK(sandbox.temporary_files().empty());
-}
-
 TEST_CASE("a frontal that is killed is missed, and cleared away") {
   Sandbox sandbox;
   Running running =

@@ -1,0 +1,134 @@
+// Nodes die, or stop, while they render: the picture is the serial one all the same.
+#include <signal.h>
+
+#include <thread>
+
+#include "catch.hpp"
+#include "integration/sandbox.hpp"
+
+namespace graycube {
+namespace {
+
+/// Takes a farm of four nodes some seconds.
+constexpr const char* kLongSize = "1600x1600";
+
+std::string first() { return scene_file("first.json").string(); }
+
+nlohmann::json json_of(Sandbox& sandbox, const Arguments& arguments) {
+  const Outcome o = sandbox.run(arguments);
+  INFO(o.err);
+  REQUIRE(o.status == 0);
+  return nlohmann::json::parse(o.out);
+}
+
+pid_t pid_of_node(Sandbox& sandbox, std::size_t rank) {
+  return json_of(sandbox, {"nodes", "--json"}).at(rank).at("pid").get<pid_t>();
+}
+
+std::string serial_bytes(Sandbox& sandbox) {
+  const Outcome o = sandbox.run(
+      {"render", first(), "--size", kLongSize, "--algorithm", "serial", "-o", "serial.exr", "-q"});
+  REQUIRE(o.status == 0);
+  return file_bytes(sandbox / "serial.exr");
+}
+
+/// Waits until some of the job's tiles are whole, so that there is something to lose.
+void wait_until_under_way(Sandbox& sandbox, const std::string& job) {
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  while (json_of(sandbox, {"status", job, "--json"}).at("fraction").get<double>() < 0.02) {
+    REQUIRE(std::chrono::steady_clock::now() < until);
+    std::this_thread::sleep_for(10ms);
+  }
+}
+
+/// What must be in the statistics of a job that has lost node `rank` once.
+void check_loss(const nlohmann::json& stats, std::size_t rank, const std::string& why) {
+  CHECK(stats.at("epochs") == 2);
+  REQUIRE(stats.at("losses").size() == 1);
+  const nlohmann::json& loss = stats.at("losses").front();
+  CHECK(loss.at("rank") == rank);
+  CHECK(loss.at("why") == why);
+  CHECK(loss.at("tiles").get<int>() > 0);
+  CHECK(loss.at("noticed_s").get<double>() > 0);
+}
+
+void check_loss_leaves_picture(const std::string& algorithm, int signal, const std::string& why) {
+  INFO(algorithm << ", " << why);
+  Sandbox sandbox;
+  const std::string expected = serial_bytes(sandbox);
+  Running up = sandbox.start({"up", "-n", "4"});
+  up.wait_for("graycube down");
+  Running submitted = sandbox.start({"submit", first(), "--wait", "--size", kLongSize,
+                                     "--algorithm", algorithm, "-o", "a.exr", "--stats", "s.json"});
+  submitted.wait_for("1\n");
+  wait_until_under_way(sandbox, "1");
+  const pid_t lost = pid_of_node(sandbox, 2);
+  ::kill(lost, signal);
+  const Outcome o = submitted.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK(file_bytes(sandbox / "a.exr") == expected);
+  check_loss(nlohmann::json::parse(file_bytes(sandbox / "s.json")), 2, why);
+  CHECK(pid_of_node(sandbox, 2) != lost);
+  CHECK(sandbox.run({"down"}).status == 0);
+  CHECK(up.wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
+}
+
+}  // namespace
+
+TEST_CASE("a killed node costs its job an epoch, and the picture is the serial one") {
+  for (const char* algorithm : {"macro", "roth"})
+    check_loss_leaves_picture(algorithm, SIGKILL, "killed by signal 9");
+}
+
+TEST_CASE("a node that is stopped is missed, and another takes its place") {
+  for (const char* algorithm : {"macro", "roth"})
+    check_loss_leaves_picture(algorithm, SIGSTOP, "fell silent");
+}
+
+TEST_CASE("a render whose nodes are killed one after another goes on") {
+  Sandbox sandbox;
+  const std::string expected = serial_bytes(sandbox);
+  Running render = sandbox.start({"render", first(), "--size", kLongSize, "--algorithm", "macro",
+                                  "-n", "4", "-o", "a.exr", "--stats", "s.json"});
+  render.wait_for("rendering");
+  std::vector<std::string> killed;
+  for (const std::string& process : sandbox.processes()) {
+    if (process.find("graycube-node") == std::string::npos || killed.size() == 3) continue;
+    ::kill(std::stoi(process), SIGKILL);
+    killed.push_back(process);
+    std::this_thread::sleep_for(100ms);
+  }
+  REQUIRE(killed.size() == 3);
+  const Outcome o = render.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK(file_bytes(sandbox / "a.exr") == expected);
+  const auto stats = nlohmann::json::parse(file_bytes(sandbox / "s.json"));
+  CHECK(stats.at("losses").size() == 3);
+  CHECK(sandbox.processes().empty());
+  CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("with --retries 0 the first loss ends the job, and tells which part was under way") {
+  Sandbox sandbox;
+  Running render =
+      sandbox.start({"render", first(), "--size", "3000x3000", "--algorithm", "macro", "-n", "4",
+                     "--retries", "0", "-o", "a.exr"});
+  render.wait_for("rendering");
+  for (const std::string& process : sandbox.processes()) {
+    if (process.find("graycube-node") == std::string::npos) continue;
+    ::kill(std::stoi(process), SIGKILL);
+    break;
+  }
+  const Outcome o = render.wait(30s);
+  INFO(o.err);
+  CHECK(o.status == 1);
+  CHECK(o.err.find("graycube: render: node ") != std::string::npos);
+  CHECK(o.err.find("killed by signal 9; that was loss 1 of the job, and each time tile ") !=
+        std::string::npos);
+  CHECK(sandbox.processes().empty());
+}
+
+}  // namespace graycube
