@@ -17,8 +17,8 @@ class Retries {
  public:
   Retries(std::uint32_t most, std::uint32_t nodes) : most_(most), in_a_row_(nodes, 0) {}
 
-  /// Something was lost while these tiles, of `tiles` in all, were under way. Returns one of them if
-  /// that has happened to it too often.
+  /// Something was lost while these tiles, of `tiles` in all, were under way. Returns one of them
+  /// if that has happened to it too often.
   std::optional<std::uint32_t> note_loss(std::span<const std::uint32_t> under_way,
                                          std::uint32_t tiles) {
     if (losses_.empty()) losses_.resize(tiles);
@@ -29,9 +29,7 @@ class Retries {
     return *beyond;
   }
   /// Losses at which the tile was under way.
-  std::uint32_t losses_of(std::uint32_t tile) const {
-    return losses_.empty() ? 0 : losses_[tile];
-  }
+  std::uint32_t losses_of(std::uint32_t tile) const { return losses_.empty() ? 0 : losses_[tile]; }
 
   /// The node was lost before its slice was subdivided. True if that has happened too often in a
   /// row.
@@ -42,7 +40,7 @@ class Retries {
 
  private:
   std::uint32_t most_;
-  std::vector<std::uint8_t> losses_;    // by tile; empty before the first loss
+  std::vector<std::uint8_t> losses_;     // by tile; empty before the first loss
   std::vector<std::uint32_t> in_a_row_;  // by rank
 };
 

@@ -1,6 +1,6 @@
-// Keeps the nodes' slices of the scene, as a node may need one at any time: the node itself or, when
-// that is lost, its replacement; one that borrows the slice, or a neighbour that gets a copy to
-// help.
+// Keeps the nodes' slices of the scene, as a node may need one at any time: the node itself or,
+// when that is lost, its replacement; one that borrows the slice, or a neighbour that gets a copy
+// to help.
 #pragma once
 
 #include <cstdint>

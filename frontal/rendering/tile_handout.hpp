@@ -29,9 +29,9 @@ class TileHandout {
   TileHandout(const NodeMesh& mesh, const TilePlan& plan, const TileLedger& ledger, Way way,
               const TileWindow& window);
 
-  /// A new epoch (`retries` must outlive this): all tiles that are not whole are to be handed out, those first that were under
-  /// way at most losses: the more these are, the fewer tiles are under way at a time, so that the
-  /// one which brings nodes down is found.
+  /// A new epoch (`retries` must outlive this): all tiles that are not whole are to be handed out,
+  /// those first that were under way at most losses: the more these are, the fewer tiles are under
+  /// way at a time, so that the one which brings nodes down is found.
   void reopen(const Retries& retries);
   /// Tiles that are handed out and not whole; if a rank is given, those that this node had.
   std::vector<std::uint32_t> under_way(std::optional<Rank> holder = std::nullopt) const;
@@ -77,8 +77,8 @@ class TileHandout {
   std::uint32_t next_tile_ = 0;
   /// How often each tile was under way at a loss; null before the first.
   const Retries* retries_ = nullptr;
-  std::vector<std::uint32_t> open_, relief_;          // by rank
-  std::vector<std::uint64_t> batches_;                // by rank
+  std::vector<std::uint32_t> open_, relief_;  // by rank
+  std::vector<std::uint64_t> batches_;        // by rank
 };
 
 }  // namespace graycube

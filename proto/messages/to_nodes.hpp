@@ -103,8 +103,8 @@ struct AllWhole {
   friend bool operator==(const AllWhole&, const AllWhole&) = default;
 };
 
-/// A node or a batch was lost: asks to drop everything of epochs before this one, and to acknowledge
-/// that.
+/// A node or a batch was lost: asks to drop everything of epochs before this one, and to
+/// acknowledge that.
 struct Prepare {
   static constexpr std::string_view kType = "prepare";
   std::uint32_t job = 0, epoch = 0;

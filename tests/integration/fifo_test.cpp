@@ -114,9 +114,8 @@ TEST_CASE("a killed FIFO costs its job an epoch, and the nodes live through it")
   Running up = sandbox.start({"up", "-n", "4"});
   up.wait_for("graycube down");
   CHECK(running(sandbox, "graycube-fifo").empty());
-  Running submitted =
-      sandbox.start(apart({"submit", first(), "--wait", "--size", kMediumSize, "-o", "a.exr",
-                           "--stats", "s.json"}));
+  Running submitted = sandbox.start(apart(
+      {"submit", first(), "--wait", "--size", kMediumSize, "-o", "a.exr", "--stats", "s.json"}));
   submitted.wait_for("1\n");
   REQUIRE(are_left(sandbox, 4));
   const std::vector<pid_t> nodes = running(sandbox, "graycube-node");

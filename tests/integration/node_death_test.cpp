@@ -113,9 +113,8 @@ TEST_CASE("a render whose nodes are killed one after another goes on") {
 
 TEST_CASE("with --retries 0 the first loss ends the job, and tells which part was under way") {
   Sandbox sandbox;
-  Running render =
-      sandbox.start({"render", first(), "--size", "3000x3000", "--algorithm", "macro", "-n", "4",
-                     "--retries", "0", "-o", "a.exr"});
+  Running render = sandbox.start({"render", first(), "--size", "3000x3000", "--algorithm", "macro",
+                                  "-n", "4", "--retries", "0", "-o", "a.exr"});
   render.wait_for("rendering");
   for (const std::string& process : sandbox.processes()) {
     if (process.find("graycube-node") == std::string::npos) continue;

@@ -57,9 +57,9 @@ Fault cut(std::mt19937_64& random, const Trial& t) {
   const Hypercube cube = *Hypercube::of_size(t.farm.nodes);
   const auto bit = static_cast<std::uint32_t>(random() % (cube.dimension() + 1));
   if (bit < cube.dimension()) fault.to = cube.neighbour(fault.rank, bit);
-  fault.lasts_s =
-      fault.to ? t.farm.link_delay_s * std::uniform_real_distribution<double>(0, 20)(random)
-               : 2 * t.farm.silence_s;
+  fault.lasts_s = fault.to
+                      ? t.farm.link_delay_s * std::uniform_real_distribution<double>(0, 20)(random)
+                      : 2 * t.farm.silence_s;
   return fault;
 }
 
