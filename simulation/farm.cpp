@@ -373,14 +373,6 @@ void Farm::tell_of_death(Rank rank) {
   });
 }
 
-/// Collects reports of what they did from the nodes of a failed job that can still answer.
-void Farm::collect_reports() {
-  constexpr double kPatience = 100;
-  const double until_s = timeline_.now_s() + kPatience * options_.heartbeat_s;
-  while (reports_ < cube_.nodes() && timeline_.now_s() < until_s && timeline_.run_one()) {
-  }
-}
-
 Outcome Farm::render(const std::string& scene_text, const control::JobOptions& options) {
   outcome_ = {};
   reports_ = 0;

@@ -158,6 +158,14 @@ void Farm::watch_classes(Rank from, Rank to, const Bytes& batch, BatchType type,
   }
 }
 
+/// Collects reports of what they did from the nodes of a failed job that can still answer.
+void Farm::collect_reports() {
+  constexpr double kPatience = 100;
+  const double until_s = timeline_.now_s() + kPatience * options_.heartbeat_s;
+  while (reports_ < cube_.nodes() && timeline_.now_s() < until_s && timeline_.run_one()) {
+  }
+}
+
 /// Called when the token has found the end: nothing may be left anywhere.
 void Farm::check_quiet() {
   if (rays_under_way_ != 0) outcome_.violations.push_back("the token ended with rays under way");
