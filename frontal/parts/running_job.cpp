@@ -41,7 +41,7 @@ RunningJob::RunningJob(const FrontalOptions& farm, const QueuedJob& job, const M
       content_(job.content),
       info_(job.info),
       options_(job.work.options),
-      progress_(farm.cube.nodes()) {
+      standstill_watch_(farm.cube.nodes()) {
   times_.submitted_s = job.submitted_at_s;
   times_.began_s = now.now_s;
   info_.started_s = now.unix_s;
@@ -122,7 +122,7 @@ void RunningJob::start(std::vector<std::uint32_t> incarnations, double now_s, Po
     return;
   }
   stage_ = JobStage::kRendering;
-  progress_.begin();
+  standstill_watch_.begin();
   if (render_->epoch() == 0) {
     times_.render_began_s = now_s;
     log_.begin(now_s, has_records_ ? std::nullopt : std::optional(recorded_picture()));

@@ -12,8 +12,8 @@
 #include "frontal/parts/post.hpp"
 #include "frontal/parts/tile_log.hpp"
 #include "frontal/rendering/deadlock_watch.hpp"
-#include "frontal/rendering/progress_watch.hpp"
 #include "frontal/rendering/render_job.hpp"
+#include "frontal/rendering/standstill_watch.hpp"
 #include "proto/statistics.hpp"
 
 namespace graycube {
@@ -82,12 +82,12 @@ class RunningJob {
   [[nodiscard]] std::optional<JobFailure> on_error(Rank rank, const control::NodeError& m,
                                                    Post& post);
   void on_pong(Rank rank, const control::Pong& m, double now_s) {
-    if (is_rendering()) progress_.on_pong(rank, m, now_s);
+    if (is_rendering()) standstill_watch_.on_pong(rank, m, now_s);
   }
   /// A node that answers but doesn't get on, and may be taken for lost.
   std::optional<Rank> standing_still(double now_s) const {
     if (!is_rendering()) return std::nullopt;
-    return progress_.standing_still(now_s, farm_.standstill_s);
+    return standstill_watch_.standing_still(now_s, farm_.standstill_s);
   }
   [[nodiscard]] std::optional<JobFailure> look_for_lost_messages(double now_s, Post& post);
 
@@ -160,7 +160,7 @@ class RunningJob {
   /// CPU seconds before the job; 0 for the first job, as all that came before was for its sake.
   CpuBefore cpu_before_;
   std::optional<RenderJob> render_;
-  ProgressWatch progress_;
+  StandstillWatch standstill_watch_;
   std::vector<Loss> losses_;
   TileLog log_;
   /// Whether there are records of this picture already.

@@ -27,7 +27,7 @@ std::optional<JobFailure> RunningJob::look_for_lost_messages(double now_s, Post&
   // Where boundaries slide, nodes may wait for what is being cut.
   if (!is_rendering() || render_->sliding() != nullptr) return std::nullopt;
   // The deadlocks of blocking flow are found sooner.
-  if (!progress_.all_wait(now_s, 2 * farm_.silence_s)) return std::nullopt;
+  if (!standstill_watch_.all_wait(now_s, 2 * farm_.silence_s)) return std::nullopt;
   return go_on_without({std::nullopt, "all nodes wait for messages that were lost", 0, 0},
                        "the farm", false, post);
 }

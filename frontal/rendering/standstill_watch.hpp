@@ -12,9 +12,9 @@
 
 namespace graycube {
 
-class ProgressWatch {
+class StandstillWatch {
  public:
-  explicit ProgressWatch(std::uint32_t nodes) : nodes_(nodes) {}
+  explicit StandstillWatch(std::uint32_t nodes) : nodes_(nodes) {}
 
   /// Tracing begins, or something has come from a node: nobody has waited yet.
   void begin() { std::ranges::fill(nodes_, Node{}); }
