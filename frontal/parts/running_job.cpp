@@ -134,6 +134,7 @@ void RunningJob::start(std::vector<std::uint32_t> incarnations, double now_s, Po
 // ---- while it is rendered
 
 void RunningJob::hand_out(Rank rank, Post& post) {
+  if (!render_->barrier().can_trace(rank)) return;
   const auto tiles = render_->next_tiles(rank);
   if (tiles.empty()) return;
   const BatchStamp stamp{id(), render_->epoch(), kFrontalRank, 0,

@@ -89,7 +89,6 @@ std::vector<std::uint32_t> RenderJob::open_tiles() const {
 }
 
 std::vector<std::uint32_t> RenderJob::next_tiles(Rank rank) {
-  if (!barrier_.can_trace(rank)) return {};
   if (!sliding_) return tiles_.next(rank);
   std::vector<std::uint32_t> tiles =
       tiles_.next(rank, sliding_->room_ahead(rank, tiles_.left(rank)));

@@ -74,18 +74,25 @@ TEST_CASE("a slice is lent to any node where slices are, and else to none") {
   SliceStock lent(kCube, slices(), {.are_lent = true});
   REQUIRE(lent.to_lend(3) != nullptr);
   CHECK(lent.to_lend(4) == nullptr);
-  lent.take(Rank{3});
   CHECK(lent.to_lend(3)->size() == 10);
   SliceStock kept(kCube, slices(), {});
   CHECK(kept.to_lend(3) == nullptr);
 }
 
-TEST_CASE("a slice that nobody else can ask for is given away; one for all stays") {
+TEST_CASE("a slice is there for as many processes of a rank as there are; one for all, too") {
   SliceStock own(kCube, std::vector<SharedBytes>(4, Bytes(10)), {});
-  CHECK(own.take(Rank{1}).size() == 10);
-  CHECK(own.take(Rank{1}).empty());
+  for (int process = 0; process < 3; ++process) CHECK(own.of(Rank{1}).size() == 10);
   SliceStock whole(kCube, {Bytes(10)}, {});
-  for (std::uint32_t rank = 0; rank < 4; ++rank) CHECK(whole.take(Rank{rank}).size() == 10);
+  for (std::uint32_t rank = 0; rank < 4; ++rank) CHECK(whole.of(Rank{rank}).size() == 10);
+}
+
+TEST_CASE("a node that is lost loses its copies, and may get them again") {
+  SliceStock stock = stock_of({1000, 2000, 3000, 4000});
+  const Rank helper = kCube.neighbour(kOwner, 0);
+  REQUIRE(stock.to_copy(kOwner, helper) != nullptr);
+  REQUIRE(stock.to_copy(kOwner, helper) == nullptr);
+  stock.lose(helper);
+  CHECK(stock.to_copy(kOwner, helper) != nullptr);
 }
 
 TEST_CASE("copies are made only where boundaries are left open and rays are forwarded on credit") {

@@ -60,17 +60,6 @@ void wait_for_state(Sandbox& sandbox, const std::string& job, const std::string&
   FAIL("job " << job << " is " << last << ", not " << state);
 }
 
-pid_t pid_of_node(Sandbox& sandbox, const std::string& rank) {
-  for (const std::string& line : lines_of(ok(sandbox, {"nodes"}))) {
-    std::istringstream words(line);
-    std::string name, gray, pid;
-    words >> name >> gray >> pid;
-    if (name == rank) return std::stoi(pid);
-  }
-  FAIL("no node " << rank);
-  return 0;
-}
-
 std::string first() { return scene_file("first.json").string(); }
 
 TEST_CASE("a session: up, submit, jobs, status, watch, fetch, cancel, nodes, down") {

@@ -193,7 +193,7 @@ TEST_CASE("strings and arrays longer than their fields are refused") {
 
 TEST_CASE("whatever text a message carries, it goes out printable and short enough") {
   const auto sent = [](const std::string& text) {
-    return std::get<control::NodeError>(message_of(encode(control::NodeError{1, text}))).message;
+    return std::get<control::NodeError>(message_of(encode(control::NodeError{1, 0, text}))).message;
   };
   CHECK(sent("tab\tnewline\nescape\x1b[2J") == "tab newline escape [2J");
   CHECK(sent("latin1 \xE9 cut \xC3") == "latin1 ? cut ?");
