@@ -41,8 +41,8 @@ std::unique_ptr<Checkpoint> checkpoint_of(const RenderCommand& command, const Ou
   if (command.checkpoint.empty()) return nullptr;
   check_output("--checkpoint", command.checkpoint, command.scene);
   for (const auto* file : {&outputs.exr, &outputs.png, &outputs.stats}) {
-    if (std::filesystem::absolute(*file).lexically_normal() ==
-        std::filesystem::absolute(command.checkpoint).lexically_normal())
+    if (!file->empty() && std::filesystem::absolute(*file).lexically_normal() ==
+                              std::filesystem::absolute(command.checkpoint).lexically_normal())
       throw usage_failure("--checkpoint " + command.checkpoint.string(),
                           "is written to as another file, too");
   }

@@ -1,6 +1,7 @@
 // The frontal dies: nothing that was accepted is lost, and clients wait.
 #include <signal.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <thread>

@@ -1,6 +1,7 @@
 // Tiles that are recorded and read again, and what damage does to their records.
 #include "proto/records/tile_records.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "catch.hpp"
