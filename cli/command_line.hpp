@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/farm/address.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
 #include "figures/figure_name.hpp"
@@ -25,7 +26,8 @@ struct RenderCommand {
 };
 
 struct SubmitCommand {
-  std::string connect, scene;
+  FarmAddress connect;
+  std::string scene;
   ModelChoice choice;
   Outputs outputs;
   control::JobOptions options;
@@ -35,42 +37,42 @@ struct SubmitCommand {
 };
 
 struct UpCommand {
-  std::string listen, state, http;
+  std::string listen, state, http, key;
   std::uint32_t nodes = 1, threads = 1;
   /// 0 for the frontal's default.
   std::uint32_t outbox_rays = 0;
 };
 
 struct JobsCommand {
-  std::string connect;
+  FarmAddress connect;
   bool as_json = false;
   std::uint32_t limit = 50, skip = 0;
 };
 struct StatusCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
   bool as_json = false;
 };
 struct WatchCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
   bool as_json = false;
 };
 struct CancelCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
 };
 struct FetchCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
   Outputs outputs;
 };
 struct NodesCommand {
-  std::string connect;
+  FarmAddress connect;
   bool as_json = false;
 };
 struct DownCommand {
-  std::string connect;
+  FarmAddress connect;
 };
 struct CheckCommand {
   std::string scene;

@@ -86,7 +86,7 @@ FrontalProcess::~FrontalProcess() {
 
 const std::string& FrontalProcess::wait_until_listening() {
   constexpr std::string_view prefix = "listening ";
-  constexpr std::string_view page_prefix = "page ";
+  constexpr std::string_view page_prefix = "page ", key_prefix = "key ", token_prefix = "token ";
   const auto until = std::chrono::steady_clock::now() + kStartLimit;
   std::string line;
   while (std::chrono::steady_clock::now() < until) {
@@ -110,6 +110,8 @@ const std::string& FrontalProcess::wait_until_listening() {
       return endpoint_;
     } else {
       if (line.starts_with(page_prefix)) page_ = line.substr(page_prefix.size());
+      if (line.starts_with(token_prefix)) token_ = line.substr(token_prefix.size());
+      if (line.starts_with(key_prefix)) key_file_ = line.substr(key_prefix.size());
       line.clear();
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/farm/address.hpp"
 #include "cli/options/declaring.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
@@ -22,7 +23,8 @@ void add_model_choice(Declaring& options, ModelChoice& choice);
 
 void add_job(Declaring& options, std::uint32_t& job);
 
-void add_connect(Declaring& options, std::string& connect);
+/// Which farm to connect to, and the file of its key.
+void add_connect(Declaring& options, FarmAddress& connect);
 
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help,
                  bool is_exr_required = false);

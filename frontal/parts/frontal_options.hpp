@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "frontal/preparation/preparation.hpp"
 #include "frontal/rendering/flow_limits.hpp"
 #include "topology/hypercube.hpp"
+#include "transport/secret.hpp"
 
 namespace graycube {
 
@@ -25,6 +27,10 @@ struct FrontalOptions {
   /// Clients may send scenes that they have compiled. Only for a client that is trusted: what
   /// readers of scenes check, such as that a camera has a direction, is not checked again.
   bool is_private = false;
+  /// What the farm's nodes show when they say hello, and the folder of their inboxes. Without a
+  /// secret, as in simulations, neither is checked.
+  std::optional<Secret> secret{};
+  std::string node_folder{};
 };
 
 /// Seconds on a clock that never goes back, and Unix time.

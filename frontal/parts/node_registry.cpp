@@ -52,7 +52,8 @@ std::vector<Rank> NodeRegistry::take_silent(double now_s) {
     Record& node = nodes_[rank];
     // A node that was to be started before time was first told counts as silent only from then on.
     if (node.last_heard_s == 0) node.last_heard_s = now_s;
-    if (now_s - node.last_heard_s < silence_s_) continue;
+    const double more_s = node.is_here ? 0 : kStartPerNode_s * static_cast<double>(nodes_.size());
+    if (now_s - node.last_heard_s < silence_s_ + more_s) continue;
     silent.push_back(Rank{rank});
     kills_.push_back({Rank{rank}, node.incarnation});
   }
