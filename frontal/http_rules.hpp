@@ -10,11 +10,11 @@ namespace graycube {
 
 /// What a request tells that decides whether it is answered; empty where it tells nothing.
 struct HttpRequestFacts {
-  std::string_view target, host, origin;
+  std::string_view target{}, host{}, origin{};
   /// Of the header Sec-Fetch-Site: where the page lies that made the browser ask.
-  std::string_view fetch_site;
+  std::string_view fetch_site{};
   /// Of the header Authorization.
-  std::string_view authorization;
+  std::string_view authorization{};
   bool is_write = false;
 };
 
