@@ -22,8 +22,16 @@ nlohmann::json nodes_of(Sandbox& sandbox) {
   return nlohmann::json::parse(ok(sandbox, {"nodes", "--json"}));
 }
 
+/// The endpoint of a node's inbox, once the node has said hello.
 std::string endpoint_of_node(Sandbox& sandbox, std::size_t rank) {
-  return nodes_of(sandbox).at(rank)["endpoint"];
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  do {
+    const std::string endpoint = nodes_of(sandbox).at(rank)["endpoint"];
+    if (!endpoint.empty()) return endpoint;
+    std::this_thread::sleep_for(20ms);
+  } while (std::chrono::steady_clock::now() < until);
+  FAIL("node " << rank << " doesn't start");
+  return "";
 }
 
 fs::path path_of(const std::string& endpoint) { return endpoint.substr(6); }
@@ -90,6 +98,7 @@ TEST_CASE("what says hello without the secret is no node, and the log tells of i
 TEST_CASE("the secret stands neither on command lines nor in environments") {
   Sandbox sandbox;
   Farm farm(sandbox);
+  for (std::size_t rank = 0; rank < 4; ++rank) endpoint_of_node(sandbox, rank);
   for (const auto& node : nodes_of(sandbox)) {
     const std::string folder = "/proc/" + std::to_string(node["pid"].get<int>());
     for (const char* file : {"/cmdline", "/environ"})
