@@ -1,5 +1,15 @@
 // Farms under limits of the system (ulimit).
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <future>
+#include <thread>
+#include <vector>
 
 #include "catch.hpp"
 #include "integration/farm.hpp"
@@ -34,6 +44,67 @@ TEST_CASE("a farm that doesn't fit is refused with what it needs, and leaves not
                    "100 (ulimit -Hn)") != std::string::npos);
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.files().empty());
+}
+
+/// Connections to a local socket that say nothing; closed at the end.
+class SilentPeers {
+ public:
+  SilentPeers(const std::string& path, int most) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.data(), path.size());
+    for (int i = 0; i < most; ++i) {
+      // Without waiting: those that nobody accepts fill the listener's queue.
+      const int s = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+      sockets_.push_back(s);
+      if (::connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
+    }
+  }
+  ~SilentPeers() {
+    for (const int s : sockets_) ::close(s);
+  }
+  SilentPeers(const SilentPeers&) = delete;
+  SilentPeers& operator=(const SilentPeers&) = delete;
+
+ private:
+  std::vector<int> sockets_;
+};
+
+nlohmann::json nodes_once_all_are_here(Sandbox& sandbox, const std::string& endpoint) {
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  nlohmann::json nodes;
+  do {
+    const Outcome o = sandbox.run({"nodes", "--json", "--connect", endpoint});
+    if (o.status == 0) {
+      nodes = nlohmann::json::parse(o.out);
+      const bool are_here = std::all_of(nodes.begin(), nodes.end(),
+                                        [](const auto& n) { return n["state"] == "idle"; });
+      if (are_here) return nodes;
+    }
+    std::this_thread::sleep_for(20ms);
+  } while (std::chrono::steady_clock::now() < until);
+  FAIL("not all nodes are there: " << nodes.dump());
+  return nodes;
+}
+
+TEST_CASE("a farm that is out of descriptors goes on, and replaces its nodes when it has some") {
+  Sandbox sandbox;
+  const std::string path = (sandbox / "farm").string(), endpoint = "ipc://" + path;
+  std::future<Outcome> up = std::async(std::launch::async, [&] {
+    return run_under(sandbox, "ulimit -n 100", "up -n 4 --listen " + endpoint);
+  });
+  const nlohmann::json before = nodes_once_all_are_here(sandbox, endpoint);
+  {
+    const SilentPeers peers(path, 120);
+    std::this_thread::sleep_for(300ms);
+    ::kill(before[0]["pid"], SIGKILL);
+    std::this_thread::sleep_for(300ms);
+  }
+  const nlohmann::json after = nodes_once_all_are_here(sandbox, endpoint);
+  CHECK(after[0]["pid"] != before[0]["pid"]);
+  CHECK(after[1]["pid"] == before[1]["pid"]);
+  CHECK(sandbox.run({"down", "--connect", endpoint}).status == 0);
+  CHECK(up.get().status == 0);
 }
 
 }  // namespace
