@@ -5,6 +5,8 @@
 #include <cctype>
 #include <utility>
 
+#include "transport/same_secret_text.hpp"
+
 namespace graycube {
 namespace {
 
@@ -45,16 +47,10 @@ bool HttpRules::is_own_host(std::string_view host) const {
   return std::ranges::any_of(own, [&](std::string_view o) { return is_same_name(name, o); });
 }
 
-/// In a time that doesn't depend on where the token differs.
 bool HttpRules::shows_token(std::string_view authorization) const {
   constexpr std::string_view scheme = "Bearer ";
-  if (!authorization.starts_with(scheme)) return false;
-  const std::string_view shown = authorization.substr(scheme.size());
-  if (token_.empty() || shown.size() != token_.size()) return false;
-  unsigned differences = 0;
-  for (std::size_t i = 0; i < token_.size(); ++i)
-    differences |= static_cast<unsigned>(static_cast<unsigned char>(shown[i] ^ token_[i]));
-  return differences == 0;
+  return !token_.empty() && authorization.starts_with(scheme) &&
+         is_same_secret_text(authorization.substr(scheme.size()), token_);
 }
 
 }  // namespace graycube

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "transport/same_secret_text.hpp"
 #include "transport/zmq_context.hpp"
 
 namespace graycube {
@@ -18,15 +19,6 @@ constexpr const char* kEndAt = "inproc://graycube.doorkeeper.end";
 /// Frames of a question: version, its number, domain, address, identity, mechanism, and what the
 /// mechanism adds: with PLAIN a user name and a password.
 enum Frame : std::size_t { kVersion, kNumber, kMechanism = 5, kUser, kPassword, kFrames };
-
-/// Whether two texts are the same, in a time that doesn't depend on where they differ.
-bool is_same(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  unsigned differences = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    differences |= static_cast<unsigned>(static_cast<unsigned char>(a[i] ^ b[i]));
-  return differences == 0;
-}
 
 std::vector<zmq::message_t> question_at(zmq::socket_t& asked) {
   std::vector<zmq::message_t> frames;
@@ -86,7 +78,7 @@ struct Doorkeeper::Impl {
     return question.size() == kFrames && question[kVersion].to_string_view() == "1.0" &&
            question[kMechanism].to_string_view() == "PLAIN" &&
            question[kUser].to_string_view() == kKeyUser &&
-           is_same(question[kPassword].to_string_view(), key);
+           is_same_secret_text(question[kPassword].to_string_view(), key);
   }
 
   std::string key;
