@@ -61,6 +61,7 @@ WORLDLY_FILES = {
     "common/memory/kept_heap.cpp": "asks the system for memory",
     "common/memory/large_pages.cpp": "asks the system for memory",
     "common/process/descriptors.cpp": "asks the system for its limits",
+    "common/process/accept.cpp": "stands in for a call of the system's",
     "common/process/clocks.hpp": "reads the system's clocks",
     "common/process/spawn_plan.cpp": "starts processes",
     "common/process/spawn_plan.hpp": "starts processes",
