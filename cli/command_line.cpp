@@ -115,6 +115,11 @@ class Parser {
     options.option(
         {.names = "--listen", .value = "ENDPOINT", .help = "ipc:///PATH or tcp://127.0.0.1:PORT"},
         [&up](const std::string& text) { up.listen = text; });
+    options.option({.names = "--key",
+                    .value = "FILE",
+                    .help = "Where the farm's key is kept, if it listens at a TCP port",
+                    .kind = ValueKind::kFile},
+                   [&up](const std::string& text) { up.key = text; });
     options.option({.names = "--state",
                     .value = "DIR",
                     .help = "Keep jobs and pictures there, over restarts",
@@ -388,7 +393,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     Command command = parser.parse(words);
     std::visit(
         [](auto& c) {
-          if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect);
+          if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect.endpoint);
           if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
         },
         command);

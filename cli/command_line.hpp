@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/farm/address.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
@@ -29,7 +30,8 @@ struct RenderCommand {
 };
 
 struct SubmitCommand {
-  std::string connect, scene;
+  FarmAddress connect;
+  std::string scene;
   ModelChoice choice;
   Outputs outputs;
   control::JobOptions options;
@@ -39,7 +41,7 @@ struct SubmitCommand {
 };
 
 struct UpCommand {
-  std::string listen, state, http;
+  std::string listen, state, http, key;
   /// A text of parse_keep_rule(); empty to keep everything.
   std::string keep;
   std::uint32_t nodes = 1, threads = 1;
@@ -49,36 +51,36 @@ struct UpCommand {
 };
 
 struct JobsCommand {
-  std::string connect;
+  FarmAddress connect;
   bool as_json = false;
   std::uint32_t limit = 50, skip = 0;
 };
 struct StatusCommand {
-  std::string connect;
+  FarmAddress connect;
   /// 0 where the farm itself is asked about.
   std::uint32_t number = 0;
   bool is_of_farm = false, as_json = false;
 };
 struct WatchCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
   bool as_json = false;
 };
 struct CancelCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
 };
 struct FetchCommand {
-  std::string connect;
+  FarmAddress connect;
   std::uint32_t job = 0;
   Outputs outputs;
 };
 struct NodesCommand {
-  std::string connect;
+  FarmAddress connect;
   bool as_json = false;
 };
 struct DownCommand {
-  std::string connect;
+  FarmAddress connect;
 };
 struct CheckCommand {
   std::string scene;

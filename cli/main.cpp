@@ -8,6 +8,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupts.hpp"
 #include "geometry/simd.hpp"
+#include "process/descriptors.hpp"
 #include "scene/scene_fault.hpp"
 
 namespace graycube {
@@ -23,6 +24,7 @@ ExitStatus run_command(int argc, char** argv) {
   if (const auto problem = choose_simd_from_environment()) {
     throw Failure(ExitStatus::kBadInput, Problem{"environment", "GRAYCUBE_SIMD", *problem});
   }
+  raise_descriptor_limit();
   const Command command = parse_command_line(argc, argv);
   return flushed(std::visit([](const auto& c) { return run(c); }, command));
 }

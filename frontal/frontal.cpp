@@ -1,5 +1,6 @@
 #include "frontal/frontal.hpp"
 
+#include <cstdio>
 #include <exception>
 #include <utility>
 
@@ -10,6 +11,9 @@
 
 namespace graycube {
 namespace {
+
+/// So many refused processes are told on standard error; further ones are only dropped.
+constexpr unsigned kMaxStrangersTold = 8;
 
 /// Does work for the job that is on: a check that fails there ends that job, not the farm.
 template <typename Work>
@@ -26,6 +30,7 @@ void in_job(Jobs& jobs, Work&& work) {
 
 Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
+      door_(options_.secret, options_.node_folder),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
       nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
@@ -59,7 +64,8 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
     return post_.answer(peer, Refusal{0, FailureCode::kBadRequest, error->field, error->why});
   }
   const auto& m = std::get<ControlMessage>(decoded);
-  if (const auto* hello = std::get_if<control::Hello>(&m)) return on_hello(peer, *hello);
+  if (const auto* hello = std::get_if<control::Hello>(&m))
+    return on_hello(peer, *hello, message.payload);
   if (!rank) return on_client(peer, m, message.payload);
   in_job(jobs_, [&] { on_node(*rank, m); });
   get_on();
@@ -75,7 +81,14 @@ void Frontal::get_on() {
 
 // ---- nodes
 
-void Frontal::on_hello(const PeerId& peer, const control::Hello& m) {
+void Frontal::on_hello(const PeerId& peer, const control::Hello& m,
+                       std::span<const std::byte> shown) {
+  if (const char* problem = door_.problem_of(m, shown)) {
+    // A stranger gets no answer.
+    if (++strangers_ <= kMaxStrangersTold)
+      std::fprintf(stderr, "graycube-frontal: dropped: a hello for node %u: %s\n", m.rank, problem);
+    return;
+  }
   if (auto refusal = nodes_.hello(peer, m, now_s_)) return post_.answer(peer, *std::move(refusal));
   post_.set_node(Rank{m.rank}, peer);
   if (!nodes_.all_here()) return;
@@ -130,6 +143,7 @@ void Frontal::give_result(const RecutResult& cut) {
 
 void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                         std::span<const std::byte> payload) {
+  if (const auto* write = std::get_if<control::Write>(&message)) return on_write(peer, *write);
   const auto refuse_type = [&]() -> Answer {
     return Refusal{0, FailureCode::kBadRequest, "type",
                    "'" + std::string(type_of(message)) + "' is not for a frontal"};
@@ -145,7 +159,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                        return Reply{nodes_.list(jobs_.keep_nodes_busy())};
                      },
                      [&](const control::Fetch& m) { return jobs_.fetch(m); },
-                     [&](const control::Write& m) { return jobs_.write(m); },
+                     [&](const control::Write&) { return refuse_type(); },
                      [&](const control::Farm&) -> Answer { return Reply{info()}; },
                      [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
                      [&](const control::Hello&) { return refuse_type(); },
@@ -155,6 +169,25 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                  message);
   post_.answer(peer, answer);
   if (std::holds_alternative<control::Down>(message)) go_down();
+}
+
+/// The files are written elsewhere, and the answer is sent when they are.
+void Frontal::on_write(const PeerId& peer, const control::Write& m) {
+  // A job that ends might take the picture's place in the store.
+  if (is_writing_ || jobs_.job_that_is_on()) {
+    return post_.answer(
+        peer, Refusal{m.job, FailureCode::kBusy, "", "another picture is written, or rendered"});
+  }
+  auto work = jobs_.write(m);
+  if (auto* refusal = std::get_if<Refusal>(&work)) return post_.answer(peer, std::move(*refusal));
+  writing_ = std::get<WritingWork>(std::move(work));
+  writing_->peer = peer;
+  is_writing_ = true;
+}
+
+void Frontal::give_result(WritingResult result) {
+  is_writing_ = false;
+  post_.answer(result.peer, std::move(result.answer));
 }
 
 Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scene) {

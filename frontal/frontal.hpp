@@ -11,6 +11,7 @@
 #include "frontal/jobs.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/heartbeat.hpp"
+#include "frontal/parts/node_door.hpp"
 #include "frontal/parts/node_registry.hpp"
 #include "frontal/parts/post.hpp"
 #include "transport/message.hpp"
@@ -38,11 +39,19 @@ class Frontal {
   void on_node_exit(const Process& process, const std::string& how);
 
   /// Preparing the next job, if there is one to prepare.
-  std::optional<PreparationWork> take_work() { return jobs_.take_work(); }
+  std::optional<PreparationWork> take_work() {
+    return is_writing_ ? std::nullopt : jobs_.take_work();
+  }
   void give_result(PreparationResult result);
   /// The same for what a slide of the boundaries needs.
   std::optional<RecutWork> take_recut() { return jobs_.take_recut(); }
   void give_result(const RecutResult& cut);
+  /// The same for files that are to be written. Until the result is given no job begins: the store
+  /// keeps the picture as long.
+  std::optional<WritingWork> take_writing() { return std::exchange(writing_, std::nullopt); }
+  void give_result(WritingResult result);
+
+  std::optional<std::uint32_t> job_that_is_on() const { return jobs_.job_that_is_on(); }
 
   std::vector<Outgoing> take_outgoing() { return post_.take(); }
   std::vector<Process> take_starts() { return nodes_.take_starts(); }
@@ -57,10 +66,11 @@ class Frontal {
   void go_down();
 
  private:
-  void on_hello(const PeerId& peer, const control::Hello& m);
+  void on_hello(const PeerId& peer, const control::Hello& m, std::span<const std::byte> shown);
   void on_node(Rank rank, const ControlMessage& message);
   void on_client(const PeerId& peer, const ControlMessage& message,
                  std::span<const std::byte> payload);
+  void on_write(const PeerId& peer, const control::Write& m);
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
@@ -68,12 +78,16 @@ class Frontal {
 
   FrontalOptions options_;
   double now_s_ = 0;
+  NodeDoor door_;
+  unsigned strangers_ = 0;
   Post post_;
   Heartbeat heartbeat_;
   NodeRegistry nodes_;
   Jobs jobs_;
   std::string fatal_error_;
   bool is_going_down_ = false;
+  std::optional<WritingWork> writing_;
+  bool is_writing_ = false;
 };
 
 }  // namespace graycube

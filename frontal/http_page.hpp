@@ -3,7 +3,8 @@
 namespace graycube {
 
 /// The farm at a glance; asks /api once a second. Everything shown goes through textContent, so
-/// that a scene's name can't be markup.
+/// that a scene's name can't be markup. With the farm's token behind the address's '#', which
+/// browsers send nowhere by themselves, jobs can be cancelled.
 inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">
@@ -33,12 +34,26 @@ inline constexpr const char* kHttpPage = R"page(<!DOCTYPE html>
 <table><thead><tr><th>Rank<th>Label<th>Process<th>State<th>Threads</tr></thead>
 <tbody id="nodes"></tbody></table>
 <script>
+const token = new URLSearchParams(location.hash.slice(1)).get("token");
 const pictures = new Map();
 function cell(row, text, name) {
   const td = row.insertCell();
   td.textContent = text;
   if (name) td.className = name;
   return td;
+}
+function cancelButton(job) {
+  const button = document.createElement("button");
+  button.textContent = "cancel";
+  button.setAttribute("aria-label", "cancel job " + job.job);
+  button.addEventListener("click", async () => {
+    button.disabled = true;
+    const answer = await fetch("/api/jobs/" + job.job + "/cancel",
+                               {method: "POST", headers: {Authorization: "Bearer " + token}});
+    if (!answer.ok) document.getElementById("note").textContent =
+        "Job " + job.job + " can't be cancelled (" + answer.status + ").";
+  });
+  return button;
 }
 function showJob(body, job) {
   const row = body.insertRow();
@@ -53,6 +68,8 @@ function showJob(body, job) {
   progress.append(bar, " " + job.tiles_whole + " of " + job.tiles + " parts are final");
   cell(row, job.rounds);
   const picture = cell(row, "");
+  const hasEnded = ["done", "failed", "cancelled"].includes(job.state);
+  if (token && !hasEnded) picture.append(cancelButton(job));
   if (job.state !== "done") return;
   if (!pictures.has(job.job)) {
     const image = new Image();

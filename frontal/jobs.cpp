@@ -64,6 +64,7 @@ void Jobs::check_time() {
   }
   if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
   look_for_lost_messages();
+  if (running_) progress_watch_.see(running_->info(), running_->stage(), now_.now_s);
   if (watchers_.are_due(now_.now_s)) tell_progress();
   if (running_) record_tiles(false);
   if (now_.now_s - cleared_s_ >= kClearInterval_s) {
@@ -110,10 +111,20 @@ Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) 
 }
 
 std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
-  if (running_ && running_->id() == job) return running_->info_at(now_.now_s);
-  if (const auto* queued = queue_.find(job)) return *queued;
+  if (running_ && running_->id() == job) return running_info();
+  if (const auto* queued = queue_.find(job)) {
+    control::JobInfo info = *queued;
+    if (running_) info.message = "waits for job " + std::to_string(running_->id()) + " to end";
+    return info;
+  }
   if (const EndedJob* ended = ended_.find(job)) return ended->info;
   return std::nullopt;
+}
+
+control::JobInfo Jobs::running_info() const {
+  control::JobInfo info = running_->info_at(now_.now_s);
+  info.message = "waits for " + progress_watch_.waits_for(info, running_->stage(), now_.now_s);
+  return info;
 }
 
 Answer Jobs::status(std::uint32_t job) const {
@@ -124,7 +135,7 @@ Answer Jobs::status(std::uint32_t job) const {
 Answer Jobs::list() const {
   control::Jobs list;
   const auto has_room = [&] { return list.jobs.size() < kMaxJobsListed; };
-  if (running_) list.jobs.push_back(running_->info_at(now_.now_s));
+  if (running_) list.jobs.push_back(running_info());
   for (const QueuedJob& job : queue_.all()) {
     if (has_room()) list.jobs.push_back(job.info);
   }
@@ -175,14 +186,13 @@ Answer Jobs::fetch(const control::Fetch& m) {
 
 /// The picture need not go through sockets: the client that asks has started this frontal, and
 /// could write the files itself.
-Answer Jobs::write(const control::Write& m) {
+std::variant<WritingWork, Refusal> Jobs::write(const control::Write& m) {
   if (!farm_.is_private) {
     return Refusal{m.job, FailureCode::kBadRequest, "type", "only a private frontal writes files"};
   }
   const auto found = picture(m.job);
   if (const auto* refusal = std::get_if<Refusal>(&found)) return *refusal;
-  const PictureOrigin origin{find(m.job)->scene, farm_.version};
-  return write_picture(*std::get<const Picture*>(found), m, origin, cpu_.used_s);
+  return WritingWork{{}, m, std::get<const Picture*>(found), {find(m.job)->scene, farm_.version}};
 }
 
 // ---- its preparation

@@ -12,8 +12,10 @@
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
 #include "frontal/parts/post.hpp"
+#include "frontal/parts/progress_watch.hpp"
 #include "frontal/parts/running_job.hpp"
 #include "frontal/parts/watchers.hpp"
+#include "frontal/parts/writing.hpp"
 
 namespace graycube {
 
@@ -37,7 +39,8 @@ class Jobs {
   Answer watch(const PeerId& peer, std::uint32_t job);
   Answer cancel(std::uint32_t job);
   Answer fetch(const control::Fetch& m);
-  Answer write(const control::Write& m);
+  /// The writing that is asked for, for which nobody is named yet, or why it isn't done.
+  std::variant<WritingWork, Refusal> write(const control::Write& m);
 
   /// The preparation of the next job, once none is on.
   std::optional<PreparationWork> take_work();
@@ -48,6 +51,10 @@ class Jobs {
   /// Whether the job that is on waits for all nodes to be here; then load() loads it.
   bool waits_to_be_loaded() const { return running_ && running_->waits_to_be_loaded(); }
   void load();
+  /// The job that is on, for which alone it is worth to prepare or to cut anything.
+  std::optional<std::uint32_t> job_that_is_on() const {
+    return running_ ? std::optional(running_->id()) : std::nullopt;
+  }
   /// Whether nodes work on a job.
   bool keep_nodes_busy() const { return running_ && running_->is_loaded(); }
 
@@ -90,6 +97,8 @@ class Jobs {
   QueuedJob queued(control::JobInfo info, const control::JobOptions& options) const;
   bool is_rendered() const { return running_ && running_->is_prepared(); }
   std::optional<control::JobInfo> find(std::uint32_t job) const;
+  /// The running job, with what it waits for as its message; one must be on.
+  control::JobInfo running_info() const;
   /// The picture of a job that is done.
   std::variant<const Picture*, Refusal> picture(std::uint32_t job);
   void look_for_lost_messages();
@@ -114,6 +123,7 @@ class Jobs {
   std::optional<RunningJob> running_;
   EndedJobs ended_;
   Watchers watchers_;
+  ProgressWatch progress_watch_;
 };
 
 }  // namespace graycube

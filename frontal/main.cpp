@@ -12,17 +12,22 @@
 #include <iostream>
 #include <thread>
 
+#include "frontal/doors.hpp"
 #include "frontal/frontal.hpp"
 #include "frontal/http_server.hpp"
+#include "frontal/loop_watch.hpp"
 #include "frontal/node_processes.hpp"
 #include "frontal/parts/patience.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "frontal/store/checkpoint_store.hpp"
 #include "frontal/store/database_store.hpp"
+#include "frontal/writing_thread.hpp"
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
+#include "process/descriptors.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
+#include "transport/secret.hpp"
 #include "transport/zmq_sockets.hpp"
 #include "version.hpp"
 
@@ -33,7 +38,7 @@ namespace fs = std::filesystem;
 
 struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
-  std::string listen, state, http;
+  std::string listen, state, http, key;
   KeepRule keep;
   /// Of a private frontal: where tiles are recorded, and the digest of what decides the picture.
   std::string checkpoint;
@@ -72,10 +77,10 @@ class FrontalProcess {
  public:
   FrontalProcess(const FrontalArguments& a, int signals)
       : signals_(signals),
-        inbox_(context_,
-               a.is_private ? "ipc://" + (folder_.path() / "frontal").string() : a.listen),
+        secret_(make_secret()),
+        doors_(folder_.path(), a.is_private ? "" : a.listen, a.key),
         store_(make_store(a)),
-        processes_(own_folder() / "graycube-node", folder_.path(), a.threads),
+        processes_(own_folder() / "graycube-node", folder_.path(), a.threads, secret_),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
                   .threads = a.threads,
                   .heartbeat_s = ping_interval_s(silence_of(a)),
@@ -89,17 +94,25 @@ class FrontalProcess {
                   .keeps_jobs = !a.state.empty() && !a.ends_jobs,
                   .records_tiles = store_->records_tiles(),
                   .picture_content = a.picture_content,
-                  .endpoint = inbox_.endpoint(),
+                  .endpoint = doors_.for_clients(),
                   .pid = static_cast<std::uint64_t>(::getpid()),
-                  .started_s = seconds_of(CLOCK_REALTIME)},
+                  .started_s = seconds_of(CLOCK_REALTIME),
+                  .secret = secret_,
+                  .node_folder = folder_.path().string()},
                  *store_),
-        preparation_(wakeup_) {
+        preparation_(wakeup_),
+        writing_thread_(wakeup_),
+        tells_of_long_turns_(!a.is_private) {
     frontal_.set_cpu_meter({[this] { return process_cpu_seconds() + processes_.start_cpu_s(); },
                             [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
-    if (!a.http.empty()) http_.emplace(a.http, inbox_.endpoint(), folder_.path());
+    if (!a.http.empty()) {
+      const std::string token = hex_of(make_secret());
+      http_.emplace(a.http, token, folder_.path(), desk_);
+      std::cout << "page " << http_->url() << std::endl << "token " << token << std::endl;
+    }
     std::cout << "folder " << folder_.path().string() << std::endl;
-    if (http_) std::cout << "page " << http_->url() << std::endl;
-    std::cout << "listening " << inbox_.endpoint() << std::endl;
+    if (!doors_.key_file().empty()) std::cout << "key " << doors_.key_file() << std::endl;
+    std::cout << "listening " << doors_.for_clients() << std::endl;
     own_start_cpu_s_ = process_cpu_seconds();
   }
 
@@ -108,6 +121,7 @@ class FrontalProcess {
     double down_since_s = 0;
     for (;;) {
       const Moment now = this_moment();
+      loop_watch_.begin(now.now_s);
       frontal_.on_time(now);
       take_events();
       if (frontal_.is_going_down()) {
@@ -115,8 +129,9 @@ class FrontalProcess {
         if (processes_.empty() || now.now_s - down_since_s > kGrace_s)
           return frontal_.fatal_error();
       }
-      Readable* const sockets[] = {&inbox_};
+      const auto sockets = doors_.sockets();
       const int descriptors[] = {wakeup_.descriptor(), signals_};
+      if (tells_of_long_turns_) loop_watch_.end(seconds_of(CLOCK_MONOTONIC));
       wait_readable(sockets, descriptors, kTick);
       wakeup_.clear();
     }
@@ -142,11 +157,18 @@ class FrontalProcess {
     }
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
-    while (auto m = inbox_.receive()) {
+    while (auto m = doors_.receive()) {
       frontal_.on_time(this_moment());
       frontal_.on_message(m->peer, m->message);
       flush();
     }
+    for (const HttpDesk::Question& q : desk_.take()) {
+      frontal_.on_message(HttpDesk::peer_of(q.number), q.message);
+      flush();
+    }
+    if (auto written = writing_thread_.take()) frontal_.give_result(*std::move(written));
+    if (auto work = frontal_.take_writing()) writing_thread_.give(*std::move(work));
+    preparation_.work_only_for(frontal_.job_that_is_on());
     if (preparation_.is_free()) {
       if (auto work = frontal_.take_work()) {
         preparation_.give(std::move(*work));
@@ -164,28 +186,54 @@ class FrontalProcess {
     }
   }
 
+  void send(Frontal::Outgoing& o) {
+    if (const auto number = HttpDesk::number_of(o.to)) {
+      if (http_) http_->answer(*number, std::move(o.message));
+    } else {
+      doors_.send(o.to, std::move(o.message));
+    }
+  }
+
   void flush() {
-    for (Frontal::Outgoing& o : frontal_.take_outgoing()) inbox_.send(o.to, std::move(o.message));
+    for (Frontal::Outgoing& o : frontal_.take_outgoing()) send(o);
     for (const Frontal::Process& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
     std::vector<NodeStart> starts;
     for (const Frontal::Process& s : frontal_.take_starts())
       starts.push_back({s.rank, s.incarnation});
-    processes_.start(starts, inbox_.endpoint());
+    processes_.start(starts, doors_.for_nodes(), this_moment().now_s);
   }
 
   int signals_;
   double own_start_cpu_s_ = 0;
   TemporaryFolder folder_;
-  ZmqContext context_;
+  Secret secret_;
   Wakeup wakeup_;
-  Inbox inbox_;
+  HttpDesk desk_{wakeup_};
+  Doors doors_;
   std::unique_ptr<JobStore> store_;
   NodeProcesses processes_;
   Frontal frontal_;
   PreparationThread preparation_;
+  WritingThread writing_thread_;
   std::optional<HttpServer> http_;
+  LoopWatch loop_watch_;
+  /// A private farm's command has its own terminal, where such lines would be of no use.
+  bool tells_of_long_turns_;
 };
+
+/// Open files and sockets of a frontal beside those that lead to nodes; and of a node, in the
+/// largest hypercube.
+constexpr std::uint64_t kOwnDescriptors = 64, kNodeDescriptors = 64;
+
+/// Why a farm of so many nodes can't run with so many open files for each process.
+std::optional<std::string> descriptor_problem(std::uint32_t nodes, std::uint64_t limit) {
+  const std::uint64_t needed = std::max(kOwnDescriptors + nodes, kNodeDescriptors);
+  if (limit >= needed) return std::nullopt;
+  return std::to_string(nodes) + " nodes need " + std::to_string(needed) +
+         " open files and sockets, and the system lets a process have " + std::to_string(limit) +
+         " (ulimit -Hn)";
+}
 
 int fail(const std::string& what, const std::string& why, int status) {
   std::fprintf(stderr, "graycube-frontal: %s: %s\n", what.c_str(), why.c_str());
@@ -200,6 +248,7 @@ int run_main(int argc, char** argv) {
   app.add_option("--threads", a.threads, "Evaluator threads per node")
       ->check(CLI::Range(1u, kMaxThreads));
   app.add_option("--listen", a.listen, "Endpoint for clients");
+  app.add_option("--key", a.key, "File of the key that clients at a TCP port must show");
   app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
   app.add_flag(
       "--ends-jobs", a.ends_jobs,
@@ -239,6 +288,8 @@ int run_main(int argc, char** argv) {
       return fail("usage: --http", *problem, 2);
     }
   }
+  if (const auto problem = descriptor_problem(a.nodes, raise_descriptor_limit()))
+    return fail("farm", *problem, 1);
   const int signals = signal_descriptor();
   if (a.is_private) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   keep_freed_memory(1, kLargeHeap);

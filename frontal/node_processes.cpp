@@ -19,6 +19,10 @@
 namespace graycube {
 namespace {
 
+/// Without descriptors, processes or memory, starting is tried so often, with so long a pause.
+constexpr unsigned kStartTries = 5;
+constexpr double kStartPause_s = 0.3;
+
 class Pipe {
  public:
   Pipe() {
@@ -41,6 +45,29 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
+/// Moves a descriptor that the child must not get for another one: copies are made in an order in
+/// which the child's number may already be one of these.
+int beyond_inherited(int descriptor) {
+  const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kSecretDescriptor + 1);
+  const int error = errno;
+  ::close(descriptor);
+  if (moved < 0) throw std::system_error(error, std::generic_category(), "the farm's secret");
+  return moved;
+}
+
+class SecretFile {
+ public:
+  explicit SecretFile(const Secret& secret)
+      : descriptor_(beyond_inherited(make_secret_file(secret))) {}
+  ~SecretFile() { ::close(descriptor_); }
+  SecretFile(const SecretFile&) = delete;
+  SecretFile& operator=(const SecretFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 /// Reads all that comes out of a pipe until its other end is closed.
 std::string all_of(int pipe) {
   std::string text;
@@ -53,12 +80,16 @@ std::string all_of(int pipe) {
 }
 
 /// Runs a program to its end and returns what it wrote. Its CPU time is added to `cpu_s`. Its
-/// standard input, and that of processes it leaves behind, ends when it has ended.
-std::string output_of(const std::vector<std::string>& command, double& cpu_s) {
+/// standard input, and that of processes it leaves behind, ends when it has ended. They inherit the
+/// secret. Throws std::system_error when it can't be started.
+std::string output_of(const std::vector<std::string>& command, const Secret& secret,
+                      double& cpu_s) {
   Pipe input, output;
+  const SecretFile secret_file(secret);
   SpawnPlan plan;
   plan.pass_as(STDIN_FILENO, input.reading_end());
   plan.pass_as(STDOUT_FILENO, output.writing_end());
+  plan.pass_as(kSecretDescriptor, secret_file.descriptor());
   plan.handle_all_as_usual();
   plan.block_no_signals();
   pid_t pid = 0;
@@ -77,8 +108,8 @@ std::string output_of(const std::vector<std::string>& command, double& cpu_s) {
 }  // namespace
 
 NodeProcesses::NodeProcesses(std::filesystem::path program, std::filesystem::path folder,
-                             std::uint32_t threads)
-    : program_(std::move(program)), folder_(std::move(folder)), threads_(threads) {
+                             std::uint32_t threads, const Secret& secret)
+    : program_(std::move(program)), folder_(std::move(folder)), secret_(secret), threads_(threads) {
   // The nodes' own parent ends at once: they become children of this process.
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
@@ -88,21 +119,45 @@ NodeProcesses::~NodeProcesses() {
   for (const auto& [pid, child] : running_) ::waitpid(pid, nullptr, 0);
 }
 
-void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& frontal) {
-  if (nodes.empty()) return;
+void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& frontal,
+                          double now_s) {
+  for (const NodeStart& node : nodes) {
+    std::erase_if(waiting_, [&](const Waiting& w) { return w.node.rank == node.rank; });
+    waiting_.push_back({node, 0});
+  }
+  if (waiting_.empty() || (nodes.empty() && now_s < next_try_s_)) return;
+  next_try_s_ = now_s + kStartPause_s;
+  std::string why;
+  try {
+    start_waiting(frontal, why);
+  } catch (const std::system_error& e) {
+    why = e.what();
+  }
+  for (Waiting& w : waiting_) {
+    if (++w.tries < kStartTries) continue;
+    not_started_.push_back({w.node.rank, w.node.incarnation, "can't be started: " + why});
+  }
+  std::erase_if(waiting_, [](const Waiting& w) { return w.tries >= kStartTries; });
+}
+
+/// Those that start wait no longer; `why` tells why others didn't. Throws std::system_error when
+/// none can be.
+void NodeProcesses::start_waiting(const std::string& frontal, std::string& why) {
   std::vector<std::string> command{program_.string(), "--threads", std::to_string(threads_),
                                    "--frontal",       frontal,     "--folder",
                                    folder_.string()};
-  for (const NodeStart& node : nodes) {
-    command.insert(command.end(), {"--rank", std::to_string(node.rank.value), "--incarnation",
-                                   std::to_string(node.incarnation)});
+  for (const Waiting& w : waiting_) {
+    command.insert(command.end(), {"--rank", std::to_string(w.node.rank.value), "--incarnation",
+                                   std::to_string(w.node.incarnation)});
   }
-  std::istringstream pids(output_of(command, start_cpu_s_));
-  for (const NodeStart& node : nodes) {
-    pid_t pid = 0;
-    if (!(pids >> pid)) throw std::system_error(EAGAIN, std::generic_category(), program_.string());
-    running_[pid] = node;
-  }
+  std::istringstream pids(output_of(command, secret_, start_cpu_s_));
+  std::size_t started = 0;
+  for (pid_t pid = 0; started < waiting_.size() && pids >> pid; ++started)
+    running_[pid] = waiting_[started].node;
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(started));
+  pids.clear();
+  std::getline(pids >> std::ws, why);
+  if (why.empty()) why = program_.string() + " ended";
 }
 
 void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
@@ -112,7 +167,7 @@ void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
 }
 
 std::vector<NodeExit> NodeProcesses::reap() {
-  std::vector<NodeExit> exits;
+  std::vector<NodeExit> exits = std::exchange(not_started_, {});
   for (;;) {
     // Nodes are the only children here. If each were asked for by its id, every message would cost
     // as many calls as there are nodes.

@@ -1,6 +1,8 @@
-// Prepares scenes, and cuts them anew, beside the mailroom, which must stay quick to answer.
+// Prepares scenes, and cuts them anew, beside the mailroom, which must stay quick to answer. Work
+// for a job that has ended meanwhile is stopped, so that the next one needn't wait for it.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -12,6 +14,7 @@
 #include "frontal/preparation/preparation.hpp"
 #include "frontal/preparation/recut.hpp"
 #include "overloaded.hpp"
+#include "stop_point.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube {
@@ -26,6 +29,7 @@ class PreparationThread {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
+      stops_work_ = true;
     }
     changed_.notify_all();
     thread_.join();
@@ -37,8 +41,15 @@ class PreparationThread {
   }
   void give(Work work) {
     const std::lock_guard lock(mutex_);
+    job_ = std::visit([](const auto& w) { return w.job; }, work);
+    stops_work_ = stopping_;
     work_ = std::move(work);
     changed_.notify_all();
+  }
+  /// Ends the work that is under way unless it is for that job, if there is one; it has no result.
+  void work_only_for(std::optional<std::uint32_t> job) {
+    const std::lock_guard lock(mutex_);
+    if ((work_ || busy_) && job != job_) stops_work_ = true;
   }
   std::optional<Result> take() {
     const std::lock_guard lock(mutex_);
@@ -59,14 +70,23 @@ class PreparationThread {
       work_.reset();
       busy_ = true;
       lock.unlock();
-      Result result = std::visit(
-          Overloaded{[](const PreparationWork& w) -> Result { return prepare(w, seconds); },
-                     [](const RecutWork& w) -> Result { return recut(w, seconds); }},
-          work);
+      std::optional<Result> result = result_of(work);
       lock.lock();
       busy_ = false;
       result_ = std::move(result);
       mailroom_.signal();
+    }
+  }
+  /// Nothing when it was stopped.
+  std::optional<Result> result_of(const Work& work) {
+    const Stoppable stoppable(stops_work_);
+    try {
+      return std::visit(
+          Overloaded{[](const PreparationWork& w) -> Result { return prepare(w, seconds); },
+                     [](const RecutWork& w) -> Result { return recut(w, seconds); }},
+          work);
+    } catch (const WorkStopped&) {
+      return std::nullopt;
     }
   }
 
@@ -75,7 +95,10 @@ class PreparationThread {
   std::condition_variable changed_;
   std::optional<Work> work_;
   std::optional<Result> result_;
+  /// The job that work is for.
+  std::uint32_t job_ = 0;
   bool busy_ = false, stopping_ = false;
+  std::atomic<bool> stops_work_{false};
   std::thread thread_;
 };
 

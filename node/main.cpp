@@ -19,7 +19,10 @@
 #include "node/evaluator_pool.hpp"
 #include "node/fifo_process.hpp"
 #include "node/node.hpp"
+#include "node/parts/neighbour_door.hpp"
+#include "process/descriptors.hpp"
 #include "transport/endpoint.hpp"
+#include "transport/secret.hpp"
 #include "version.hpp"
 
 namespace graycube {
@@ -32,6 +35,8 @@ struct NodeArguments {
   std::vector<std::uint32_t> ranks, incarnations;
   std::uint32_t threads = 1;
   std::string frontal, folder;
+  /// What the farm's own processes know.
+  Secret secret{};
 };
 
 std::string inbox_of(const NodeArguments& a, std::size_t number) {
@@ -53,13 +58,16 @@ class Mailroom {
         node_({rank_, a.incarnations[number], static_cast<std::uint64_t>(::getpid()),
                inbox_.endpoint(), a.threads, kVersion}),
         pool_(node_, wakeup_),
+        door_(rank_, a.secret),
         fifo_(program_beside("graycube-fifo")) {
     node_.measure = [this, measure = std::move(node_.measure)](control::NodeStats& stats) {
       measure(stats);
       stats.fifo_cpu_s = fifo_.cpu_s();
       stats.cpu_s += stats.fifo_cpu_s;
     };
-    frontal_.send(node_.hello());
+    Message hello = node_.hello();
+    hello.payload = Bytes(a.secret.begin(), a.secret.end());
+    frontal_.send(std::move(hello));
   }
 
   void run() {
@@ -84,8 +92,7 @@ class Mailroom {
  private:
   void take_mail() {
     while (auto m = inbox_.receive()) {
-      note_peer(*m);
-      node_.on_neighbour(m->message.frame);
+      if (door_.lets_in(m->peer, m->message)) node_.on_neighbour(m->message.frame);
     }
     for (auto& [to, link] : links_) {
       while (const auto m = link.receive_view()) node_.on_neighbour(m->frame);
@@ -104,8 +111,8 @@ class Mailroom {
     if (!o.to) return frontal_.send(std::move(o.message));
     if (!connects_to(rank_, *o.to)) {
       // Whoever has not greeted yet has not begun any job either.
-      const auto peer = peers_.find(*o.to);
-      if (peer != peers_.end()) inbox_.send(peer->second, std::move(o.message));
+      const std::string* const peer = door_.connection_to(*o.to);
+      if (peer != nullptr) inbox_.send(*peer, std::move(o.message));
       return;
     }
     auto link = links_.find(*o.to);
@@ -113,28 +120,21 @@ class Mailroom {
       link = links_.emplace(*o.to, Connection(context_, node_.endpoints()[o.to->value])).first;
       sockets_.push_back(&link->second);
     }
+    door_.sign(o.message);
     link->second.send(std::move(o.message));
-  }
-
-  /// Remembers by which connection a neighbour is reached; a new process greets on a new one.
-  void note_peer(const Inbox::Received& m) {
-    const auto header = peek_header(m.message.frame);
-    const auto* h = std::get_if<BatchHeader>(&header);
-    if (h != nullptr && h->type == BatchType::kGreeting) peers_[Rank{h->stamp.sender}] = m.peer;
   }
 
   ZmqContext context_;
   Wakeup wakeup_;
   Inbox inbox_;
   Connection frontal_;
-  /// Connections to the neighbours that this node connects to; and the ids by which the inbox
-  /// reaches the others.
+  /// Connections to the neighbours that this node connects to.
   std::map<Rank, Connection> links_;
-  std::map<Rank, std::string> peers_;
   std::vector<Readable*> sockets_{&inbox_, &frontal_};
   Rank rank_;
   Node node_;
   EvaluatorPool pool_;
+  NeighbourDoor door_;
   FifoProcess fifo_;
   std::vector<Node::Outgoing> outgoing_;
   std::vector<Bytes> for_fifo_;
@@ -186,8 +186,11 @@ int fork_nodes(const NodeArguments& a) {
   std::string pids;
   for (std::size_t number = 0; number < a.ranks.size(); ++number) {
     const pid_t pid = ::fork();
-    if (pid < 0)
-      return fail("start", "node " + std::to_string(a.ranks[number]), std::strerror(errno), 1);
+    if (pid < 0) {
+      // The frontal reads why there are no more.
+      pids += std::string(std::strerror(errno)) + '\n';
+      break;
+    }
     if (pid == 0) {
       // The frontal waits for the end of standard output, so the nodes must not keep it open.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -231,6 +234,10 @@ int run_main(int argc, char** argv) {
   if (const auto problem = choose_simd_from_environment()) {
     return fail("environment", "GRAYCUBE_SIMD", *problem, 2);
   }
+  const auto secret = take_secret(kSecretDescriptor);
+  if (!secret) return fail("usage", "command line", "nodes are started by graycube-frontal", 2);
+  a.secret = *secret;
+  raise_descriptor_limit();
   return fork_nodes(a);
 }
 

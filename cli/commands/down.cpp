@@ -23,22 +23,22 @@ bool has_gone(const std::string& endpoint, pid_t process) {
 }  // namespace
 
 ExitStatus run(const DownCommand& command) {
-  const pid_t process = find_listener(command.connect).process;
+  const pid_t process = find_listener(command.connect.endpoint).process;
   {
     FarmClient farm(command.connect);
     farm.expect_end();
     farm.ask<control::Bye>(control::Down{}, "down");
   }
   const auto until = std::chrono::steady_clock::now() + kDownLimit;
-  while (!has_gone(command.connect, process)) {
+  while (!has_gone(command.connect.endpoint, process)) {
     if (std::chrono::steady_clock::now() > until) {
       throw Failure(ExitStatus::kFailed,
-                    Problem{"farm", command.connect, "it was told to stop, and has not"});
+                    Problem{"farm", command.connect.endpoint, "it was told to stop, and has not"});
     }
     std::this_thread::sleep_for(kPollInterval);
   }
-  remove_stale_socket(command.connect);
-  std::printf("the farm at %s has stopped\n", command.connect.c_str());
+  remove_stale_socket(command.connect.endpoint);
+  std::printf("the farm at %s has stopped\n", command.connect.endpoint.c_str());
   return ExitStatus::kDone;
 }
 

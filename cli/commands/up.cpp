@@ -1,5 +1,4 @@
 // graycube up: a farm in the foreground.
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,6 +17,7 @@
 #include "cli/temporary_place.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
+#include "transport/farm_key.hpp"
 
 namespace graycube {
 namespace {
@@ -29,17 +29,11 @@ fs::path folder_of(const std::string& ipc_endpoint) {
 }
 
 /// Makes the default endpoint's folder, which only the user may enter.
-void make_private_folder(const std::string& endpoint) {
-  const fs::path folder = folder_of(endpoint);
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
-    throw Failure(ExitStatus::kFailed, Problem{"farm", folder.string(), std::strerror(errno)});
-  }
-  struct stat status {};
-  if (::lstat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
-      status.st_uid != ::geteuid() || (status.st_mode & 0077) != 0) {
-    throw Failure(ExitStatus::kFailed,
-                  Problem{"farm", folder.string(),
-                          "expected a folder of this user that nobody else may enter"});
+void make_own_folder(const std::string& endpoint) {
+  try {
+    make_private_folder(folder_of(endpoint).string());
+  } catch (const KeyError& e) {
+    throw Failure(ExitStatus::kFailed, Problem{"farm", "its folder", e.what()});
   }
 }
 
@@ -70,10 +64,10 @@ std::string connect_option(const std::string& endpoint, bool is_default) {
   return is_default ? "" : " --connect " + endpoint;
 }
 
-void refuse_second_farm(const std::string& endpoint, bool is_default) {
+void refuse_second_farm(const std::string& endpoint, const std::string& key, bool is_default) {
   remove_stale_socket(endpoint);
   if (!find_listener(endpoint).is_there) return;
-  FarmClient farm(endpoint);
+  FarmClient farm({endpoint, key});
   farm.send(control::Nodes{});
   const auto answer = farm.receive(kFirstAnswer);
   throw Failure(ExitStatus::kFailed,
@@ -95,6 +89,7 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::p
   }
   for (const std::string& word : loss_arguments(command.losses)) arguments.push_back(word);
   if (!command.keep.empty()) arguments.insert(arguments.end(), {"--keep", command.keep});
+  if (!command.key.empty()) arguments.insert(arguments.end(), {"--key", command.key});
   if (command.outbox_rays != 0) {
     arguments.insert(arguments.end(), {"--outbox-rays", std::to_string(command.outbox_rays)});
   }
@@ -143,8 +138,8 @@ ExitStatus run(const UpCommand& command) {
   }
   check_folders(command, endpoint, is_default);
   catch_interrupts("up", 0);
-  if (is_default) make_private_folder(endpoint);
-  refuse_second_farm(endpoint, is_default);
+  if (is_default) make_own_folder(endpoint);
+  refuse_second_farm(endpoint, command.key, is_default);
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
   std::optional<TemporaryFolder> passing;
@@ -154,7 +149,11 @@ ExitStatus run(const UpCommand& command) {
   }
   SupervisedFrontal frontal(frontal_arguments(command, passing ? passing->path() : fs::path()),
                             endpoint, command.http);
-  if (!frontal.page().empty()) std::printf("web page at %s\n", frontal.page().c_str());
+  if (!frontal.page().empty()) {
+    std::printf("web page at %s\nthe same with leave to cancel jobs: %s/#token=%s\n",
+                frontal.page().c_str(), frontal.page().c_str(), frontal.token().c_str());
+  }
+  if (!frontal.key_file().empty()) std::printf("key in %s\n", frontal.key_file().c_str());
   print_usage_hint(command, frontal.endpoint(), is_default);
   frontal.run();
   frontal.stop();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/farm/door.hpp"
 #include "cli/farm/listener.hpp"
 #include "cli/interrupts.hpp"
 #include "proto/control.hpp"
+#include "transport/farm_key.hpp"
 
 namespace graycube {
 namespace {
@@ -36,9 +38,9 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
       .told_by_farm(failed.code == FailureCode::kDeadlock, failed.stats ? failed.stats->text : "");
 }
 
-FarmClient::FarmClient(std::string endpoint, std::function<void()> check)
-    : endpoint_(std::move(endpoint)), check_(std::move(check)) {
-  connection_.emplace(context_, endpoint_);
+FarmClient::FarmClient(const FarmAddress& farm, std::function<void()> check)
+    : endpoint_(farm.endpoint), check_(std::move(check)) {
+  connection_.emplace(context_, endpoint_, key_shown_at(farm));
   connection_->watch_loss();
 }
 
@@ -111,8 +113,9 @@ Received FarmClient::answer() {
 Failure FarmClient::silence() const {
   return {ExitStatus::kFailed,
           Problem{"farm", endpoint_,
-                  has_answered_ ? "it answers no longer"
-                                : "nobody answers; start one with 'graycube up'"}};
+                  has_answered_          ? "it answers no longer"
+                  : needs_key(endpoint_) ? "somebody listens there, but doesn't answer to this key"
+                                         : "nobody answers; start one with 'graycube up'"}};
 }
 
 }  // namespace graycube

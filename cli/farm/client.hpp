@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "cli/failure.hpp"
+#include "cli/farm/address.hpp"
 #include "proto/messages.hpp"
 #include "transport/zmq_sockets.hpp"
 
@@ -35,9 +36,10 @@ class FarmClient {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `check` is called every now and then during a wait, and may throw to end that.
+  /// Throws a Failure when somebody else may listen there (door.hpp). `check` is called every now
+  /// and then during a wait, and may throw to end that.
   explicit FarmClient(
-      std::string endpoint, std::function<void()> check = [] {});
+      const FarmAddress& farm, std::function<void()> check = [] {});
 
   const std::string& endpoint() const { return endpoint_; }
   void send(const ControlMessage& message, SharedBytes payload = {});

@@ -83,7 +83,8 @@ FrontalProcess::~FrontalProcess() {
 
 const std::string& FrontalProcess::wait_until_listening() {
   constexpr std::string_view prefix = "listening ";
-  constexpr std::string_view page_prefix = "page ", folder_prefix = "folder ";
+  constexpr std::string_view page_prefix = "page ", folder_prefix = "folder ", key_prefix = "key ",
+                             token_prefix = "token ";
   const auto until = std::chrono::steady_clock::now() + kStartLimit;
   std::string line;
   while (std::chrono::steady_clock::now() < until) {
@@ -108,6 +109,8 @@ const std::string& FrontalProcess::wait_until_listening() {
     } else {
       if (line.starts_with(page_prefix)) page_ = line.substr(page_prefix.size());
       if (line.starts_with(folder_prefix)) folder_ = line.substr(folder_prefix.size());
+      if (line.starts_with(token_prefix)) token_ = line.substr(token_prefix.size());
+      if (line.starts_with(key_prefix)) key_file_ = line.substr(key_prefix.size());
       line.clear();
     }
   }

@@ -30,6 +30,10 @@ class FrontalProcess {
   const std::string& wait_until_listening();
   /// The address of its web page, once it listens; empty when there is none.
   const std::string& page() const { return page_; }
+  /// What the page shows to be allowed to change something.
+  const std::string& token() const { return token_; }
+  /// The file of its key; empty when clients need none.
+  const std::string& key_file() const { return key_file_; }
   /// Throws a Failure when it has ended.
   void check_running();
   bool has_ended();
@@ -50,7 +54,7 @@ class FrontalProcess {
   int output_ = -1;
   bool has_ended_ = false, is_stop_requested_ = false, is_private_ = false;
   int wait_status_ = 0;
-  std::string endpoint_, page_, folder_;
+  std::string endpoint_, page_, folder_, token_, key_file_;
 };
 
 }  // namespace graycube

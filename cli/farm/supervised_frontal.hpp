@@ -21,6 +21,9 @@ class SupervisedFrontal {
   /// the ports that the first one has picked.
   const std::string& endpoint() const { return endpoint_; }
   const std::string& page() const { return frontal_->page(); }
+  /// As of FrontalProcess. Another frontal has another token.
+  const std::string& token() const { return frontal_->token(); }
+  const std::string& key_file() const { return frontal_->key_file(); }
 
   /// Waits until the frontal has ended by itself. One that died, by a signal, is started again, and
   /// that is said. Returns early when an interrupt comes. Throws a Failure when it has ended for a

@@ -63,12 +63,17 @@ void add_job(Declaring& options, std::uint32_t& job) {
       [&job](const std::string& text) { job = parse_count("JOB", text, 1, 0xFFFFFFFFu); });
 }
 
-void add_connect(Declaring& options, std::string& connect) {
+void add_connect(Declaring& options, FarmAddress& connect) {
   options.option(
       {.names = "--connect",
        .value = "ENDPOINT",
        .help = "The farm (default: $GRAYCUBE_FRONTAL, else where 'graycube up' listens)"},
-      [&connect](const std::string& text) { connect = text; });
+      [&connect](const std::string& text) { connect.endpoint = text; });
+  options.option({.names = "--key",
+                  .value = "FILE",
+                  .help = "The key of a farm at a TCP port (default: where 'graycube up' puts it)",
+                  .kind = ValueKind::kFile},
+                 [&connect](const std::string& text) { connect.key_file = text; });
 }
 
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help, bool is_exr_required) {

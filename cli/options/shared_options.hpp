@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/farm/address.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/options/declaring.hpp"
 #include "cli/outputs.hpp"
@@ -23,7 +24,8 @@ void add_model_choice(Declaring& options, ModelChoice& choice);
 
 void add_job(Declaring& options, std::uint32_t& job);
 
-void add_connect(Declaring& options, std::string& connect);
+/// Which farm to connect to, and the file of its key.
+void add_connect(Declaring& options, FarmAddress& connect);
 
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help,
                  bool is_exr_required = false);

@@ -11,6 +11,7 @@
 
 #include "geometry/float_box.hpp"
 #include "geometry/wide_node.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 
@@ -117,6 +118,7 @@ class WideTreeBuilder {
   }
 
   void build_node(std::size_t index, Run run, std::size_t depth) {
+    stop_if_asked();
     const std::vector<Group> groups = children_of(run, depth);
     WideNode node;
     for (std::size_t g = 0; g < WideNode::kWidth; ++g) {

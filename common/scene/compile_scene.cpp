@@ -28,6 +28,7 @@
 #include "scene/scene_fault.hpp"
 #include "scene/scene_place.hpp"
 #include "spelling.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -85,7 +86,10 @@ class Compiler {
     model_.nodes.reserve(leaves);
     model_.primitives.reserve(leaves);
     unifier_.reserve(leaves);
-    for (const SceneObject& object : scene_.objects) add_object(object);
+    for (const SceneObject& object : scene_.objects) {
+      stop_if_asked();
+      add_object(object);
+    }
     check_settings();
     if (!faults_.is_empty()) throw UnrenderableScene(std::move(faults_).take());
     if (unifier_.unify()) measure_again();

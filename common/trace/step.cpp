@@ -5,6 +5,7 @@
 
 #include "geometry/infinity.hpp"
 #include "set_bits.hpp"
+#include "stop_point.hpp"
 #include "trace/entry_hit.hpp"
 #include "trace/ray_selection.hpp"
 
@@ -105,6 +106,7 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
   step.leaving.reserve(step.leaving.size() + rays.size());
   step.returns.reserve(step.returns.size() + rays.size());
   while (!rays.empty()) {
+    stop_if_asked();
     if (has_enough(step)) {
       step.set_aside.insert(step.set_aside.end(), rays.begin(), rays.end());
       return;
@@ -132,6 +134,7 @@ void Evaluator::trace_rays(std::span<const RayTask> rays, Step& step) {
 /// Traces shadow rays first, then the youngest rays: so the stacks stay short.
 void Evaluator::trace_all(Step& step) {
   while (!lights_.empty() || !viewing_.empty()) {
+    stop_if_asked();
     if (has_enough(step)) return set_all_aside(step);
     take_wave(lights_.empty() ? viewing_ : lights_);
     trace_wave(step);

@@ -58,18 +58,18 @@ std::optional<std::string> endpoint_problem(std::string_view endpoint) {
     return "expected a port after the last ':'";
   }
   if (!is_loopback(address.substr(0, colon))) {
-    return "only loopback addresses (127.0.0.1, [::1], localhost) may be used: links are neither "
-           "encrypted nor authenticated yet";
+    return "only loopback addresses (127.0.0.1, [::1], localhost) may be used: what is said there "
+           "isn't encrypted yet";
   }
   return std::nullopt;
 }
 
-std::string default_endpoint() {
+std::string run_folder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  if (runtime != nullptr && runtime[0] == '/') {
-    return "ipc://" + std::string(runtime) + "/graycube/frontal";
-  }
-  return "ipc:///tmp/graycube-" + std::to_string(::geteuid()) + "/frontal";
+  if (runtime != nullptr && runtime[0] == '/') return std::string(runtime) + "/graycube";
+  return "/tmp/graycube-" + std::to_string(::geteuid());
 }
+
+std::string default_endpoint() { return "ipc://" + run_folder() + "/frontal"; }
 
 }  // namespace graycube

@@ -1,5 +1,5 @@
-// Endpoints at which a farm may listen: only local sockets and loopback addresses, as long as links
-// are neither encrypted nor authenticated.
+// Endpoints at which a farm may listen: only local sockets and loopback addresses, as long as what
+// is said there isn't encrypted.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,11 @@ inline constexpr std::size_t kMaxSocketPath = 107;
 /// "*" picks a free one) may not be used; nothing when it may.
 std::optional<std::string> endpoint_problem(std::string_view endpoint);
 
-/// The endpoint at which `graycube up` listens and clients connect by default: below
-/// $XDG_RUNTIME_DIR, or in a folder of the user's in /tmp.
+/// The user's folder for what a running farm needs: below $XDG_RUNTIME_DIR, or in /tmp.
+std::string run_folder();
+
+/// The endpoint at which `graycube up` listens and clients connect by default: a socket in the
+/// run folder.
 std::string default_endpoint();
 
 }  // namespace graycube

@@ -2,27 +2,50 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <zmq.hpp>
 
 #include "check.hpp"
+#include "transport/doorkeeper.hpp"
+#include "transport/zmq_context.hpp"
 
 namespace graycube {
 namespace {
 
-constexpr int kNoLimit = 0;
 /// How long unsent messages hold a closing socket up. Goodbyes are acknowledged, so nothing that
 /// matters is under way by then.
 constexpr int kLinger_ms = 500;
 
-void configure(zmq::socket_t& socket) {
-  socket.set(zmq::sockopt::sndhwm, kNoLimit);
-  socket.set(zmq::sockopt::rcvhwm, kNoLimit);
+void configure(zmq::socket_t& socket, const PeerLimits& limits) {
+  socket.set(zmq::sockopt::sndhwm, limits.unsent);
+  socket.set(zmq::sockopt::rcvhwm, limits.unread);
   socket.set(zmq::sockopt::linger, kLinger_ms);
-  socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kMaxMessageBytes));
+  socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(limits.frame_bytes));
+}
+
+/// Creates files that only their owner may use as long as it lives. The mask is the process's, so
+/// no other thread should create files meanwhile.
+class OwnerOnly {
+ public:
+  OwnerOnly() : before_(::umask(0177)) {}
+  ~OwnerOnly() { ::umask(before_); }
+  OwnerOnly(const OwnerOnly&) = delete;
+  OwnerOnly& operator=(const OwnerOnly&) = delete;
+
+ private:
+  mode_t before_;
+};
+
+/// Without descriptors or memory for it, a TransportError.
+zmq::socket_t open(zmq::context_t& context, zmq::socket_type type, const std::string& endpoint) {
+  try {
+    return {context, type};
+  } catch (const zmq::error_t& e) {
+    throw TransportError(endpoint + ": " + e.what());
+  }
 }
 
 std::span<const std::byte> bytes_of(const zmq::message_t& m) {
@@ -99,10 +122,6 @@ std::optional<MessageView> message_of(const std::vector<zmq::message_t>& frames,
 
 }  // namespace
 
-struct ZmqContext::Impl {
-  zmq::context_t context{1};
-};
-
 ZmqContext::ZmqContext() : impl_(std::make_unique<Impl>()) {}
 ZmqContext::~ZmqContext() = default;
 
@@ -124,7 +143,8 @@ void Wakeup::clear() {
 }
 
 struct Connection::Impl {
-  explicit Impl(zmq::context_t& c) : context(c), socket(c, zmq::socket_type::dealer) {}
+  Impl(zmq::context_t& c, const std::string& endpoint)
+      : context(c), socket(open(c, zmq::socket_type::dealer, endpoint)) {}
   zmq::context_t& context;
   zmq::socket_t socket;
   /// The frames of the message received last.
@@ -134,10 +154,14 @@ struct Connection::Impl {
   bool is_lost = false;
 };
 
-Connection::Connection(ZmqContext& context, const std::string& endpoint)
-    : impl_(std::make_unique<Impl>(context.impl().context)) {
+Connection::Connection(ZmqContext& context, const std::string& endpoint, const std::string& key)
+    : impl_(std::make_unique<Impl>(context.impl().context, endpoint)) {
   try {
-    configure(impl_->socket);
+    configure(impl_->socket, {});
+    if (!key.empty()) {
+      impl_->socket.set(zmq::sockopt::plain_username, kKeyUser);
+      impl_->socket.set(zmq::sockopt::plain_password, key);
+    }
     descriptor_ = impl_->socket.get(zmq::sockopt::fd);
     impl_->socket.connect(endpoint);
   } catch (const zmq::error_t& e) {
@@ -208,18 +232,23 @@ bool Connection::is_lost() {
 void* Connection::socket() { return impl_->socket.handle(); }
 
 struct Inbox::Impl {
-  explicit Impl(zmq::context_t& context) : socket(context, zmq::socket_type::router) {}
+  Impl(zmq::context_t& context, const std::string& at)
+      : socket(open(context, zmq::socket_type::router, at)) {}
   zmq::socket_t socket;
   std::string endpoint;
   /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
 };
 
-Inbox::Inbox(ZmqContext& context, const std::string& endpoint)
-    : impl_(std::make_unique<Impl>(context.impl().context)) {
+Inbox::Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits,
+             bool wants_key)
+    : impl_(std::make_unique<Impl>(context.impl().context, endpoint)) {
   try {
-    configure(impl_->socket);
+    configure(impl_->socket, limits);
+    impl_->socket.set(zmq::sockopt::handshake_ivl, limits.handshake_ms);
+    if (wants_key) impl_->socket.set(zmq::sockopt::plain_server, true);
     descriptor_ = impl_->socket.get(zmq::sockopt::fd);
+    const OwnerOnly owner_only;
     impl_->socket.bind(endpoint);
     impl_->endpoint = impl_->socket.get(zmq::sockopt::last_endpoint);
   } catch (const zmq::error_t& e) {

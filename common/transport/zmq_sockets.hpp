@@ -1,5 +1,6 @@
-// Sockets of ZeroMQ; no other file knows it. High-water marks are 0, that is, none: flow is
-// controlled by credits of our own (a ROUTER silently drops messages past its mark).
+// Sockets of ZeroMQ; none but the files beside this one know it. Between a farm's own processes
+// high-water marks are 0, that is, none: flow is controlled by credits of our own (a ROUTER
+// silently drops messages past its mark). Peers from outside have limits.
 #pragma once
 
 #include <atomic>
@@ -22,6 +23,19 @@ struct TransportError : std::runtime_error {
 
 /// The most bytes of a frame that is accepted from a peer.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 31;
+
+/// What a peer of an inbox may take of this process's memory.
+struct PeerLimits {
+  /// The most bytes of a frame. A peer that announces more is disconnected before it sends them.
+  std::size_t frame_bytes = kMaxMessageBytes;
+  /// Messages for the peer that wait to be sent; further ones are dropped. 0: any number.
+  int unsent = 0;
+  /// Messages of the peer that wait to be received; it can't send more meanwhile. 0: any number.
+  int unread = 0;
+  /// A peer that hasn't shown the farm's key after so many milliseconds, where one is needed, or
+  /// hasn't even said that it knows ZeroMQ, is disconnected.
+  int handshake_ms = 30'000;
+};
 
 /// One per process; sockets must not outlive it.
 class ZmqContext {
@@ -82,8 +96,9 @@ class Readable {
 /// The connecting end (DEALER).
 class Connection : public Readable {
  public:
-  /// Connecting itself never fails: messages wait until the peer is there.
-  Connection(ZmqContext& context, const std::string& endpoint);
+  /// Connecting itself never fails: messages wait until the peer is there. `key` is shown to the
+  /// peer if it isn't empty; it must be empty if the peer wants none.
+  Connection(ZmqContext& context, const std::string& endpoint, const std::string& key = "");
   ~Connection() override;
   Connection(Connection&&) noexcept;
   /// Never blocks; messages queue while the peer isn't there.
@@ -109,8 +124,10 @@ class Connection : public Readable {
 class Inbox : public Readable {
  public:
   /// Throws TransportError when the endpoint can't be bound, also when somebody answers there
-  /// already.
-  Inbox(ZmqContext& context, const std::string& endpoint);
+  /// already. A local socket can be used by its owner alone, whatever the process's umask is. With
+  /// `wants_key`, the context's Doorkeeper decides who is let in.
+  Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits = {},
+        bool wants_key = false);
   ~Inbox() override;
   struct Received {
     std::string peer;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "geometry/float_box.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -182,6 +183,7 @@ std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& con
                     [&](const SurfaceItem& i) { return !contents.is_whole[i.object]; }));
   for (std::size_t together = std::bit_ceil(foreign / (kBoxesPerNode * most_nodes) + 1);;
        together *= 2) {
+    stop_if_asked();
     std::vector<WideNode> nodes = Pruning(tree_, items_, contents, together).run();
     if (nodes.size() <= most_nodes) return ForeignBounds(std::move(nodes));
   }

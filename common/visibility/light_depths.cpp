@@ -10,6 +10,7 @@
 #include "csg/morphology.hpp"
 #include "csg/tree.hpp"
 #include "regions/camera.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -188,6 +189,7 @@ class DepthMaker {
     depths_.lit.resize(depths_.blocks.size() * split * split);
     depths_.dark.assign(depths_.blocks.size() * dark_split * dark_split, LightDepths::kNever);
     for (std::size_t block = 0; block < depths_.blocks.size(); ++block) {
+      stop_if_asked();
       for_each_square(split, [&](std::uint32_t x, std::uint32_t y) { look_about(block, x, y); });
       for_each_square(dark_split,
                       [&](std::uint32_t x, std::uint32_t y) { look_behind(block, x, y); });

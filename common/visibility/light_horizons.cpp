@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/infinity.hpp"
+#include "stop_point.hpp"
 #include "visibility/light_view.hpp"
 
 namespace graycube {
@@ -30,6 +31,7 @@ LightHorizons LightHorizons::of(const Model& model) {
     const LightView view(model, light.position);
     for (const Object& object : model.objects) {
       if (!light.shadows) break;
+      stop_if_asked();
       seen.clear();
       view.look_at(object, seen);
       for (const Sight& s : seen) distances[s.texel] = std::min(distances[s.texel], s.begin);

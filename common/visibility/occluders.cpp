@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/infinity.hpp"
+#include "stop_point.hpp"
 #include "visibility/light_view.hpp"
 
 namespace graycube {
@@ -27,6 +28,7 @@ Occluders Occluders::of(const Model& model) {
     l.first.assign(LightHorizons::kTexels + 1, 0);
     for (std::uint32_t object = 0; object < model.objects.size(); ++object) {
       if (!light.shadows) break;
+      stop_if_asked();
       seen.clear();
       view.look_at(model.objects[object], seen);
       count += seen.size();

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "frontal/preparation/preparation.hpp"
 #include "frontal/rendering/flow_limits.hpp"
 #include "frontal/rendering/retries.hpp"
 #include "topology/hypercube.hpp"
+#include "transport/secret.hpp"
 
 namespace graycube {
 
@@ -45,6 +47,10 @@ struct FrontalOptions {
   std::string endpoint{};
   std::uint64_t pid = 0;
   double started_s = 0;
+  /// What the farm's nodes show when they say hello, and the folder of their inboxes. Without a
+  /// secret, as in simulations, neither is checked.
+  std::optional<Secret> secret{};
+  std::string node_folder{};
 };
 
 /// Seconds on a clock that never goes back, and Unix time.

@@ -53,7 +53,8 @@ std::vector<Rank> NodeRegistry::take_silent(double now_s) {
     // A node that was to be started before time was first told counts as silent only from then on.
     if (node.last_heard_s == 0) node.last_heard_s = now_s;
     const double patience_s = node.is_here ? patience_.silence_s : patience_.start_s;
-    if (now_s - node.last_heard_s < patience_s) continue;
+    const double more_s = node.is_here ? 0 : kStartPerNode_s * static_cast<double>(nodes_.size());
+    if (now_s - node.last_heard_s < patience_s + more_s) continue;
     silent.push_back(Rank{rank});
     kill(Rank{rank});
   }

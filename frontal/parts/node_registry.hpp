@@ -17,6 +17,10 @@ namespace graycube {
 /// The farm gives up when so many node processes in a row end before their hello.
 inline constexpr unsigned kMaxFailedStarts = 8;
 
+/// So many seconds more for each node of the farm, a process that is being started may be silent:
+/// all start together, on as many processors as there are.
+inline constexpr double kStartPerNode_s = 0.1;
+
 class NodeRegistry {
  public:
   /// A process for a rank, with its start number.
@@ -40,7 +44,8 @@ class NodeRegistry {
     double silence_s = 10, start_s = 60;
   };
 
-  /// A node that says nothing for longer than that is taken for dead. Every rank gets a process.
+  /// A node that says nothing for longer than that is taken for dead, one that is being started
+  /// after kStartPerNode_s for each node more. Every rank gets a process.
   NodeRegistry(const Hypercube& cube, const Patience& patience);
 
   /// A new process is to be started for the rank, which must have none.

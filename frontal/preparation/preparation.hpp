@@ -83,8 +83,8 @@ struct PreparationResult {
 /// What was picked for the scene, for people: "scatter 4, horizon shadows".
 std::string choices_text(const PreparedScene& scene);
 
-/// `clock_s` tells seconds, of which only differences count. Never throws: checks that fail on the
-/// way are errors of this job alone.
+/// `clock_s` tells seconds, of which only differences count. Checks that fail on the way are errors
+/// of this job alone; nothing is thrown but WorkStopped (stop_point.hpp).
 PreparationResult prepare(const PreparationWork& work, const std::function<double()>& clock_s);
 
 }  // namespace graycube

@@ -10,6 +10,7 @@
 #include "proto/share_of.hpp"
 #include "regions/kept_trees.hpp"
 #include "regions/restrict.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -53,6 +54,7 @@ void recut_into(RecutResult& result, const RecutWork& work) {
   const SliceEncoder encoder(model);
   result.slices.resize(work.cube.nodes());
   for (std::uint32_t rank = 0; rank < work.cube.nodes(); ++rank) {
+    stop_if_asked();
     const RegionShare share = share_of(work.cube, Rank{rank});
     if (!has_moved(work.from, work.to, share)) continue;
     const ModelContents before = contents_of_share(model, work.from, share);

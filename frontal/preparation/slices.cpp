@@ -9,6 +9,7 @@
 #include "proto/share_of.hpp"
 #include "regions/own_pixels.hpp"
 #include "regions/restrict.hpp"
+#include "stop_point.hpp"
 #include "visibility/foreign_bounds.hpp"
 
 namespace graycube {
@@ -101,6 +102,7 @@ class Contents {
   }
 
   ModelContents of(Rank rank) const {
+    stop_if_asked();
     ModelContents contents =
         contents_with_own_pixels(model_, cut_.grid, share_of(mesh_, rank), cut_.own_edges);
     std::uint64_t held = 0;
@@ -160,6 +162,7 @@ Slices slices_of(const Model& model, const NodeMesh& mesh, const Partition& cut,
   const SliceEncoder encoder(model);
   const auto add = [&](const ModelContents& contents, std::span<const std::byte> bounds,
                        std::span<const std::byte> foreign) {
+    stop_if_asked();
     const std::span<const std::byte> tails[] = {bounds, foreign, horizons};
     slices.bytes.push_back(encoder.encode(contents, tails));
   };

@@ -113,12 +113,13 @@ TEST_CASE("every option of draw arrives") {
 
 TEST_CASE("clients look for the farm where they are told, then in the environment") {
   ::setenv("GRAYCUBE_FRONTAL", "tcp://127.0.0.1:7000", 1);
-  CHECK(std::get<JobsCommand>(parsed({"jobs"})).connect == "tcp://127.0.0.1:7000");
-  CHECK(std::get<JobsCommand>(parsed({"jobs", "--connect", "ipc:///run/x"})).connect ==
+  CHECK(std::get<JobsCommand>(parsed({"jobs"})).connect.endpoint == "tcp://127.0.0.1:7000");
+  CHECK(std::get<JobsCommand>(parsed({"jobs", "--connect", "ipc:///run/x"})).connect.endpoint ==
         "ipc:///run/x");
   ::unsetenv("GRAYCUBE_FRONTAL");
   ::setenv("XDG_RUNTIME_DIR", "/run/user/7", 1);
-  CHECK(std::get<NodesCommand>(parsed({"nodes"})).connect == "ipc:///run/user/7/graycube/frontal");
+  CHECK(std::get<NodesCommand>(parsed({"nodes"})).connect.endpoint ==
+        "ipc:///run/user/7/graycube/frontal");
   CHECK(refused({"down", "--connect", "tcp://192.0.2.1:7000"})
             .starts_with("graycube: usage: --connect tcp://192.0.2.1:7000: only loopback"));
 }

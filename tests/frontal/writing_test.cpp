@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 #include "frontal/frontal.hpp"
+#include "frontal/parts/picture_answers.hpp"
+#include "process/temporary_folder.hpp"
 #include "proto/control.hpp"
 
 using namespace graycube;
@@ -37,4 +39,64 @@ TEST_CASE("only a private frontal writes files") {
 
 TEST_CASE("a picture that isn't there is not written") {
   CHECK(refusal(true, control::Write{1, "/nowhere/a.exr", ""}).code == FailureCode::kUnknownJob);
+}
+
+namespace {
+
+/// A store in which an earlier frontal left job 1, a picture of 4 × 2 pixels.
+class OnePicture : public JobStore {
+ public:
+  void keep(const EndedJob&, Picture) override {}
+  const Picture* picture(std::uint32_t job) override { return job == 1 ? &picture_ : nullptr; }
+  std::vector<EndedJob> recover() override {
+    EndedJob job;
+    job.info.job = 1;
+    job.info.state = JobState::kDone;
+    return {job};
+  }
+
+ private:
+  Picture picture_{4, 2, std::vector<float>(24, 0.5F), {}, {}};
+};
+
+template <typename Answer>
+std::vector<Answer> told(Frontal& frontal, const PeerId& peer) {
+  std::vector<Answer> answers;
+  for (const Frontal::Outgoing& o : frontal.take_outgoing()) {
+    const auto decoded = decode(o.message.text());
+    const auto* answer = std::get_if<ControlMessage>(&decoded);
+    if (o.to == peer && answer != nullptr && std::holds_alternative<Answer>(*answer))
+      answers.push_back(std::get<Answer>(*answer));
+  }
+  return answers;
+}
+
+}  // namespace
+
+TEST_CASE("a picture is written aside: the answer comes when it is, and no job begins before") {
+  const TemporaryFolder folder;
+  OnePicture store;
+  Frontal frontal({.cube = *Hypercube::of_size(1), .version = "test", .is_private = true}, store);
+  const std::string file = (folder / "a.png").string();
+  const auto ask = [&](const PeerId& peer) {
+    frontal.on_message(peer, Message::of_text(encode(control::Write{1, "", file})));
+  };
+  ask("a");
+  CHECK(told<control::Written>(frontal, "a").empty());
+  const auto work = frontal.take_writing();
+  REQUIRE(work);
+  CHECK_FALSE(frontal.take_writing());
+  ask("b");
+  const auto refused = told<control::Failed>(frontal, "b");
+  REQUIRE(refused.size() == 1);
+  CHECK(refused.front().code == FailureCode::kBusy);
+  const Message scene = Message::of_text(encode(control::Submit{"scene", {}}), Bytes(1));
+  frontal.on_message("a", scene);
+  CHECK_FALSE(frontal.take_work());
+  const auto answer =
+      write_picture(*work->picture, work->request, work->origin, [] { return 0.0; });
+  frontal.give_result(WritingResult{work->peer, answer});
+  CHECK(told<control::Written>(frontal, "a").size() == 1);
+  CHECK(std::filesystem::file_size(file) > 0);
+  CHECK(frontal.take_work());
 }

@@ -1,64 +1,17 @@
 // A farm in one terminal, and its users in others.
 #include <signal.h>
 
-#include <httplib.h>
-
 #include <thread>
 
 #include "catch.hpp"
 #include "film/picture_files.hpp"
-#include "integration/sandbox.hpp"
+#include "integration/farm.hpp"
 
 namespace graycube {
 namespace {
 
 /// Keeps a farm busy for long enough to look at it.
 constexpr const char* kLongSize = "3000x3000";
-
-class Farm {
- public:
-  explicit Farm(Sandbox& sandbox, const Arguments& options = {}) : up_(start(sandbox, options)) {
-    up_.wait_for("graycube down");
-  }
-
-  Running& up() { return up_; }
-
- private:
-  static Running start(Sandbox& sandbox, const Arguments& options) {
-    Arguments arguments{"up", "-n", "4"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    return sandbox.start(arguments);
-  }
-
-  Running up_;
-};
-
-/// Runs a command that must succeed; returns its output.
-std::string ok(Sandbox& sandbox, const Arguments& arguments) {
-  const Outcome o = sandbox.run(arguments);
-  INFO(arguments.front() << ": " << o.out << o.err);
-  REQUIRE(o.status == 0);
-  return o.out;
-}
-
-/// The job's id as submit prints it: alone on its line.
-std::string submit(Sandbox& sandbox, Arguments options) {
-  options.insert(options.begin(), "submit");
-  const std::string out = ok(sandbox, options);
-  REQUIRE(out.find_first_not_of("0123456789") == out.size() - 1);
-  return out.substr(0, out.size() - 1);
-}
-
-void wait_for_state(Sandbox& sandbox, const std::string& job, const std::string& state) {
-  const auto until = std::chrono::steady_clock::now() + 30s;
-  std::string last;
-  do {
-    last = nlohmann::json::parse(ok(sandbox, {"status", job, "--json"}))["state"];
-    if (last == state) return;
-    std::this_thread::sleep_for(20ms);
-  } while (std::chrono::steady_clock::now() < until);
-  FAIL("job " << job << " is " << last << ", not " << state);
-}
 
 std::string first() { return scene_file("first.json").string(); }
 
@@ -307,37 +260,38 @@ TEST_CASE("a farm listens where it is told, on a free port of the loopback, too"
   }
 }
 
-TEST_CASE("the farm's web page shows jobs, nodes and pictures, and refuses what isn't there") {
+/// A job whose preparation alone would take far longer than a test may.
+const Arguments kSlowToPrepare{"--size", "8192x8192", "--samples", "64", "--algorithm", "macro"};
+
+TEST_CASE("a job that is cancelled while it is prepared doesn't hold up the next") {
   Sandbox sandbox;
-  Farm farm(sandbox, {"--http", "127.0.0.1:*"});
-  const std::string said = farm.up().out();
-  const std::size_t begin = said.find("http://");
-  REQUIRE(begin != std::string::npos);
-  httplib::Client browser(said.substr(begin, said.find('\n', begin) - begin));
-  const std::string job = submit(sandbox, {first(), "--size", "48x32"});
-  ok(sandbox, {"watch", job});
-  const auto page = browser.Get("/");
-  REQUIRE(page);
-  CHECK(page->body.find("<title>Graycube</title>") != std::string::npos);
-  const auto jobs = browser.Get("/api/jobs");
-  REQUIRE(jobs);
-  CHECK(nlohmann::json::parse(jobs->body)["jobs"][0]["state"] == "done");
-  const auto nodes = browser.Get("/api/nodes");
-  REQUIRE(nodes);
-  CHECK(nlohmann::json::parse(nodes->body)["nodes"].size() == 4);
-  const auto picture = browser.Get(("/jobs/" + job + ".png").c_str());
-  REQUIRE(picture);
-  CHECK(picture->status == 200);
-  ok(sandbox, {"fetch", job, "-o", "a.exr", "--png", "a.png"});
-  CHECK((picture->body == file_bytes(sandbox / "a.png")));
-  for (const char* path :
-       {"/jobs/77.png", "/api/jobs/77", "/jobs/99999999999999.png", "/nothing"}) {
-    const auto missing = browser.Get(path);
-    REQUIRE(missing);
-    CHECK(missing->status == 404);
-  }
+  Farm farm(sandbox);
+  Arguments slow{first()};
+  slow.insert(slow.end(), kSlowToPrepare.begin(), kSlowToPrepare.end());
+  const std::string job = submit(sandbox, slow);
+  wait_for_state(sandbox, job, "loading");
+  const auto info = nlohmann::json::parse(ok(sandbox, {"status", job, "--json"}));
+  CHECK(info["waits_for"].get<std::string>().starts_with("its scene to be read and cut, for "));
+  const std::string next = submit(sandbox, {first(), "--size", "32x32"});
+  CHECK(nlohmann::json::parse(ok(sandbox, {"status", next, "--json"}))["waits_for"] ==
+        "job " + job + " to end");
+  ok(sandbox, {"cancel", job});
+  ok(sandbox, {"watch", next});
+  CHECK(ok(sandbox, {"status", job}).find("state: cancelled\n") != std::string::npos);
+  CHECK_FALSE(nlohmann::json::parse(ok(sandbox, {"status", next, "--json"})).contains("waits_for"));
+}
+
+TEST_CASE("a preparation ends with its time, and with its farm") {
+  Sandbox sandbox;
+  Farm farm(sandbox);
+  Arguments slow{first(), "--timeout", "1"};
+  slow.insert(slow.end(), kSlowToPrepare.begin(), kSlowToPrepare.end());
+  const std::string late = submit(sandbox, slow);
+  wait_for_state(sandbox, late, "failed");
+  slow[2] = "1000";
+  wait_for_state(sandbox, submit(sandbox, slow), "loading");
   ok(sandbox, {"down"});
-  CHECK(farm.up().wait(10s).status == 0);
+  CHECK(farm.up().wait(30s).status == 0);
   CHECK(sandbox.processes().empty());
 }
 

@@ -34,8 +34,8 @@ VENDORS = {
     "OpenEXR/": ("common/film/exr_file.cpp",),
     "assimp/": ("formats/mesh/assimp/",),
     "benchmark/": ("bench/",),
+    "boost/": ("frontal/http_server.cpp", "frontal/http_session"),
     "embree": ("bench/",),
-    "httplib.h": ("frontal/http_server.cpp",),
     "hwy/": ("common/geometry/", "common/mesh/", "common/crossings/", "common/regions/",
              "common/visibility/"),
     "libqhull": ("formats/openscad/hulls/convex_hull.cpp",),
@@ -45,7 +45,7 @@ VENDORS = {
     "sqlite3.h": ("frontal/store/database.cpp",),
     "simdjson": ("formats/json/fast_parser.cpp",),
     "zlib.h": ("formats/brlcad/database/binary.cpp",),
-    "zmq": ("common/transport/zmq_sockets.cpp",),
+    "zmq": ("common/transport/doorkeeper.cpp", "common/transport/zmq_context.hpp"),
 }
 
 # Headers of clocks, threads, processes and sockets. Plain atomics are none of them.
@@ -61,11 +61,17 @@ WORLDLY_FILES = {
     "common/film/whole_file.cpp": "writes files so that they are whole or not there",
     "common/memory/kept_heap.cpp": "asks the system for memory",
     "common/memory/large_pages.cpp": "asks the system for memory",
+    "common/process/descriptors.cpp": "asks the system for its limits",
+    "common/process/accept.cpp": "stands in for a call of the system's",
     "common/process/clocks.hpp": "reads the system's clocks",
     "common/process/spawn_plan.cpp": "starts processes",
     "common/process/spawn_plan.hpp": "starts processes",
     "common/trace/render_serial.cpp": "is a program's whole render, with threads and their clock",
+    "common/transport/doorkeeper.cpp": "answers ZeroMQ from a thread of its own",
     "common/transport/endpoint.cpp": "knows sockets",
+    "common/transport/farm_key.cpp": "makes a file that only its owner can read",
+    "common/transport/secret.cpp": "asks the system for random bytes",
+    "common/transport/zmq_context.hpp": "knows sockets",
     "common/transport/zmq_sockets.cpp": "knows sockets",
     "common/transport/zmq_sockets.hpp": "knows sockets",
 }
