@@ -199,8 +199,8 @@ bool SceneBuilder::paint(const std::string& name, const BrlcadSurface& surface, 
     return node.material != kInheritMaterial;
   }
   auto* inner = std::get_if<OperationNode>(&node.value);
-  bool are_all = inner != nullptr;
-  if (inner == nullptr) return are_all;
+  if (inner == nullptr) return false;
+  bool are_all = true;
   for (CsgNode& child : inner->children) are_all = paint(name, surface, child) && are_all;
   return are_all;
 }
@@ -261,6 +261,9 @@ void SceneBuilder::add_object(const std::string& name, Part part, BrlcadSurface 
     if (!lacks) lacks = cut.lacks;
   }
   if (lacks) return report_.left_out("regions", lacks.why, name, lacks.detail);
+  if (surface.is_environment) {
+    return report_.changed("regions", "an envmap is no background here, and isn't drawn", name);
+  }
   for (const Cut& cut : cuts) {
     if (!part.node) return;
     leaves_ += leaves_below(cut.node);

@@ -164,6 +164,8 @@ BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>
   const Rgb color{rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
   if (name == "light") return lamp_surface(words, color);
   BrlcadSurface out;
+  out.is_environment = name == "envmap";
+  if (out.is_environment) return out;
   Material& m = out.material;
   m.color = color;
   if (shaders.pattern && shaders.is_on_solids) {

@@ -33,6 +33,8 @@ struct BrlcadSurface {
   Material material;
   /// A pattern of u and v, which only a solid can place: the material has its colour at 0, 0.
   std::optional<Pattern> on_solids;
+  /// The region isn't drawn, as by rt: what it looks like is what rays see that meet nothing.
+  bool is_environment = false;
   bool is_light = false;
   BrlcadLamp lamp;
 };

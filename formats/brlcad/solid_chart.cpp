@@ -56,9 +56,9 @@ bool is_right_cylinder(const Vec3& h, const Vec3& a, const Vec3& b, const Vec3& 
   const auto cosine = [](const Vec3& v, const Vec3& w) {
     return std::fabs(dot(v, w)) / (length(v) * length(w));
   };
-  return is_zero(a - c, kEqualRatio / kTiny * length(a)) &&
-         is_zero(b - d, kEqualRatio / kTiny * length(b)) && cosine(a, b) < kPerpendicular &&
-         cosine(h, a) < kPerpendicular && cosine(h, b) < kPerpendicular;
+  return length(a - c) <= kEqualRatio * length(a) && length(b - d) <= kEqualRatio * length(b) &&
+         cosine(a, b) < kPerpendicular && cosine(h, a) < kPerpendicular &&
+         cosine(h, b) < kPerpendicular;
 }
 
 MaybeChart tgc_chart(const Values& p, double grow) {

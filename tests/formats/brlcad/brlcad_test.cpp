@@ -391,6 +391,15 @@ TEST_CASE("a view script and a quaternion give the axes of rt") {
   CHECK(seen->camera.fov_degrees == 30);
 }
 
+TEST_CASE("a region without end is framed by its finite solids, where they are in it") {
+  // Below z = 0: a half-space far off, and the lower half of a ball.
+  const Scene scene = scene_of(
+      "title t\nput h half N {0 0 1} d 0\nput far half N {1 0 0} d -100\nput s ell V {0 0 0} A {2 "
+      "0 "
+      "0} B {0 2 0} C {0 0 2}\nput r comb region yes tree {n {l h} {u {l far} {l s}}}\n");
+  CHECK(scene.settings.camera.width == Approx(std::sqrt(4.0 * 4 + 4 * 4 + 2 * 2)));
+}
+
 TEST_CASE("of a view script's frames the first counts") {
   BrlcadReport report;
   const auto view = read_brlcad_view(

@@ -121,6 +121,8 @@ TEST_CASE("a stack is its last member that is known") {
   CHECK(surface("stack {{plastic {di 0.5}} {mirror {re 0.25}}}").material.reflect == 0.25);
   CHECK(surface("stack fbm s=1;plastic di=0.5 sp=0").material.diffuse == 0.5);
   CHECK(surface("stack {light {b 2}}").is_light);
+  CHECK(surface("bump file=x; plastic di=.9").material.diffuse == 0.9);
+  CHECK(surface("plastic di=.9;").material.diffuse == 0.9);
   BrlcadReport report;
   brlcad_surface("stack {wood} {plastic}", {1, 2, 3}, "r", report);
   const auto warnings = report.take_warnings();
@@ -218,6 +220,19 @@ TEST_CASE("a checker on a half-space has squares of 5 m about the normal through
   CHECK(red_at(-2600, 2600) == 1);
   CHECK(red_at(7400, 0) == 0);
   CHECK(red_at(7600, 0) == 1);
+}
+
+TEST_CASE("the region of an envmap isn't drawn, which is told") {
+  const BrlcadResult result = read_brlcad(
+      kBall +
+      "put e ell V {0 0 0} A {900 0 0} B {0 900 0} C {0 0 900}\nput e.r comb region yes "
+      "shader {envmap cloud} tree {l e}\n");
+  REQUIRE(result.scene);
+  REQUIRE(result.scene->objects.size() == 1);
+  CHECK(result.scene->objects[0].name == "s.r");
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].text ==
+        "1 region: an envmap is no background here, and isn't drawn: e.r");
 }
 
 TEST_CASE("flat is its own colour, or the region's, in any light") {

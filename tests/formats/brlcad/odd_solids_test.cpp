@@ -67,6 +67,34 @@ TEST_CASE("a pipe may bend more tightly than it is thick") {
   CHECK(holds(pipe("0"), 49.9, 4, 0));
 }
 
+TEST_CASE("a pipe's bend begins before its point by the tangent of half the angle") {
+  // A turn of 60 degrees with radius 30: from x = 50 - 30 tan(30 degrees), about (32.68, 30).
+  const Scene scene = alone(
+      "s pipe V0 {0 0 0} O0 4 I0 0 R0 30 V1 {50 0 0} O1 4 I1 0 R1 30 V2 {75 43.30127018922193 0} "
+      "O2 4 I2 0 R2 30");
+  CHECK(holds(scene, 47.68, 4.02, 0));
+  CHECK(holds(scene, 32, 1.9, 0));
+  CHECK(holds(scene, 33.5, 0, 1.9));
+  CHECK_FALSE(holds(scene, 50, 0, 0));
+}
+
+TEST_CASE("a pipe's bore is open at its ends, and what it leaves standing when cut is flush") {
+  const std::string pipe = "put s pipe V0 {0 0 0} O0 4 I0 2 R0 0 V1 {0 0 10} O1 4 I1 2 R1 0\n";
+  const Scene tube = scene_of("title t\n" + pipe + "put r comb region yes tree {l s}\n", {"r"});
+  CHECK(holds(tube, 1.5, 0, 0));
+  CHECK_FALSE(holds(tube, 0.5, 0, 0));
+  CHECK_FALSE(holds(tube, 0.5, 0, 10));
+  const Scene cut = scene_of("title t\n" + pipe +
+                                 "put b arb8 V1 {-9 -9 0} V2 {9 -9 0} V3 {9 9 0} V4 {-9 9 0} V5 "
+                                 "{-9 -9 10} V6 {9 -9 10} V7 {9 9 10} V8 {-9 9 10}\n"
+                                 "put r comb region yes tree {- {l b} {l s}}\n",
+                             {"r"});
+  CHECK(holds(cut, 0.5, 0, 0));
+  CHECK_FALSE(holds(cut, 1.5, 0, 0));
+  // The rod in the bore is not thinner than the bore.
+  CHECK(holds(cut, 0.9999, 0, 5));
+}
+
 TEST_CASE("a view is framed by bounds that are rounded outwards to whole millimetres") {
   const BrlcadView view = brlcad_view(35, 25, {{-0.05, -0.15, -4.25}, {0.65, 8.55, 0.45}});
   CHECK(view.size == Approx(std::sqrt(4.0 + 100 + 36)).epsilon(1e-15));
