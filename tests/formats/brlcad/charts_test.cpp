@@ -3,6 +3,7 @@
 #include <string>
 
 #include "formats/brlcad/shader.hpp"
+#include "formats/brlcad/solids.hpp"
 #include "reading.hpp"
 
 using namespace graycube;
@@ -74,6 +75,10 @@ TEST_CASE("tor and eto count from libbn's vector across their axis") {
   CHECK(is_near(uv_at(tor, {0, -5, 5}), {0.5, 0.5, 0}));
   CHECK(is_near(uv_at(tor, {4, 0, 6}), {0.75, 0.75, 0}));
   CHECK(is_near(uv_at(tor, {-4, 0, 4}), {0.25, 0.25, 0}));
+  // A mirrored one is the same: rt's vectors are those of the world.
+  const Scene mirrored = scene_of(region("put s tor V {0 0 5} H {0 0 1} r_a 4 r_h 1\n",
+                                         "l s {-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}"));
+  CHECK(is_near(uv_at(mirrored, {4, 0, 6}), {0.75, 0.75, 0}));
   const Scene eto = mapped("eto V {0 0 0} N {0 0 2} C {1 0 0} r 4 r_d 1");
   CHECK(is_near(uv_at(eto, {5, 0, 0}), {0.5, 0.25, 0}));
   CHECK(is_near(uv_at(eto, {4, 0, 1}), {0.25, 0.25, 0}));
@@ -152,6 +157,29 @@ TEST_CASE("each surface of a region follows the solid that it is of, cut from an
   // Just off -x and the equator: u = 0.49 and v = 0.51, squares 3 and 4.
   CHECK(color_at(hole, {}, {3, 1.06, 1.53}) == Rgb{0, 0, 1});
   CHECK(color_at(hole, {}, {3, 1.06, 1.47}) == Rgb{1, 0, 0});
+}
+
+TEST_CASE("the ends of a solid that cuts are where its skin is") {
+  const struct {
+    std::string solid;
+    Vec3 at, uv;
+  } cases[] = {
+      {"tgc V {0 0 0} H {0 0 4} A {2 0 0} B {0 2 0} C {1 0 0} D {0 1 0}",
+       {0.5, 0, -kBrlcadSkin},
+       {0.5, 0.75, 0}},
+      {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1", {0, 0.5, -kBrlcadSkin}, {0.25, 0.75, 0}},
+      {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0.5, 0, -kBrlcadSkin}, {0.25, 0.25, 0}},
+      {"rpc V {0 0 0} H {8 0 0} B {0 0 -2} r 3", {2, -1.5, kBrlcadSkin}, {0.25, 0.25, 0}},
+  };
+  for (const auto& c : cases) {
+    INFO(c.solid);
+    const Scene scene = scene_of(
+        region(std::string("put box ") + kBox + "\nput s " + c.solid + "\n", "- {l box} {l s}"));
+    const auto& cut = std::get<OperationNode>(scene.objects.at(0).csg.value);
+    const Material& m = material_of(scene, cut.children.at(1));
+    const Rgb color = color_at(m.pattern, m.color, c.at);
+    CHECK(length(Vec3{color.r, color.b, 0} - c.uv) < 1e-3);
+  }
 }
 
 TEST_CASE("a solid that cuts several regions has each one's pattern, or none") {
