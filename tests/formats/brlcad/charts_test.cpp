@@ -75,6 +75,9 @@ TEST_CASE("tor and eto count from libbn's vector across their axis") {
   CHECK(is_near(uv_at(tor, {0, -5, 5}), {0.5, 0.5, 0}));
   CHECK(is_near(uv_at(tor, {4, 0, 6}), {0.75, 0.75, 0}));
   CHECK(is_near(uv_at(tor, {-4, 0, 4}), {0.25, 0.25, 0}));
+  // Across an axis that is least along z it is (-y, x).
+  CHECK(
+      is_near(uv_at(mapped("tor V {0 0 0} H {0.6 0.8 0} r_a 4 r_h 1"), {-4, 3, 0}), {0.5, 0.5, 0}));
   // A mirrored one is the same: rt's vectors are those of the world.
   const Scene mirrored = scene_of(region("put s tor V {0 0 5} H {0 0 1} r_a 4 r_h 1\n",
                                          "l s {-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}"));
@@ -99,6 +102,19 @@ TEST_CASE("each face of an arb has its own u and v, along its first edge and acr
       "3}");
   CHECK(is_near(uv_at(wedge, {2, 0.5, 1.5}), {0.5, 0.25, 0}));
   CHECK(is_near(uv_at(wedge, {1, 0, 0.75}), {0.57, 0.5, 0}));
+}
+
+TEST_CASE("u and v of an arb's face reach over all of its corners") {
+  // The fourth corner lies before the first.
+  const Scene wide = mapped(
+      "arb8 V1 {4 -1 0} V2 {4 2 0} V3 {4 2 3} V4 {4 0 3} V5 {0 -1 0} V6 {0 2 0} V7 {0 2 3} V8 {0 0 "
+      "3}");
+  CHECK(is_near(uv_at(wide, {4, 0.5, 0.75}), {0.5, 0.25, 0}));
+  // The first three corners lie on a line.
+  const Scene prism = mapped(
+      "arb8 V1 {4 0 3} V2 {4 2 0} V3 {4 1 0} V4 {4 0 0} V5 {0 0 3} V6 {0 2 0} V7 {0 1 0} V8 {0 0 "
+      "0}");
+  CHECK(is_near(uv_at(prism, {4, 0.5, 0.75}), {0.25, 0.75, 0}));
 }
 
 TEST_CASE("part, the bowls, hyp and the troughs have u about their axis") {
