@@ -1,5 +1,6 @@
 // Shaders that follow a solid's own u and v. The right values are worked out by hand from librt's
 // rt_*_uv functions.
+#include <cmath>
 #include <string>
 
 #include "formats/brlcad/shader.hpp"
@@ -123,6 +124,10 @@ TEST_CASE("part, the bowls, hyp and the troughs have u about their axis") {
   // Across z is -y, and x behind it; v goes from -1 to 9.
   CHECK(is_near(uv_at(scene, {1, 0, 1.5}), {0.25, 0.25, 0}));
   CHECK(is_near(uv_at(scene, {0, 0, 9}), {0, 1, 0}));
+  // A tapered one ends where the cone around it would, not its balls.
+  const Scene tapered = mapped("part V {0 0 0} H {0 0 8} r_v 2 r_h 1");
+  const double before = 2 / std::sqrt(1 - 1 / 64.0), behind = 0.5 * before;
+  CHECK(uv_at(tapered, {2, 0, 0}).y == Approx(before / (8 + before + behind)));
   for (const char* bowl : {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1",
                            "ehy V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1 c 3"}) {
     INFO(bowl);
@@ -153,6 +158,20 @@ TEST_CASE("a half-space has u and v to and fro over 10 m, and squares of 5 m at 
   CHECK(std::fmin(at.x, at.y) == Approx(0.25));
   CHECK(std::fmax(at.x, at.y) == Approx(0.5));
   CHECK(is_near(at, other));
+}
+
+TEST_CASE("squares on a half-space differ in size where the scale isn't 2") {
+  const Scene scene = scene_of(
+      region("put s half N {0 0 1} d 0\n", "l s", "checker {a {255 0 0} b {0 0 255} s 3}"));
+  const Material& m = material_of(scene, scene.objects.at(0).csg);
+  const auto red_at = [&](double x) { return color_at(m.pattern, m.color, {x, 10, 0}).r; };
+  // Thirds of 5 m, and the middle one is twice as wide where u turns.
+  CHECK(red_at(1600) == 1);
+  CHECK(red_at(1700) == 0);
+  CHECK(red_at(3400) == 1);
+  CHECK(red_at(6600) == 1);
+  CHECK(red_at(6700) == 0);
+  CHECK(red_at(-1600) == 1);
 }
 
 TEST_CASE("each surface of a region follows the solid that it is of, cut from another, too") {
