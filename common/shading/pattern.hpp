@@ -28,12 +28,12 @@ struct Pattern {
   Affine to_pattern;
   /// The first colors_of(kind) count.
   std::array<Rgb, 3> colors{{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}}};
-  /// Of camouflage; of clouds: how bright a cloud is where it begins, above 0, and how much
-  /// brighter where it hides the sky.
+  /// Camouflage: the noise where its colours change. Clouds: how bright a cloud is where it begins,
+  /// and how much brighter where it hides the sky.
   std::array<double, 2> thresholds{-0.25, 0.25};
   /// Of camouflage and marble.
   NoiseOctaves octaves;
-  /// Of patterns that follow a solid's surface.
+  /// Where u and v lie, if the pattern follows a solid's surface.
   Chart chart;
 
   friend bool operator==(const Pattern&, const Pattern&) = default;

@@ -187,7 +187,8 @@ TEST_CASE("a pattern lies in the coordinates of its region") {
 }
 
 TEST_CASE("a checker of one colour has that colour in any light") {
-  for (const char* shader : {"checker a=0/0/150 b=0/0/150", "checker {a {0 0 150.9} b {0 0 150}}"}) {
+  for (const char* shader :
+       {"checker a=0/0/150 b=0/0/150", "checker {a {0 0 150.9} b {0 0 150}}"}) {
     const Scene scene = scene_of(
         "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
         "put r comb region yes shader {" +
