@@ -217,6 +217,20 @@ TEST_CASE("the ends of a solid that cuts are where its skin is") {
   }
 }
 
+TEST_CASE("solids that differ in their place or their taper have materials of their own") {
+  const std::string cone = " tgc V {0 0 0} H {0 0 4} A {2 0 0} B {0 2 0} C ";
+  const Scene scene = scene_of(region(
+      "put a ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\nput b ell V {9 0 0} A {2 0 0} B {0 2 "
+      "0} C {0 0 2}\nput c" +
+          cone + "{1 0 0} D {0 1 0}\nput d" + cone + "{1 0 0} D {0 0.5 0}\n",
+      "u {u {u {u {l a} {l b}} {l c}} {l d}} {l a}"));
+  const auto& sum = std::get<OperationNode>(scene.objects.at(0).csg.value);
+  REQUIRE(sum.children.size() == 5);
+  CHECK(sum.children[0].material != sum.children[1].material);
+  CHECK(sum.children[2].material != sum.children[3].material);
+  CHECK(sum.children[4].material == sum.children[0].material);
+}
+
 TEST_CASE("a solid that cuts several regions has each one's pattern, or none") {
   const std::string text = std::string("title t\nput a ") + kBox +
                            "\nput b ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
