@@ -54,10 +54,10 @@ SceneInput read_scene_input(const std::filesystem::path& path,
                             const ModelChoice& choice = {});
 
 /// The endings of the file names that read_scene_input reads.
-inline constexpr std::array<std::string_view, 17> kSceneEndings{
+inline constexpr std::array<std::string_view, 18> kSceneEndings{
     ".json", ".cbor", ".scad", ".csg", ".g",   ".asc", ".stl", ".off", ".obj",
-    ".ply",  ".3mf",  ".gltf", ".glb", ".dae", ".3ds", ".amf", ".x3d"};
-/// All endings as text: ".json, .cbor, … .amf or .x3d".
+    ".ply",  ".3mf",  ".gltf", ".glb", ".dae", ".3ds", ".amf", ".x3d", ".fbx"};
+/// All endings as text: ".json, .cbor, … .x3d or .fbx".
 std::string scene_endings_text();
 
 /// Whether the file is OpenSCAD's, by its name's ending.

@@ -18,8 +18,11 @@ inline constexpr std::uint8_t kShadowlessBit = 0x80;
 inline constexpr std::size_t kMaterialBytes = 82;
 /// The numbers of Torrance–Sparrow's and Hall–Greenberg's models; other materials have none.
 inline constexpr std::size_t kOpticsBytes = (3 + 3 + 3 + 2) * 8;
-/// The numbers of a pattern: its map, colours, thresholds and octaves; those without one have none.
-inline constexpr std::size_t kPatternBytes = (12 + 9 + 2 + 3) * 8;
+/// The numbers of a pattern: its map, colours, thresholds and octaves, and its chart without maps;
+/// materials without a pattern have none.
+inline constexpr std::size_t kPatternBytes = (12 + 9 + 2 + 3) * 8 + 4 + 2 * 8;
+/// Each map of a chart.
+inline constexpr std::size_t kChartMapBytes = 12 * 8;
 inline constexpr std::size_t kPlaneBytes = 32;
 /// The three counts of a mesh; at least one point and one triangle follow.
 inline constexpr std::size_t kMeshBytes = 12;

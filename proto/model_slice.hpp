@@ -17,7 +17,7 @@ namespace graycube {
 
 /// "GCM1", read as a little-endian integer.
 inline constexpr std::uint32_t kModelMagic = 0x314D4347;
-inline constexpr std::uint16_t kModelVersion = 7;
+inline constexpr std::uint16_t kModelVersion = 8;
 
 inline constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
 inline constexpr std::uint32_t kMaxModelMaterials = 1u << 20;

@@ -85,7 +85,7 @@ double totally_reflected(const Material& m) {
 }
 
 /// The surface of a solid that is seen from within: rt lights only its outside.
-constexpr Material kUnlit{.color = {0, 0, 0}, .ambient = 0, .diffuse = 0};
+const Material kUnlit{.color = {0, 0, 0}, .ambient = 0, .diffuse = 0};
 
 }  // namespace
 

@@ -34,7 +34,8 @@ inline Part join(Operation op, Part a, Part b) {
     return {};
   }
   auto* chain = std::get_if<OperationNode>(&a.node->value);
-  if (chain != nullptr && chain->operation == op && !a.node->transform) {
+  const bool is_open = !a.node->transform && a.node->material == kInheritMaterial;
+  if (chain != nullptr && chain->operation == op && is_open) {
     chain->children.push_back(std::move(*b.node));
     a.levels = std::max(a.levels, b.levels + 1);
     return a;

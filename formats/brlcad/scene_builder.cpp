@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "formats/brlcad/shader_pattern.hpp"
+#include "formats/brlcad/solid_chart.hpp"
 #include "formats/brlcad/solids.hpp"
 
 namespace graycube::brlcad {
@@ -31,14 +33,34 @@ std::vector<double> key_of(const Material& m) {
                           static_cast<double>(m.model),
                           static_cast<double>(p.kind)};
   if (p.kind == PatternKind::kNone) return key;
-  for (const auto& row : p.to_pattern.m) key.insert(key.end(), row.begin(), row.end());
+  const auto add_map = [&](const Affine& map) {
+    for (const auto& row : map.m) key.insert(key.end(), row.begin(), row.end());
+  };
+  add_map(p.to_pattern);
   for (const Rgb& c : p.colors) key.insert(key.end(), {c.r, c.g, c.b});
   key.insert(key.end(), {p.thresholds[0], p.thresholds[1], p.octaves.count, p.octaves.lacunarity,
                          p.octaves.decay});
+  const Chart& c = p.chart;
+  for (const auto value :
+       {static_cast<int>(c.kind), static_cast<int>(c.ends[0]), static_cast<int>(c.ends[1])})
+    key.push_back(value);
+  key.insert(key.end(), c.top_radii.begin(), c.top_radii.end());
+  for (const Affine& map : c.maps) add_map(map);
   return key;
 }
 
 }  // namespace
+
+SceneBuilder::SceneBuilder(const BrlcadDatabase& database, BrlcadReport& report)
+    : database_(database), report_(report) {
+  for (const BrlcadObject& o : database.objects) {
+    const auto* comb = std::get_if<BrlcadComb>(&o.value);
+    if (comb == nullptr) continue;
+    for (const ShaderWords& words : shaders_of(comb->shader)) {
+      marks_solids_ = marks_solids_ || pattern_on_solids_of(words);
+    }
+  }
+}
 
 void SceneBuilder::add(const std::string& name) {
   std::vector<Cut> cuts;
@@ -171,19 +193,31 @@ SceneBuilder::FirstSolid SceneBuilder::first_solid_of(const BrlcadObject& object
   return {std::get_if<BrlcadSolid>(&object.value), to_world};
 }
 
-void SceneBuilder::place_checker(const std::string& name, const FirstSolid& first,
-                                 BrlcadSurface& surface) {
-  const Checker& checker = *surface.checker;
-  const auto pattern = first.solid != nullptr
-                           ? checker_pattern(checker, *first.solid, first.to_world)
-                           : std::nullopt;
-  surface.material.color = checker.colors[0];
-  if (pattern) {
-    surface.material.pattern = *pattern;
-  } else if (checker.colors[0] != checker.colors[1]) {
-    surface.material.color = 0.5 * (checker.colors[0] + checker.colors[1]);
-    report_.changed("regions", "a checker is one colour, the mean of its two", name);
+bool SceneBuilder::paint(const std::string& name, const BrlcadSurface& surface, CsgNode& node) {
+  if (node.material != kInheritMaterial) {
+    node.material = painted(name, surface, marked_[node.material]);
+    return node.material != kInheritMaterial;
   }
+  auto* inner = std::get_if<OperationNode>(&node.value);
+  if (inner == nullptr) return false;
+  bool are_all = true;
+  for (CsgNode& child : inner->children) are_all = paint(name, surface, child) && are_all;
+  return are_all;
+}
+
+MaterialIndex SceneBuilder::painted(const std::string& name, const BrlcadSurface& surface,
+                                    const MarkedSolid& marked) {
+  if (!surface.on_solids || surface.on_solids->kind == PatternKind::kNone) return kInheritMaterial;
+  if (has_no_chart(marked.solid->kind)) return kInheritMaterial;
+  BrlcadSurface own = surface;
+  const auto pattern = laid_on(*surface.on_solids, *marked.solid, marked.to_world, marked.grow);
+  if (pattern) {
+    own.material.pattern = *pattern;
+    return material_of(own);
+  }
+  report_.changed("regions", "a pattern is one colour on solids without a size to measure it by",
+                  name);
+  return kInheritMaterial;
 }
 
 BrlcadSurface SceneBuilder::surface_of(const std::string& name, const State& state,
@@ -227,6 +261,9 @@ void SceneBuilder::add_object(const std::string& name, Part part, BrlcadSurface 
     if (!lacks) lacks = cut.lacks;
   }
   if (lacks) return report_.left_out("regions", lacks.why, name, lacks.detail);
+  if (surface.is_environment) {
+    return report_.changed("regions", "an envmap is no background here, and isn't drawn", name);
+  }
   for (const Cut& cut : cuts) {
     if (!part.node) return;
     leaves_ += leaves_below(cut.node);
@@ -235,8 +272,9 @@ void SceneBuilder::add_object(const std::string& name, Part part, BrlcadSurface 
   }
   if (!part.node || !check_limits(name, part)) return;
   if (surface.is_light) lamps_.push_back({scene_.objects.size(), surface.lamp, first.to_world});
-  if (surface.checker) place_checker(name, first, surface);
-  scene_.objects.push_back({printable(name), material_of(surface), std::move(*part.node)});
+  const bool has_own = marks_solids_ && paint(name, surface, *part.node);
+  const MaterialIndex material = has_own ? kInheritMaterial : material_of(surface);
+  scene_.objects.push_back({printable(name), material, std::move(*part.node)});
 }
 
 std::string SceneBuilder::printable(std::string name) {
@@ -331,6 +369,10 @@ Part SceneBuilder::solid(const BrlcadObject& object, const Affine& to_world, boo
     return {};
   }
   if (!built.change.empty()) report_.changed("solids", built.change, object.name);
+  if (marks_solids_) {
+    built.node->material = static_cast<MaterialIndex>(marked_.size());
+    marked_.push_back({&is, to_world, is_cut ? kBrlcadSkin : 0});
+  }
   return {std::move(built.node), levels_of(*built.node)};
 }
 

@@ -41,10 +41,16 @@ struct Cut {
   Lack lacks;
 };
 
+/// A solid as it was built: where, and by how much its faces lie further out.
+struct MarkedSolid {
+  const BrlcadSolid* solid = nullptr;
+  Affine to_world;
+  double grow = 0;
+};
+
 class SceneBuilder {
  public:
-  SceneBuilder(const BrlcadDatabase& database, BrlcadReport& report)
-      : database_(database), report_(report) {}
+  SceneBuilder(const BrlcadDatabase& database, BrlcadReport& report);
 
   void add(const std::string& name);
   Scene take() { return std::move(scene_); }
@@ -84,10 +90,14 @@ class SceneBuilder {
   static FirstSolid first_solid_of(const BrlcadObject& object, const Affine& to_world);
 
   /// Adds a region, unless something of it can't be built: then it is left out. Its first solid
-  /// aims lamps and places checkers.
+  /// aims lamps.
   void add_object(const std::string& name, Part part, BrlcadSurface surface,
                   const std::vector<Cut>& cuts, const FirstSolid& first);
-  void place_checker(const std::string& name, const FirstSolid& first, BrlcadSurface& surface);
+  /// Gives each solid of a region a material of its own, whose pattern lies on it, if the region
+  /// has such a pattern; takes their marks off. Returns whether all have one.
+  bool paint(const std::string& name, const BrlcadSurface& surface, CsgNode& node);
+  MaterialIndex painted(const std::string& name, const BrlcadSurface& surface,
+                        const MarkedSolid& solid);
 
   /// Notes that the part under way can't be built.
   void lack(std::string why, std::string detail = {}) {
@@ -113,6 +123,10 @@ class SceneBuilder {
   std::vector<const BrlcadObject*> path_;
   std::size_t visits_ = 0, leaves_ = 0, triangles_ = 0;
   std::vector<LampObject> lamps_;
+  /// The solids by which nodes of trees are marked: until a region is painted, a node's material is
+  /// an index in here. Used only where a shader of the database gives colours by u and v.
+  std::vector<MarkedSolid> marked_;
+  bool marks_solids_ = false;
   /// Why the part under way can't be built.
   Lack lacks_;
 };

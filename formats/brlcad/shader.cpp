@@ -14,9 +14,9 @@
 namespace graycube {
 namespace {
 
-using brlcad::checker_of;
 using brlcad::number_behind;
 using brlcad::pattern_of;
+using brlcad::pattern_on_solids_of;
 using brlcad::shaders_of;
 using brlcad::ShaderWords;
 using brlcad::vector_behind;
@@ -103,6 +103,8 @@ struct Effective {
   /// The last that lights or shines, and the last that gives colours by place.
   ShaderWords lit;
   std::optional<Pattern> pattern;
+  /// The pattern is one of u and v.
+  bool is_on_solids = false;
   /// Whether the colours are laid over what is lit: then they are the same in any light.
   bool is_pattern_last = false;
 };
@@ -116,8 +118,10 @@ Effective effective_shaders(const std::string& shader, const std::string& region
       found.lit = words;
       found.is_pattern_last = false;
     }
-    if (auto pattern = pattern_of(words)) {
-      found.pattern = *pattern;
+    const auto in_space = pattern_of(words), on_solids = pattern_on_solids_of(words);
+    if (in_space || on_solids) {
+      found.pattern = in_space ? in_space : on_solids;
+      found.is_on_solids = on_solids.has_value();
       found.is_pattern_last = true;
     } else if (!is_known(words.front()) && shaders.size() > 1) {
       report.changed("regions", "the shader '" + words.front() + "' of a stack isn't drawn",
@@ -160,16 +164,22 @@ BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>
   const Rgb color{rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
   if (name == "light") return lamp_surface(words, color);
   BrlcadSurface out;
+  out.is_environment = name == "envmap";
+  if (out.is_environment) return out;
   Material& m = out.material;
   m.color = color;
-  if (shaders.pattern) m.pattern = *shaders.pattern;
+  if (shaders.pattern && shaders.is_on_solids) {
+    out.on_solids = shaders.pattern;
+    m.color = color_at(*shaders.pattern, shaders.pattern->colors[0], {0, 0, 0});
+  } else if (shaders.pattern) {
+    m.pattern = *shaders.pattern;
+  }
   if (shaders.is_pattern_last) {
     make_unlit(m);
     return out;
   }
   if (name == "flat") m.color = flat_color(words, color);
-  out.checker = checker_of(words);
-  if (out.checker || name == "flat") {
+  if (name == "flat") {
     make_unlit(m);
     return out;
   }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "formats/brlcad/checker.hpp"
 #include "formats/brlcad/database/report.hpp"
 #include "geometry/vec.hpp"
 #include "shading/material.hpp"
@@ -32,17 +31,19 @@ struct BrlcadLamp {
 
 struct BrlcadSurface {
   Material material;
-  /// The squares of a checker, which only the solid can place: without them the material is that of
-  /// a checker whose colour is its own.
-  std::optional<brlcad::Checker> checker;
+  /// A pattern of u and v, which only a solid can place: the material has its colour at 0, 0.
+  std::optional<Pattern> on_solids;
+  /// The region isn't drawn, as by rt: what it looks like is what rays see that meet nothing.
+  bool is_environment = false;
   bool is_light = false;
   BrlcadLamp lamp;
 };
 
 /// `shader` is a name and its parameters, `a=1 b=2` or `{a 1 b 2}`; empty is plastic. A `stack` is
-/// its last member that is plastic, glass, mirror or light, with the colours of its last camo or
-/// marble; what else it has isn't drawn. Alone, other shaders become plastic. Both is told once a
-/// kind; `region` is the name that is told. A pattern's map is that from the region's coordinates.
+/// its last member that is plastic, glass, mirror or light, with the colours of its last pattern;
+/// what else it has isn't drawn. Alone, other shaders become plastic. Both is told once a kind;
+/// `region` is the name that is told. The map of a pattern in space is that from the region's
+/// coordinates.
 BrlcadSurface brlcad_surface(const std::string& shader, const std::array<int, 3>& rgb,
                              const std::string& region, BrlcadReport& report);
 

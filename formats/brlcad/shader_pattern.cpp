@@ -1,6 +1,7 @@
 #include "formats/brlcad/shader_pattern.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace graycube::brlcad {
@@ -45,7 +46,59 @@ void read_vector(std::string_view key, const Vec3& value, Parameters& p) {
   if (key == "c3") p.colors[2] = unit_color(value);
 }
 
+/// A colour 0 … 255; rt reads whole numbers.
+Rgb byte_color(const Vec3& v) {
+  const auto unit = [](double c) { return std::clamp(std::trunc(c), 0.0, 255.0) / 255; };
+  return {unit(v.x), unit(v.y), unit(v.z)};
+}
+
+Pattern checker_of(const ShaderWords& words) {
+  Pattern pattern;
+  pattern.kind = PatternKind::kChecker;
+  // How many squares lie along u and v from 0 to 1.
+  double scale = 2;
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    const auto color = vector_behind(words, i);
+    if (words[i] == "a" && color) pattern.colors[0] = byte_color(*color);
+    if (words[i] == "b" && color) pattern.colors[1] = byte_color(*color);
+    if (words[i] == "s") scale = std::fabs(number_behind(words, i).value_or(scale));
+  }
+  pattern.to_pattern = scaling({scale, scale, 1});
+  const bool is_plain = pattern.colors[0] == pattern.colors[1] || !pattern.to_pattern.inverse();
+  if (is_plain) pattern.kind = PatternKind::kNone;
+  return pattern;
+}
+
+Pattern clouds_of(const ShaderWords& words) {
+  Pattern pattern;
+  pattern.kind = PatternKind::kClouds;
+  pattern.colors[0] = {0.31, 0.31, 0.78};
+  pattern.thresholds = {0.35, 0.3};
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    const auto value = number_behind(words, i);
+    if (words[i] == "thresh" && value) pattern.thresholds[0] = *value;
+    if (words[i] == "range" && value) pattern.thresholds[1] = *value;
+  }
+  return pattern;
+}
+
+/// Red goes with u and blue with v.
+Pattern testmap() {
+  Pattern pattern;
+  pattern.kind = PatternKind::kGradient;
+  pattern.colors = {{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}}};
+  return pattern;
+}
+
 }  // namespace
+
+std::optional<Pattern> pattern_on_solids_of(const ShaderWords& words) {
+  if (words.empty()) return std::nullopt;
+  if (words.front() == "checker") return checker_of(words);
+  if (words.front() == "cloud") return clouds_of(words);
+  if (words.front() == "testmap") return testmap();
+  return std::nullopt;
+}
 
 std::optional<Pattern> pattern_of(const ShaderWords& words) {
   const bool is_camo = words.front() == "camo";

@@ -48,6 +48,8 @@ std::vector<ShaderWords> shaders_of(const std::string& shader) {
   std::vector<ShaderWords> shaders;
   if (text.starts_with(kStack)) {
     shaders = members_of_stack(text.substr(kStack.size()));
+  } else if (text.find(';') != std::string_view::npos) {
+    shaders = members_of_stack(text);
   } else {
     shaders.push_back(words_of(shader));
   }

@@ -14,7 +14,8 @@ namespace graycube::brlcad {
 using ShaderWords = std::vector<std::string>;
 
 /// The shaders of a text, `plastic a=1 b=2` or `plastic {a 1 b 2}`: one, or the members of a stack,
-/// `stack {plastic {…}} {bump {…}}` or `stack plastic …; bump …`, without those that have no words.
+/// `stack {plastic {…}} {bump {…}}`, `stack plastic …; bump …` or, in version 4, that without
+/// `stack`; without those that have no words.
 std::vector<ShaderWords> shaders_of(const std::string& text);
 
 /// The number behind word i, if one is there.

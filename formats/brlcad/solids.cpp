@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/brlcad/arb_corners.hpp"
 #include "formats/brlcad/solid_nodes.hpp"
-#include "geometry/aabb.hpp"
 
 namespace graycube {
 namespace brlcad {
@@ -106,31 +106,14 @@ BrlcadNode arbn(const Values& p, double grow) {
   return built(node_of(std::move(shape), p.map));
 }
 
-/// The faces of an arb8, corners in order around each.
-constexpr std::array<std::array<std::size_t, 4>, 6> kArbFaces{
-    {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
-
 BrlcadNode arb(const Values& p, double grow) {
-  std::array<Vec3, 8> corners;
-  Aabb box = Aabb::nothing();
-  Vec3 center;
-  for (std::size_t i = 0; i < 8; ++i) {
-    corners[i] = p.point(i);
-    box.include(corners[i]);
-    center = center + 0.125 * corners[i];
-  }
-  const double size = length(box.hi - box.lo);
+  const ArbCorners corners(p);
+  const double size = corners.size;
   const double slack = std::fmax(kBrlcadSkin, kBrlcadPlanar * size);
   PolyhedronShape shape;
   bool is_flat = true;
-  for (const auto& face : kArbFaces) {
-    std::vector<Vec3> distinct;
-    for (const std::size_t i : face) {
-      const bool is_new = std::none_of(distinct.begin(), distinct.end(), [&](const Vec3& q) {
-        return is_zero(q - corners[i], size);
-      });
-      if (is_new) distinct.push_back(corners[i]);
-    }
+  for (const ArbFace& face : kArbFaces) {
+    const std::vector<Vec3> distinct = corners.distinct(face);
     if (distinct.size() < 3) continue;
     // The plane of the first three corners that span one.
     Vec3 n = cross(distinct[1] - distinct[0], distinct[2] - distinct[0]);
@@ -143,7 +126,7 @@ BrlcadNode arb(const Values& p, double grow) {
     for (const Vec3& q : distinct) {
       is_flat = is_flat && std::fabs(dot(n, q) - offset) <= slack;
     }
-    if (dot(n, center) > offset) {
+    if (dot(n, corners.center) > offset) {
       n = -n;
       offset = -offset;
     }

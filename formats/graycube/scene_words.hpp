@@ -20,7 +20,20 @@ inline constexpr std::array<Word<ShadingModel>, 5> kShadingModelWords{
 inline constexpr std::array<Word<PatternKind>, kPatternKinds - 1> kPatternWords{
     {{"camouflage", PatternKind::kCamouflage},
      {"marble", PatternKind::kMarble},
-     {"checker", PatternKind::kChecker}}};
+     {"checker", PatternKind::kChecker},
+     {"clouds", PatternKind::kClouds},
+     {"gradient", PatternKind::kGradient}}};
+inline constexpr std::array<Word<ChartKind>, kChartKinds - 1> kChartWords{
+    {{"sphere", ChartKind::kSphere},
+     {"torus", ChartKind::kTorus},
+     {"round", ChartKind::kRound},
+     {"trough", ChartKind::kTrough},
+     {"plane", ChartKind::kPlane},
+     {"faces", ChartKind::kFaces}}};
+inline constexpr std::array<Word<EndChart>, kEndCharts> kEndChartWords{
+    {{"none", EndChart::kNone},
+     {"zero_at_rim", EndChart::kZeroAtRim},
+     {"one_at_rim", EndChart::kOneAtRim}}};
 inline constexpr std::array<Word<Projection>, 2> kProjectionWords{
     {{"perspective", Projection::kPerspective}, {"orthographic", Projection::kOrthographic}}};
 inline constexpr std::array<Word<Handedness>, 2> kHandednessWords{

@@ -5,6 +5,44 @@
 namespace graycube {
 namespace {
 
+void write_map(JsonText& json, const Affine& map) {
+  json.text += "[{\"matrix\": ";
+  char before = '[';
+  for (const auto& row : map.m) {
+    json.text += before;
+    json.write_numbers({row[0], row[1], row[2], row[3]});
+    before = ',';
+  }
+  json.text += "]}]";
+}
+
+void write_chart(JsonText& json, const Chart& c) {
+  json.text += "{\"type\": ";
+  json.write(word_of(kChartWords, c.kind));
+  if (c.kind == ChartKind::kFaces) {
+    json.next_key("faces");
+    for (std::size_t i = 0; i < c.maps.size(); ++i) {
+      json.text += i == 0 ? '[' : ',';
+      write_map(json, c.maps[i]);
+    }
+    json.text += ']';
+  } else if (c.maps.front() != Affine{}) {
+    json.next_key("to_solid");
+    write_map(json, c.maps.front());
+  }
+  if (c.kind == ChartKind::kRound) {
+    json.next_key("ends");
+    json.text += '[';
+    json.write(word_of(kEndChartWords, c.ends[0]));
+    json.text += ',';
+    json.write(word_of(kEndChartWords, c.ends[1]));
+    json.text += ']';
+    json.next_key("top_radii");
+    json.write_numbers({c.top_radii[0], c.top_radii[1]});
+  }
+  json.text += '}';
+}
+
 void write_pattern(JsonText& json, const Pattern& p) {
   json.text += "{\"type\": ";
   json.write(word_of(kPatternWords, p.kind));
@@ -16,16 +54,9 @@ void write_pattern(JsonText& json, const Pattern& p) {
   json.text += ']';
   if (p.to_pattern != Affine{}) {
     json.next_key("to_pattern");
-    json.text += "[{\"matrix\": ";
-    char before = '[';
-    for (const auto& row : p.to_pattern.m) {
-      json.text += before;
-      json.write_numbers({row[0], row[1], row[2], row[3]});
-      before = ',';
-    }
-    json.text += "]}]";
+    write_map(json, p.to_pattern);
   }
-  if (p.kind == PatternKind::kCamouflage) {
+  if (has_thresholds(p.kind)) {
     json.next_key("thresholds");
     json.write_numbers({p.thresholds[0], p.thresholds[1]});
   }
@@ -33,6 +64,10 @@ void write_pattern(JsonText& json, const Pattern& p) {
     json.member("octaves", p.octaves.count);
     json.member("lacunarity", p.octaves.lacunarity);
     json.member("decay", p.octaves.decay);
+  }
+  if (p.chart.kind != ChartKind::kNone) {
+    json.next_key("chart");
+    write_chart(json, p.chart);
   }
   json.text += '}';
 }

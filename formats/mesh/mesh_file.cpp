@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> kOwnEndings{".stl", ".off"};
 /// Those that were tried with the library; it reads more.
-constexpr std::array<std::string_view, 9> kForeignEndings{".obj", ".ply", ".3mf", ".gltf", ".glb",
-                                                          ".dae", ".3ds", ".amf", ".x3d"};
+constexpr std::array<std::string_view, 10> kForeignEndings{".obj", ".ply", ".3mf", ".gltf", ".glb",
+                                                           ".dae", ".3ds", ".amf", ".x3d",  ".fbx"};
 
 bool has_ending_of(const fs::path& path, std::span<const std::string_view> endings) {
   return std::ranges::any_of(endings, [&](auto ending) { return has_ending(path, ending); });

@@ -11,13 +11,26 @@ namespace {
 
 using namespace model_layout;
 
-void put_pattern(ByteWriter& w, const Pattern& p) {
-  for (const auto& row : p.to_pattern.m) {
+void put_map(ByteWriter& w, const Affine& map) {
+  for (const auto& row : map.m) {
     for (const double v : row) w.put(v);
   }
+}
+
+void put_chart(ByteWriter& w, const Chart& c) {
+  w.put(static_cast<std::uint8_t>(c.kind));
+  w.put(static_cast<std::uint8_t>(c.maps.size()));
+  for (const EndChart end : c.ends) w.put(static_cast<std::uint8_t>(end));
+  for (const double v : c.top_radii) w.put(v);
+  for (const Affine& map : c.maps) put_map(w, map);
+}
+
+void put_pattern(ByteWriter& w, const Pattern& p) {
+  put_map(w, p.to_pattern);
   for (const Rgb& c : p.colors) put_rgb(w, c);
   for (const double v : p.thresholds) w.put(v);
   for (const double v : {p.octaves.count, p.octaves.lacunarity, p.octaves.decay}) w.put(v);
+  put_chart(w, p.chart);
 }
 
 void put_optics(ByteWriter& w, const Optics& o) {
@@ -26,11 +39,37 @@ void put_optics(ByteWriter& w, const Optics& o) {
   w.put(o.transmit_shininess);
 }
 
-const char* get_pattern(ByteReader& r, Pattern& p) {
-  for (auto& row : p.to_pattern.m) {
+/// False when a coefficient isn't finite.
+bool get_map(ByteReader& r, Affine& map) {
+  for (auto& row : map.m) {
     for (double& v : row) v = r.get<double>();
   }
-  bool valid = p.to_pattern.is_finite();
+  return map.is_finite();
+}
+
+const char* get_chart(ByteReader& r, Chart& c) {
+  constexpr const char* kWrong = "a chart out of range";
+  const auto kind = r.get<std::uint8_t>(), maps = r.get<std::uint8_t>();
+  if (kind >= kChartKinds) return "unknown chart";
+  c.kind = static_cast<ChartKind>(kind);
+  if (maps > most_maps_of(c.kind) || (maps == 0 && kind != 0)) return kWrong;
+  for (EndChart& end : c.ends) {
+    const auto word = r.get<std::uint8_t>();
+    if (word >= kEndCharts) return kWrong;
+    end = static_cast<EndChart>(word);
+  }
+  bool valid = true;
+  for (double& v : c.top_radii) {
+    v = r.get<double>();
+    valid = valid && std::isfinite(v) && v >= 0;
+  }
+  c.maps.resize(maps);
+  for (Affine& map : c.maps) valid = get_map(r, map) && valid;
+  return valid ? nullptr : kWrong;
+}
+
+const char* get_pattern(ByteReader& r, Pattern& p) {
+  bool valid = get_map(r, p.to_pattern);
   for (Rgb& c : p.colors) {
     c = get_rgb(r);
     valid = valid && is_color(c);
@@ -45,7 +84,7 @@ const char* get_pattern(ByteReader& r, Pattern& p) {
     valid = valid && std::isfinite(*v);
   }
   valid = valid && o.count >= 0 && o.count <= kMaxOctaves && o.lacunarity > 0;
-  return valid ? nullptr : "a pattern out of range";
+  return valid ? get_chart(r, p.chart) : "a pattern out of range";
 }
 
 const char* get_optics(ByteReader& r, Material& m) {
@@ -70,7 +109,9 @@ const char* get_optics(ByteReader& r, Material& m) {
 
 std::size_t material_bytes(const Material& m) {
   return kMaterialBytes + (has_fresnel(m) ? kOpticsBytes : 0) +
-         (m.pattern.kind != PatternKind::kNone ? kPatternBytes : 0);
+         (m.pattern.kind != PatternKind::kNone
+              ? kPatternBytes + m.pattern.chart.maps.size() * kChartMapBytes
+              : 0);
 }
 
 void put_material(ByteWriter& w, const Material& m) {

@@ -128,6 +128,36 @@ inline std::string amf_text() {
          "</volume></mesh></object></amf>";
 }
 
+inline constexpr const char* kFbxQuads = "0,2,3,-2,4,5,7,-7,0,1,5,-5,2,6,7,-4,0,4,6,-3,1,3,7,-6";
+inline constexpr std::array<int, 6> kFbxZUp{2, 1, 1, -1, 0, 1}, kFbxYUp{1, 1, 2, 1, 0, 1};
+
+/// An FBX of the box as six quads, the last corner of each as FBX marks it: −1 − index. `axes` are
+/// up, its sign, front, its sign, right, its sign; `placed` are properties of its node.
+inline std::string fbx_text(const std::array<int, 6>& axes, const std::string& placed = {},
+                            const std::string& quads = kFbxQuads) {
+  constexpr const char* kAxes[] = {"UpAxis",        "UpAxisSign", "FrontAxis",
+                                   "FrontAxisSign", "CoordAxis",  "CoordAxisSign"};
+  std::string settings, points;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    settings += std::string("P: \"") + kAxes[i] + "\", \"int\", \"Integer\", \"\"," +
+                std::to_string(axes[i]) + "\n";
+  points = joined(kBoxPoints, [](auto a, auto b, auto c) { return a + "," + b + "," + c + ","; });
+  points.pop_back();
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\n"
+         "FBXVersion: 7400\n}\nGlobalSettings: {\nVersion: 1000\nProperties70: {\n" +
+         settings +
+         "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n}\n}\nDefinitions: {\n"
+         "Version: 100\nCount: 2\nObjectType: \"Geometry\" {\nCount: 1\n}\n"
+         "ObjectType: \"Model\" {\nCount: 1\n}\n}\nObjects: {\n"
+         "Geometry: 1, \"Geometry::box\", \"Mesh\" {\nVertices: *24 {\na: " +
+         points + "\n}\nPolygonVertexIndex: *24 {\na: " + quads +
+         "\n}\nGeometryVersion: 124\n}\nModel: 2, \"Model::box\", \"Mesh\" {\nVersion: 232\n"
+         "Properties70: {\n" +
+         placed +
+         "\n}\nShading: T\nCulling: \"CullingOff\"\n}\n}\nConnections: {\nC: \"OO\",2,0\n"
+         "C: \"OO\",1,2\n}\n";
+}
+
 inline std::string x3d_text() {
   const auto triangle = [](auto a, auto b, auto c) { return spaced(a, b, c) + "-1 "; };
   return R"(<?xml version="1.0"?><X3D version="3.0"><Scene><Shape><IndexedFaceSet coordIndex=")" +

@@ -62,6 +62,7 @@ TEST_CASE("a box is the same in every format, with z up") {
       {"a.PLY", ply_text()},
       {"a.amf", amf_text()},
       {"z.dae", dae_text("Z_UP")},
+      {"z.fbx", fbx_text(kFbxZUp)},
       {"bom.obj", "\xEF\xBB\xBF" + obj_points() + obj_faces(0, 12)},
   };
   for (const auto& [name, text] : files) {
@@ -78,13 +79,50 @@ TEST_CASE("where y is up in a file, the box is turned") {
   if (!is_built()) return;
   const TemporaryFolder folder;
   const std::vector<std::pair<std::string, std::string>> files{{"y.dae", dae_text("Y_UP")},
-                                                               {"a.x3d", x3d_text()}};
+                                                               {"a.x3d", x3d_text()},
+                                                               {"y.fbx", fbx_text(kFbxYUp)},
+                                                               {"no.fbx", fbx_text({9, 9, 9})}};
   for (const auto& [name, text] : files) {
     INFO(name);
     const ReadBox box = read_box(write_file(folder / name, text));
     CHECK(box.volume == Approx(6));
     CHECK(box.lo == Vec3{0, -3, 0});
     CHECK(box.hi == Vec3{1, 0, 2});
+  }
+}
+
+TEST_CASE("an FBX's axes, and the places of its nodes, are as it says") {
+  if (!is_built()) return;
+  const TemporaryFolder folder;
+  // x is up, y to the right, −z away from the front.
+  const ReadBox up = read_box(write_file(folder / "x.fbx", fbx_text({0, 1, 2, 1, 1, 1})));
+  CHECK(up.volume == Approx(6));
+  CHECK(up.lo == Vec3{0, -3, 0});
+  CHECK(up.hi == Vec3{2, 0, 1});
+  const std::string placed =
+      "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,0,0\n"
+      "P: \"Lcl Rotation\", \"Lcl Rotation\", \"\", \"A\",0,0,180\n"
+      "P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",1,0,0\n"
+      "P: \"Lcl Scaling\", \"Lcl Scaling\", \"\", \"A\",2,1,-1\n";
+  const ReadBox moved = read_box(write_file(folder / "m.fbx", fbx_text(kFbxZUp, placed)));
+  CHECK(moved.volume == Approx(12));
+  // Twice as long from x = 0 to 2, half a turn about x = 1, and 10 further.
+  CHECK(length(moved.lo - Vec3{10, -2, -3}) < 1e-5);
+  CHECK(length(moved.hi - Vec3{12, 0, 0}) < 1e-5);
+}
+
+TEST_CASE("an FBX with an index that isn't there, or without any face's end, is an error") {
+  if (!is_built()) return;
+  const TemporaryFolder folder;
+  for (const char* quads : {"0,2,3,-99", "0,2,3,1", ""}) {
+    INFO(quads);
+    const auto path = write_file(folder / "wrong.fbx", fbx_text(kFbxZUp, "", quads));
+    CHECK_THAT(refusal([&] { read_scene_input(path); }), Catch::Contains("wrong.fbx: "));
+  }
+  const std::string whole = fbx_text(kFbxZUp);
+  for (const std::size_t part : {std::size_t{30}, whole.size() / 2, whole.size() * 3 / 4}) {
+    const auto path = write_file(folder / "cut.fbx", whole.substr(0, part));
+    CHECK_THAT(refusal([&] { read_scene_input(path); }), Catch::Contains("cut.fbx: "));
   }
 }
 

@@ -233,7 +233,7 @@ TEST_CASE("every ending that is told of is read, and no other") {
   }
   CHECK(refusal([&] { read_scene_input("part.step"); }) ==
         "graycube: scene: part.step: expected a name ending in .json, .cbor, .scad, .csg, .g, "
-        ".asc, .stl, .off, .obj, .ply, .3mf, .gltf, .glb, .dae, .3ds, .amf or .x3d");
+        ".asc, .stl, .off, .obj, .ply, .3mf, .gltf, .glb, .dae, .3ds, .amf, .x3d or .fbx");
 }
 
 TEST_CASE("solids that can't be computed are told by pointers in scenes, by names in models") {

@@ -101,13 +101,31 @@ constexpr ShadingModel kModels[] = {ShadingModel::kPhong, ShadingModel::kTorranc
                                     ShadingModel::kHallGreenberg, ShadingModel::kRt,
                                     ShadingModel::kRtLamp};
 
+Affine some_map(Random& random) {
+  Affine map;
+  for (auto& row : map.m) {
+    for (double& v : row) v = random.any_finite();
+  }
+  return map;
+}
+
+Chart some_chart(Random& random) {
+  Chart c;
+  c.kind = static_cast<ChartKind>(random.below(kChartKinds));
+  for (EndChart& end : c.ends) end = static_cast<EndChart>(random.below(kEndCharts));
+  for (double& v : c.top_radii) v = random.not_negative();
+  const std::size_t most = most_maps_of(c.kind);
+  for (std::size_t i = 0; i < most && (i == 0 || random.below(4) > 0); ++i)
+    c.maps.push_back(some_map(random));
+  return c;
+}
+
 Pattern some_pattern(Random& random) {
   Pattern p;
   p.kind = static_cast<PatternKind>(random.below(kPatternKinds));
   if (p.kind == PatternKind::kNone) return p;
-  for (auto& row : p.to_pattern.m) {
-    for (double& v : row) v = random.any_finite();
-  }
+  p.to_pattern = some_map(random);
+  p.chart = some_chart(random);
   for (Rgb& c : p.colors) c = random.rgb();
   for (double& v : p.thresholds) v = random.any_finite();
   p.octaves = {random.uniform(0, kMaxOctaves), random.uniform(0.1, 9), random.any_finite()};
@@ -251,6 +269,16 @@ TEST_CASE("the header of a model slice lies at the offsets that FORMAT.md gives"
   CHECK(load_little<double>(primitive + 7 + 24) == 0.5);
 }
 
+/// The chart of a sphere that the first material's pattern gets.
+Chart& charted(Model& m) {
+  Pattern& pattern = m.materials[0].pattern;
+  pattern.kind = PatternKind::kMarble;
+  pattern.chart = {};
+  pattern.chart.kind = ChartKind::kSphere;
+  pattern.chart.maps.resize(1);
+  return pattern.chart;
+}
+
 /// Makes the first material one of Hall–Greenberg's model, whose index isn't its `ior`.
 Material& glaze(Model& m) {
   m.materials[0].model = ShadingModel::kHallGreenberg;
@@ -320,6 +348,19 @@ TEST_CASE("a broken model is refused, and the error names the part") {
        }},
       {"material 0", "unknown pattern",
        [](Model& m) { m.materials[0].pattern.kind = static_cast<PatternKind>(kPatternKinds); }},
+      {"material 0", "unknown chart",
+       [](Model& m) { charted(m).kind = static_cast<ChartKind>(kChartKinds); }},
+      {"material 0", "chart out of range", [](Model& m) { charted(m).maps.resize(2); }},
+      {"material 0", "chart out of range", [](Model& m) { charted(m).maps.clear(); }},
+      {"material 0", "chart out of range",
+       [](Model& m) {
+         charted(m).kind = ChartKind::kFaces;
+         charted(m).maps.resize(kMaxChartFaces + 1);
+       }},
+      {"material 0", "chart out of range",
+       [](Model& m) { charted(m).ends[1] = static_cast<EndChart>(kEndCharts); }},
+      {"material 0", "chart out of range", [](Model& m) { charted(m).top_radii[0] = -1; }},
+      {"material 0", "chart out of range", [](Model& m) { charted(m).maps[0].m[2][3] = kInf; }},
       {"material 0", "pattern out of range",
        [](Model& m) {
          m.materials[0].pattern.kind = PatternKind::kMarble;

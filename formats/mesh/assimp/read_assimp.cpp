@@ -9,6 +9,7 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <optional>
 #include <string>
@@ -51,6 +52,41 @@ bool has_y_up(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 5> kEndings{".gltf", ".glb", ".dae", ".x3d", ".3ds"};
   const std::string ending = path.extension().string();
   return std::ranges::any_of(kEndings, [&](auto e) { return equal_words(ending, e); });
+}
+
+/// From a scene whose up is y.
+const Matrix kTurned(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+
+/// One of an FBX's axes as a row of a map: 0 … 2 is the axis, 1 or −1 its sign.
+std::optional<std::array<double, 3>> fbx_axis(const aiMetadata& settings, const std::string& name,
+                                              int wanted_sign) {
+  std::int32_t axis = -1, sign = 0;
+  settings.Get(name, axis);
+  settings.Get(name + "Sign", sign);
+  if (axis < 0 || axis > 2 || (sign != 1 && sign != -1)) return std::nullopt;
+  std::array<double, 3> row{};
+  row[static_cast<std::size_t>(axis)] = sign * wanted_sign;
+  return row;
+}
+
+/// An FBX says which of its axes goes up, which one to the front and which one to the right; where
+/// it doesn't, or they aren't three, y is up. Later versions of the library than 5.2 turn the root
+/// so that y is.
+Matrix from_fbx(const aiScene& scene) {
+  if (scene.mMetaData == nullptr || !scene.mRootNode->mTransformation.IsIdentity()) return kTurned;
+  const auto x = fbx_axis(*scene.mMetaData, "CoordAxis", 1);
+  const auto y = fbx_axis(*scene.mMetaData, "FrontAxis", -1);
+  const auto z = fbx_axis(*scene.mMetaData, "UpAxis", 1);
+  if (!x || !y || !z) return kTurned;
+  const Matrix map((*x)[0], (*x)[1], (*x)[2], 0, (*y)[0], (*y)[1], (*y)[2], 0, (*z)[0], (*z)[1],
+                   (*z)[2], 0, 0, 0, 0, 1);
+  return map.Determinant() != 0 ? map : kTurned;
+}
+
+/// From the scene as the library hands it over to one whose up is z.
+Matrix to_z_up(const aiScene& scene, const std::filesystem::path& path) {
+  if (equal_words(path.extension().string(), ".fbx")) return from_fbx(scene);
+  return has_y_up(path) ? kTurned : Matrix();
 }
 
 bool is_linear(const std::filesystem::path& path) {
@@ -175,8 +211,7 @@ Parts read_by_assimp(const std::filesystem::path& path) try {
                                   aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_RemoveComponent);
   if (scene == nullptr || scene->mRootNode == nullptr) return MeshFault{message_of(importer)};
-  const Matrix turned(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
-  return Collector(*scene, is_linear(path)).run(has_y_up(path) ? turned : Matrix());
+  return Collector(*scene, is_linear(path)).run(to_z_up(*scene, path));
 } catch (const std::exception& e) {
   return MeshFault{std::string("assimp: ") + e.what()};
 }

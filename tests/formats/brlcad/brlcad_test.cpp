@@ -145,7 +145,7 @@ TEST_CASE("a lamp shines, and an unknown shader is plastic with one warning") {
       "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput t ell V {9 0 0} A {1 0 0} B "
       "{0 1 0} C {0 0 1}\n"
       "put lamp comb region yes rgb {0 0 255} shader {light {f 0.5}} tree {l s}\n"
-      "put a comb region yes shader {cloud} tree {l t}\nput b comb region yes shader {cloud} tree "
+      "put a comb region yes shader {wood} tree {l t}\nput b comb region yes shader {wood} tree "
       "{l t}\n";
   const BrlcadResult result = read_brlcad(text);
   REQUIRE(result.scene);
@@ -153,7 +153,7 @@ TEST_CASE("a lamp shines, and an unknown shader is plastic with one warning") {
   CHECK(result.scene->settings.lights[0].color == Rgb{0, 0, 0.5});
   CHECK(length(result.scene->settings.lights[0].position) < 1e-12);
   REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].text == "2 regions: the shader 'cloud' is taken for plastic: a, b");
+  CHECK(result.warnings[0].text == "2 regions: the shader 'wood' is taken for plastic: a, b");
 }
 
 TEST_CASE("a hole flush with a face leaves no skin") {
@@ -389,6 +389,24 @@ TEST_CASE("a view script and a quaternion give the axes of rt") {
   REQUIRE(seen);
   CHECK(seen->camera.projection == Projection::kPerspective);
   CHECK(seen->camera.fov_degrees == 30);
+}
+
+TEST_CASE("a region without end is framed by its finite solids, where they are in it") {
+  // Below z = 0: a half-space far off, and the lower half of a ball.
+  const Scene scene = scene_of(
+      "title t\nput h half N {0 0 1} d 0\nput far half N {1 0 0} d -100\nput s ell V {0 0 0} A {2 "
+      "0 "
+      "0} B {0 2 0} C {0 0 2}\nput r comb region yes tree {n {l h} {u {l far} {l s}}}\n");
+  CHECK(scene.settings.camera.width == Approx(std::sqrt(4.0 * 4 + 4 * 4 + 2 * 2)));
+}
+
+TEST_CASE("of a view script's frames the first counts") {
+  BrlcadReport report;
+  const auto view = read_brlcad_view(
+      "viewsize 10; eye_pt 0 0 5; lookat_pt 1 0 5; end; viewsize 20; eye_pt 1 1 1; end;", report);
+  REQUIRE(view);
+  CHECK(view->size == 10);
+  CHECK(view->camera.eye == Vec3{0, 0, 5});
 }
 
 TEST_CASE("Tcl words are cut as Tcl does") {

@@ -51,6 +51,15 @@ TEST_CASE("a cut above regions that can't be built leaves out the regions that i
   CHECK(result.warnings[0].text == "1 region is left out (dsp is not supported): b.r");
 }
 
+TEST_CASE("nothing is left of regions that are intersected with a solid without volume") {
+  const BrlcadResult result = read(
+      kSphere + kRegion +
+      "put flat ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 0}\nput b.r comb region yes tree {l s}\n"
+      "put c.r comb region yes tree {l s}\nput both comb region no tree {n {l b.r} {l flat}}\n"
+      "put less comb region no tree {- {l c.r} {l flat}}\n");
+  CHECK(names_of(*result.scene) == std::vector<std::string>{"a.r", "c.r"});
+}
+
 TEST_CASE("air regions are left out with a count, which is no fault") {
   const BrlcadResult result =
       read(kSphere + kRegion + "put b.r comb region yes air 1 tree {l s}\n" +

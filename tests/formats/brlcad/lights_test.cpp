@@ -59,6 +59,17 @@ TEST_CASE("lamps count relative to the brightest, unless they say their part of 
   CHECK(scene.materials[scene.objects[2].material].material.model == ShadingModel::kRtLamp);
 }
 
+TEST_CASE("a lamp with a part of full light dims no other, and one without lumens has 1") {
+  const auto first_of = [](const std::string& parameters, const std::string& others) {
+    return scene_of(kBall + lamp("a", -20, parameters) + lamp("b", 20, others))
+        .settings.lights.at(0)
+        .color.r;
+  };
+  CHECK(first_of("b 1", "b 1000 f 0.25") == Approx(1 / 1.2));
+  CHECK(first_of("b 0", "b 2") == Approx(0.5 / 1.2));
+  CHECK(first_of("b -5", "b 4") == Approx(0.25 / 1.2));
+}
+
 TEST_CASE("invisible lamps shine but aren't drawn, shadowless and infinite ones are so") {
   const Scene scene = scene_of(kBall + lamp("a", 0, "invisible 1") + lamp("b", 20, "v 0") +
                                lamp("c", 40, "s 0") + lamp("d", 30, "i 1"));
@@ -110,6 +121,8 @@ TEST_CASE("a stack is its last member that is known") {
   CHECK(surface("stack {{plastic {di 0.5}} {mirror {re 0.25}}}").material.reflect == 0.25);
   CHECK(surface("stack fbm s=1;plastic di=0.5 sp=0").material.diffuse == 0.5);
   CHECK(surface("stack {light {b 2}}").is_light);
+  CHECK(surface("bump file=x; plastic di=.9").material.diffuse == 0.9);
+  CHECK(surface("plastic di=.9;").material.diffuse == 0.9);
   BrlcadReport report;
   brlcad_surface("stack {wood} {plastic}", {1, 2, 3}, "r", report);
   const auto warnings = report.take_warnings();
@@ -174,7 +187,8 @@ TEST_CASE("a pattern lies in the coordinates of its region") {
 }
 
 TEST_CASE("a checker of one colour has that colour in any light") {
-  for (const char* shader : {"checker a=0/0/150 b=0/0/150", "checker {a {0 0 150} b {0 0 150}}"}) {
+  for (const char* shader :
+       {"checker a=0/0/150 b=0/0/150", "checker {a {0 0 150.9} b {0 0 150}}"}) {
     const Scene scene = scene_of(
         "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
         "put r comb region yes shader {" +
@@ -207,14 +221,19 @@ TEST_CASE("a checker on a half-space has squares of 5 m about the normal through
   CHECK(red_at(-2600, 2600) == 1);
   CHECK(red_at(7400, 0) == 0);
   CHECK(red_at(7600, 0) == 1);
-  // Elsewhere its squares follow the solid's u and v: told of, and drawn in one colour.
-  const BrlcadResult other = read_brlcad(
-      "title t\nput s ell V {0 0 0} A {9 0 0} B {0 9 0} C {0 0 9}\nput r comb region yes shader "
-      "{checker} tree {l s}\n");
-  REQUIRE(other.scene);
-  CHECK(other.scene->materials.at(0).material.color == Rgb{0.5, 0.5, 0.5});
-  REQUIRE(other.warnings.size() == 1);
-  CHECK(other.warnings[0].text == "1 region: a checker is one colour, the mean of its two: r");
+}
+
+TEST_CASE("the region of an envmap isn't drawn, which is told") {
+  const BrlcadResult result = read_brlcad(
+      kBall +
+      "put e ell V {0 0 0} A {900 0 0} B {0 900 0} C {0 0 900}\nput e.r comb region yes "
+      "shader {envmap cloud} tree {l e}\n");
+  REQUIRE(result.scene);
+  REQUIRE(result.scene->objects.size() == 1);
+  CHECK(result.scene->objects[0].name == "s.r");
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].text ==
+        "1 region: an envmap is no background here, and isn't drawn: e.r");
 }
 
 TEST_CASE("flat is its own colour, or the region's, in any light") {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "formats/brlcad/solids.hpp"
 #include "formats/brlcad/view.hpp"
 #include "model.hpp"
 #include "reading.hpp"
@@ -65,6 +66,60 @@ TEST_CASE("a pipe may bend more tightly than it is thick") {
   CHECK(holds(scene, 47 + 7.9 * std::sqrt(0.5), 3 - 7.9 * std::sqrt(0.5), 0));
   CHECK_FALSE(holds(scene, 47 + 8.1 * std::sqrt(0.5), 3 - 8.1 * std::sqrt(0.5), 0));
   CHECK(holds(pipe("0"), 49.9, 4, 0));
+}
+
+TEST_CASE("a pipe's bend begins before its point by the tangent of half the angle") {
+  // A turn of 60 degrees with radius 30: from x = 50 - 30 tan(30 degrees), about (32.68, 30).
+  const Scene scene = alone(
+      "s pipe V0 {0 0 0} O0 4 I0 0 R0 30 V1 {50 0 0} O1 4 I1 0 R1 30 V2 {75 43.30127018922193 0} "
+      "O2 4 I2 0 R2 30");
+  CHECK(holds(scene, 47.68, 4.02, 0));
+  CHECK(holds(scene, 32, 1.9, 0));
+  CHECK(holds(scene, 33.5, 0, 1.9));
+  CHECK_FALSE(holds(scene, 50, 0, 0));
+}
+
+TEST_CASE("a pipe's bore is open at its ends, and what it leaves standing when cut is flush") {
+  const std::string pipe = "put s pipe V0 {0 0 0} O0 4 I0 2 R0 0 V1 {0 0 10} O1 4 I1 2 R1 0\n";
+  const Scene tube = scene_of("title t\n" + pipe + "put r comb region yes tree {l s}\n", {"r"});
+  CHECK(holds(tube, 1.5, 0, 0));
+  CHECK_FALSE(holds(tube, 0.5, 0, 0));
+  CHECK_FALSE(holds(tube, 0.5, 0, 10));
+  // The bore goes on beyond both ends by the skin; along it z goes from 0 to 1.
+  const CsgNode& bore = std::get<OperationNode>(tube.objects[0].csg.value).children.at(1);
+  REQUIRE(bore.transform);
+  CHECK(bore.transform->point({0, 0, 0}).z == Approx(-kBrlcadSkin).margin(1e-9));
+  CHECK(bore.transform->point({0, 0, 1}).z == Approx(10 + kBrlcadSkin).margin(1e-9));
+  const Scene cut = scene_of("title t\n" + pipe +
+                                 "put b arb8 V1 {-9 -9 0} V2 {9 -9 0} V3 {9 9 0} V4 {-9 9 0} V5 "
+                                 "{-9 -9 10} V6 {9 -9 10} V7 {9 9 10} V8 {-9 9 10}\n"
+                                 "put r comb region yes tree {- {l b} {l s}}\n",
+                             {"r"});
+  CHECK(holds(cut, 0.5, 0, 0));
+  CHECK_FALSE(holds(cut, 1.5, 0, 0));
+  // The rod in the bore is not thinner than the bore.
+  CHECK(holds(cut, 0.9999, 0, 5));
+}
+
+TEST_CASE("the faces of a mesh that is cut off move outwards by the skin, a spike's tip by eight") {
+  const auto grown = [](const Vec3& tip) {
+    BrlcadMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 2, 0}, tip};
+    mesh.faces = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    const BrlcadNode node = brlcad_mesh_node(mesh, {}, 0.01);
+    REQUIRE(node.node);
+    return std::get<MeshShape>(node.node->value).mesh.points;
+  };
+  const std::vector<Vec3> points = grown({0.5, 0.5, 4});
+  REQUIRE(points.size() == 5);
+  // Where three planes meet, each is as far off as the others: below, y = 0, and a slope.
+  const Vec3 slope = normalized(cross(Vec3{0.5, 0.5, 4}, Vec3{0, 2, 0}));
+  const Vec3 shift = points[0];
+  CHECK(-shift.z == Approx(0.01).epsilon(1e-4));
+  CHECK(std::fabs(dot(shift, slope)) == Approx(0.01).epsilon(1e-4));
+  CHECK(std::fabs(dot(shift, normalized(Vec3{0, 4, -0.5}))) == Approx(0.01).epsilon(1e-4));
+  const Vec3 tip = grown({0.5, 0.5, 400})[4];
+  CHECK(length(tip - Vec3{0.5, 0.5, 400}) == Approx(0.08));
 }
 
 TEST_CASE("a view is framed by bounds that are rounded outwards to whole millimetres") {

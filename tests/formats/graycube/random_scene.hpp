@@ -123,9 +123,21 @@ class RandomScene {
     if (p.kind == PatternKind::kNone) return p;
     if (below(2) == 0) p.to_pattern = transform();
     for (std::size_t i = 0; i < colors_of(p.kind); ++i) p.colors[i] = color();
-    if (p.kind == PatternKind::kCamouflage) p.thresholds = {fraction(), fraction()};
+    if (has_thresholds(p.kind)) p.thresholds = {fraction(), fraction()};
     if (has_noise(p.kind)) p.octaves = {kMaxOctaves * fraction(), positive(), fraction()};
+    if (below(2) == 0) p.chart = chart();
     return p;
+  }
+  /// What the kind doesn't use keeps its default, as above.
+  Chart chart() {
+    Chart c;
+    c.kind = static_cast<ChartKind>(1 + below(kChartKinds - 1));
+    const std::size_t maps = c.kind == ChartKind::kFaces ? 1 + below(kMaxChartFaces) : 1;
+    for (std::size_t i = 0; i < maps; ++i) c.maps.push_back(transform());
+    if (c.kind != ChartKind::kRound) return c;
+    for (EndChart& end : c.ends) end = static_cast<EndChart>(below(kEndCharts));
+    c.top_radii = {fraction(), positive()};
+    return c;
   }
 
   /// A map that scales, mirrors and shears, always well away from singular.

@@ -270,6 +270,33 @@ TEST_CASE("a bad pattern is refused") {
        bad(camo + R"(, "to_pattern": [{"scale": 0}])", "/to_pattern/0/scale", "not zero")});
 }
 
+TEST_CASE("a bad chart is refused") {
+  const auto bad = [](const std::string& chart, const std::string& key,
+                      const std::string& fragment) {
+    return Case{R"({"red": {"pattern": {"type": "marble", "colors": [[1,0,0]], "chart": {)" +
+                    chart + "}}}}",
+                "/materials/red/pattern/chart" + key, fragment};
+  };
+  const std::string round = R"("type": "round", )";
+  check_key(
+      "materials",
+      {bad(R"("to_solid": [])", "", "a chart needs the key \"type\""),
+       bad(R"("type": "spere")", "/type", "did you mean \"sphere\"?"),
+       bad(R"("type": "sphere", "top_radii": [1, 1])", "/top_radii",
+           "a sphere chart has no key \"top_radii\""),
+       bad(R"("type": "sphere", "faces": [[]])", "/faces", "a sphere chart has no key \"faces\""),
+       bad(R"("type": "faces", "faces": [[]], "to_solid": [])", "/to_solid",
+           "a faces chart has no key \"to_solid\""),
+       bad(R"("type": "faces")", "", "a list of 1 to 6 faces' maps"),
+       bad(R"("type": "faces", "faces": [])", "/faces", "a list of 1 to 6 faces' maps"),
+       bad(R"("type": "faces", "faces": [[],[],[],[],[],[],[]])", "/faces", "a list of 1 to 6"),
+       bad(R"("type": "torus", "to_solid": [{"scale": 0}])", "/to_solid/0/scale", "not zero"),
+       bad(round + R"("ends": ["none"])", "/ends", "what v is on both ends"),
+       bad(round + R"("ends": ["none", "non"])", "/ends/1", "did you mean \"none\"?"),
+       bad(round + R"("top_radii": [1, -1])", "/top_radii/1", ">= 0"),
+       bad(round + R"("top_radii": 1)", "/top_radii", "two radii")});
+}
+
 TEST_CASE("every leaf's values are checked") {
   check_csg(
       {{R"({"type": "sphere", "center": [0,0,0], "radius": 0})", "/radius", "> 0, found 0"},

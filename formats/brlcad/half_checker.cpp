@@ -1,6 +1,5 @@
-#include "formats/brlcad/checker.hpp"
+#include "formats/brlcad/half_checker.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace graycube::brlcad {
@@ -12,7 +11,8 @@ constexpr double kSide = 5000;
 /// The sides of the checker's cubes across the plane: all of a model lies within one.
 constexpr double kDepth = 1e12;
 
-/// A direction across the normal: the product of the axis that is least along it with it.
+}  // namespace
+
 Vec3 across(const Vec3& normal) {
   const Vec3 size{std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
   Vec3 axis{1, 0, 0};
@@ -21,37 +21,19 @@ Vec3 across(const Vec3& normal) {
   return normalized(cross(axis, normal));
 }
 
-Rgb color_of(const Vec3& v) {
-  const auto unit = [](double c) { return std::clamp(std::trunc(c), 0.0, 255.0) / 255; };
-  return {unit(v.x), unit(v.y), unit(v.z)};
-}
-
-}  // namespace
-
-std::optional<Checker> checker_of(const ShaderWords& words) {
-  if (words.empty() || words.front() != "checker") return std::nullopt;
-  Checker checker{{{{1, 1, 1}, {0, 0, 0}}}, 2};
-  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
-    const auto color = vector_behind(words, i);
-    if (words[i] == "a" && color) checker.colors[0] = color_of(*color);
-    if (words[i] == "b" && color) checker.colors[1] = color_of(*color);
-    if (words[i] == "s") checker.scale = number_behind(words, i).value_or(checker.scale);
+std::optional<Pattern> half_space_checker(const Pattern& on_surface, const BrlcadSolid& solid,
+                                          const Affine& to_world) {
+  if (solid.kind != BrlcadKind::kHalf || on_surface.kind != PatternKind::kChecker ||
+      on_surface.to_pattern != scaling({2, 2, 1})) {
+    return std::nullopt;
   }
-  return checker;
-}
-
-std::optional<Pattern> checker_pattern(const Checker& checker, const BrlcadSolid& solid,
-                                       const Affine& to_world) {
-  if (solid.kind != BrlcadKind::kHalf || checker.scale != 2) return std::nullopt;
   const auto& v = solid.values;
   const Vec3 own{v[0], v[1], v[2]};
   const Vec3 normal = normalized(to_world.vector(own));
   const Vec3 center = dot(normal, to_world.point(v[3] * own)) * normal;
   const Vec3 x = (1 / kSide) * across(normal);
   const Vec3 y = (1 / kSide) * normalized(cross(x, normal));
-  Pattern pattern;
-  pattern.kind = PatternKind::kChecker;
-  pattern.colors = {checker.colors[0], checker.colors[1], {0, 0, 0}};
+  Pattern pattern = on_surface;
   const Vec3 z = (1 / kDepth) * normal;
   // The middle of a cube is where the normal through the origin meets the plane.
   pattern.to_pattern.m = {{{x.x, x.y, x.z, 0.5 - dot(x, center)},
