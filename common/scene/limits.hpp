@@ -26,5 +26,9 @@ inline constexpr std::uint32_t kMaxObjects = 1u << 24;
 inline constexpr std::uint32_t kMaxPlanes = 1u << 16;
 /// The most points of a prism, and corners of its paths.
 inline constexpr std::uint32_t kMaxPrismPoints = 4096;
+/// The most outlines of lathes and sweeps, and segments of all together. One has at most
+/// kMaxOutlineSegments (outline/outline.hpp).
+inline constexpr std::uint32_t kMaxOutlines = 65535;
+inline constexpr std::uint32_t kMaxSegmentsOfOutlines = 1u << 20;
 
 }  // namespace graycube

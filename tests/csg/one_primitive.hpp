@@ -10,8 +10,9 @@
 namespace graycube::testing {
 
 inline const std::array<const char*, kLeafKinds> kLeafNames{
-    "sphere",     "box",           "cylinder",       "cone",    "torus", "ellipsoid",
-    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "mesh",  "half_space"};
+    "sphere",    "box",        "cylinder",      "cone",           "torus",
+    "ellipsoid", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",
+    "mesh",      "lathe",      "sweep",         "half_space"};
 
 struct OnePrimitive {
   Model model;
