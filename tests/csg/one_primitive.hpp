@@ -9,10 +9,10 @@
 
 namespace graycube::testing {
 
-inline const std::array<const char*, kLeafKinds> kLeafNames{
+inline const std::array<const char*, kAllLeafKinds> kLeafNames{
     "sphere",    "box",        "cylinder",      "cone",           "torus",
     "ellipsoid", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",
-    "mesh",      "lathe",      "sweep",         "half_space"};
+    "mesh",      "half_space", "lathe",         "sweep"};
 
 struct OnePrimitive {
   Model model;

@@ -17,7 +17,9 @@
 
 namespace graycube::testing {
 
-inline constexpr std::size_t kLeafKinds = 14;
+/// Kinds of leaves of random scenes; with those whose intervals have no bound, the last ones.
+inline constexpr std::size_t kLeafKinds = 12;
+inline constexpr std::size_t kAllLeafKinds = 14;
 
 struct RandomOptions {
   /// Half of all coordinates are multiples of 1/2, and some leaves repeat others: faces coincide.
@@ -64,7 +66,7 @@ class RandomModel {
     return s;
   }
 
-  /// A leaf of kind number 0 … kLeafKinds − 1, in its own coordinates near the origin.
+  /// A leaf of kind number 0 … kAllLeafKinds − 1, in its own coordinates near the origin.
   CsgNode leaf(std::size_t kind) {
     switch (kind) {
       case 0: return node_of(SphereShape{place(), size()});
@@ -78,8 +80,8 @@ class RandomModel {
       case 8: return node_of(elliptic_torus());
       case 9: return node_of(quadric());
       case 10: return node_of(mesh());
-      case 11: return node_of(LatheShape{outline(0)});
-      case 12: return node_of(SweepShape{outline(-1), size(), is_on_grid() ? -0.5 : 0.0});
+      case 12: return node_of(LatheShape{outline(0)});
+      case 13: return node_of(SweepShape{outline(-1), size(), is_on_grid() ? -0.5 : 0.0});
       default: return node_of(half_space());
     }
   }

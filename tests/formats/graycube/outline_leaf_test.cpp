@@ -122,8 +122,8 @@ TEST_CASE("refs to one shape share its outline, which has no coordinate beyond 1
 
 TEST_CASE("an outline that leaves the range of coordinates is refused before it is rendered") {
   for (const std::string& csg :
-       {lathe("[[1e300,0],[2e300,0],[1e300,1e300]]"),
-        lathe("[[1e-300,0],[2e-300,0],[1e-300,1e-300]]"),
+       {lathe("[[0,0],[1e19,0],[1e19,1e19],[0,1e19]]"),
+        lathe("[[0,0],[1e-19,0],[1e-19,1e-19],[0,1e-19]]"),
         std::string(R"({"type": "sweep", "height": 1e-30, "outline": [[[0,0],[1,0],[1,1]]]})")}) {
     CHECK_THROWS_AS(compile_scene(scene_with(csg)), UnrenderableScene);
   }
