@@ -20,6 +20,7 @@
 #include "mesh/close_mesh.hpp"
 #include "proto/batch.hpp"
 #include "scene/compile_scene.hpp"
+#include "scene/outline_solids.hpp"
 #include "trace/domain.hpp"
 
 namespace graycube::bench {
@@ -87,6 +88,10 @@ struct Specimen {
         primitive = build_quadric(none, {1, 1, 0, -1}, {-1.5, -1.5, -1}, {1.5, 1.5, 1}, planes);
         break;
       case PrimitiveKind::kMesh: primitive = build_mesh(none, ball_mesh(), meshes); break;
+      case PrimitiveKind::kLathe: primitive = build_lathe(none, stock.of(vase_outline)); break;
+      case PrimitiveKind::kSweep:
+        primitive = build_sweep(none, stock.of(vase_outline), -0.5, 1);
+        break;
       case PrimitiveKind::kPolyhedron: {
         const std::array<Plane, 4> faces{
             {{{1, 1, 1}, 1}, {{-1, -1, 1}, 1}, {{-1, 1, -1}, 1}, {{1, -1, -1}, 1}}};
@@ -95,11 +100,32 @@ struct Specimen {
       }
     }
   }
-  PrimitiveData data() const { return {planes, meshes}; }
+  PrimitiveData data() const { return {planes, meshes, outlines}; }
 
   Primitive primitive;
   std::vector<Plane> planes;
   std::vector<Mesh> meshes;
+  std::vector<Outline> outlines;
+  OutlineStock stock{outlines};
+  /// A vase with a wall, or its half seen from the side.
+  OutlineLoops vase_outline{{{0, -0.9},
+                             {0.3, -0.9},
+                             {0.5, -0.9},
+                             {0.6, -0.6},
+                             {1, 0},
+                             {0.2, 0.4},
+                             {0.5, 0.9},
+                             {0.45, 0.9},
+                             {0.42, 0.9},
+                             {0.4, 0.9},
+                             {0.1, 0.4},
+                             {0.9, 0},
+                             {0.5, -0.6},
+                             {0.3, -0.8},
+                             {0.2, -0.8},
+                             {0, -0.8},
+                             {0, -0.82},
+                             {0, -0.86}}};
 };
 
 /// Rays about the origin; about two of three hit what Specimen makes.

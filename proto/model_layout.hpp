@@ -30,6 +30,10 @@ inline constexpr std::size_t kPointBytes = 24;
 inline constexpr std::size_t kTriangleBytes = 12;
 /// The number of a triangle's plane, written if the mesh lies in planes of other solids.
 inline constexpr std::size_t kPlaneNumberBytes = 4;
+/// The number of an outline's loops; each has its number of segments and three points a segment.
+inline constexpr std::size_t kOutlineBytes = 4;
+inline constexpr std::size_t kLoopBytes = 4;
+inline constexpr std::size_t kSegmentBytes = 6 * 8;
 inline constexpr std::size_t kNodeBytes = 5;
 inline constexpr std::size_t kObjectBytes = 60;
 /// Kind, flags and material; the parts that the flags name follow.
@@ -40,7 +44,8 @@ inline constexpr unsigned kHasMap = 1u << 6;
 inline constexpr unsigned kHasBounds = 1u << 7;
 inline constexpr unsigned kHasPlanes = 1u << 8;
 inline constexpr unsigned kHasMesh = 1u << 9;
-inline constexpr unsigned kAllFlags = (1u << 10) - 1;
+inline constexpr unsigned kHasOutline = 1u << 10;
+inline constexpr unsigned kAllFlags = (1u << 11) - 1;
 
 /// Whether all bits are equal: −0 is not +0.
 inline bool same_bits(double a, double b) {
@@ -67,6 +72,7 @@ inline unsigned flags_of(const Primitive& p) {
   }
   if (p.first_plane != 0 || p.plane_count != 0) flags |= kHasPlanes;
   if (p.mesh != 0) flags |= kHasMesh;
+  if (p.outline != 0) flags |= kHasOutline;
   return flags;
 }
 
@@ -78,7 +84,8 @@ inline std::size_t mesh_bytes(const TriangleMesh& mesh) {
 constexpr std::size_t primitive_bytes(unsigned flags) {
   return kPrimitiveBytes + 8 * static_cast<std::size_t>(std::popcount(flags & 0x3Fu)) +
          ((flags & kHasMap) != 0 ? 96 : 0) + ((flags & kHasBounds) != 0 ? 48 : 0) +
-         ((flags & kHasPlanes) != 0 ? 8 : 0) + ((flags & kHasMesh) != 0 ? 4 : 0);
+         ((flags & kHasPlanes) != 0 ? 8 : 0) + ((flags & kHasMesh) != 0 ? 4 : 0) +
+         ((flags & kHasOutline) != 0 ? 4 : 0);
 }
 
 inline bool is_inner(TreeNode::Kind kind) {

@@ -26,6 +26,10 @@ inline constexpr std::uint32_t kMaxModelPlanes = 1u << 25;
 /// Points of all meshes together; no more than 3 a triangle are used.
 inline constexpr std::uint32_t kMaxModelPoints = 3 * kMaxMeshTriangles;
 inline constexpr std::uint32_t kMaxModelMeshes = 1u << 20;
+/// Their number crosses in 16 bits.
+inline constexpr std::uint32_t kMaxModelOutlines = 65535;
+/// Segments of all outlines together.
+inline constexpr std::uint32_t kMaxModelSegments = 1u << 20;
 inline constexpr std::uint32_t kMaxModelNodes = 1u << 26;
 inline constexpr std::uint32_t kMaxModelObjects = 1u << 24;
 /// Most nodes on the way from an object's root to a leaf: whoever walks the tree may recurse.
@@ -71,8 +75,8 @@ class SliceEncoder {
 bool is_encoded_model(std::span<const std::byte> bytes);
 
 /// Takes no more memory than the counts that the bytes can hold, and checks every index: nodes of a
-/// decoded model nest properly, and every material, plane, point, mesh and primitive that
-/// they name exists.
+/// decoded model nest properly, and every material, plane, point, mesh, outline and primitive
+/// that they name exists.
 [[nodiscard]] std::variant<Model, ModelError> decode_model(std::span<const std::byte> bytes);
 /// Like decode_model, but more bytes may follow: `bytes` becomes those.
 [[nodiscard]] std::variant<Model, ModelError> take_model(std::span<const std::byte>& bytes);

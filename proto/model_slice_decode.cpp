@@ -7,6 +7,7 @@
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/slices/material_bytes.hpp"
+#include "proto/slices/outline_bytes.hpp"
 #include "proto/slices/values.hpp"
 
 namespace graycube {
@@ -15,7 +16,7 @@ namespace {
 using namespace model_layout;
 
 struct Counts {
-  std::uint32_t lights, materials, planes, primitives, nodes, objects, meshes;
+  std::uint32_t lights, materials, planes, primitives, nodes, objects, meshes, outlines;
 };
 
 Aabb get_box(ByteReader& r) {
@@ -45,6 +46,7 @@ class ModelReader {
     section("material", counts.materials, model_.materials, &ModelReader::material);
     section("plane", counts.planes, model_.planes, &ModelReader::plane);
     section("mesh", counts.meshes, model_.meshes, &ModelReader::mesh);
+    section("outline", counts.outlines, model_.outlines, &ModelReader::outline);
     section("primitive", counts.primitives, model_.primitives, &ModelReader::primitive);
     section("node", counts.nodes, model_.nodes, &ModelReader::node);
     section("object", counts.objects, model_.objects, &ModelReader::object);
@@ -63,7 +65,7 @@ class ModelReader {
     if (size_ > kMaxModelBytes) fail("header", "too large");
     if (r_.get<std::uint32_t>() != kModelMagic) fail("header", "bad magic");
     if (r_.get<std::uint16_t>() != kModelVersion) fail("header", "unknown version");
-    if (r_.get<std::uint16_t>() != 0) fail("header", "reserved field is not 0");
+    c.outlines = r_.get<std::uint16_t>();
     for (std::uint32_t* count :
          {&c.lights, &c.materials, &c.planes, &c.primitives, &c.nodes, &c.objects, &c.meshes}) {
       *count = r_.get<std::uint32_t>();
@@ -78,7 +80,8 @@ class ModelReader {
         std::uint64_t{c.materials} * kMaterialBytes + std::uint64_t{c.planes} * kPlaneBytes +
         std::uint64_t{c.primitives} * kPrimitiveBytes + std::uint64_t{c.nodes} * kNodeBytes +
         std::uint64_t{c.objects} * kObjectBytes +
-        std::uint64_t{c.meshes} * (kMeshBytes + kPointBytes + kTriangleBytes);
+        std::uint64_t{c.meshes} * (kMeshBytes + kPointBytes + kTriangleBytes) +
+        std::uint64_t{c.outlines} * (kOutlineBytes + kLoopBytes + kSegmentBytes);
     if (!r_.ok() || least > r_.remaining()) fail("header", "fewer bytes than the counts need");
     return c;
   }
@@ -235,6 +238,8 @@ class ModelReader {
     return nullptr;
   }
 
+  const char* outline(Outline& out) { return get_outline(r_, segments_, out); }
+
   const char* primitive(Primitive& p) {
     const auto kind = r_.get<std::uint8_t>();
     const unsigned flags = r_.get<std::uint16_t>();
@@ -266,6 +271,9 @@ class ModelReader {
     if ((flags & kHasMesh) != 0) p.mesh = r_.get<std::uint32_t>();
     if (p.kind == PrimitiveKind::kMesh ? p.mesh >= model_.meshes.size() : p.mesh != 0)
       return "no such mesh";
+    if ((flags & kHasOutline) != 0) p.outline = r_.get<std::uint32_t>();
+    if (csg::has_outline(p.kind) ? p.outline >= model_.outlines.size() : p.outline != 0)
+      return "no such outline";
     return finite && is_box(p.bounds) ? nullptr : "not finite";
   }
 
@@ -326,6 +334,8 @@ class ModelReader {
   ByteReader r_;
   std::size_t size_;
   std::uint64_t mesh_points_ = 0, mesh_triangles_ = 0;
+  /// Of the outlines so far.
+  std::uint64_t segments_ = 0;
   std::size_t media_ = 0;
   Model model_;
   std::optional<ModelError> error_;

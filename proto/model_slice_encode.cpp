@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <unordered_map>
 
 #include "check.hpp"
 #include "proto/bytes.hpp"
 #include "proto/model_layout.hpp"
 #include "proto/model_slice.hpp"
 #include "proto/slices/material_bytes.hpp"
+#include "proto/slices/outline_bytes.hpp"
 #include "proto/slices/values.hpp"
 #include "regions/kept_trees.hpp"
 
@@ -66,6 +68,7 @@ void put_primitive(ByteWriter& w, const Primitive& p, unsigned flags) {
     w.put(p.plane_count);
   }
   if ((flags & kHasMesh) != 0) w.put(p.mesh);
+  if ((flags & kHasOutline) != 0) w.put(p.outline);
 }
 
 void put_plane(ByteWriter& w, const Plane& plane) {
@@ -101,7 +104,7 @@ void put_object(ByteWriter& w, const Object& o) {
 }
 
 struct Counts {
-  std::size_t planes = 0, primitives = 0, nodes = 0, objects = 0, meshes = 0;
+  std::size_t planes = 0, primitives = 0, nodes = 0, objects = 0, meshes = 0, outlines = 0;
 };
 
 std::size_t beginning_bytes(const Model& model) {
@@ -114,7 +117,7 @@ std::size_t beginning_bytes(const Model& model) {
 void put_beginning(ByteWriter& w, const Model& model, const Counts& counts) {
   w.put(kModelMagic);
   w.put(kModelVersion);
-  w.put(std::uint16_t{0});
+  w.put(static_cast<std::uint16_t>(counts.outlines));
   for (const std::size_t count :
        {model.settings.lights.size(), model.materials.size(), counts.planes, counts.primitives,
         counts.nodes, counts.objects, counts.meshes}) {
@@ -143,6 +146,7 @@ std::size_t encoded_model_bytes(const Model& model) {
   std::size_t bytes = beginning_bytes(model) + model.planes.size() * kPlaneBytes +
                       model.nodes.size() * kNodeBytes + model.objects.size() * kObjectBytes;
   for (const Mesh& m : model.meshes) bytes += mesh_bytes(m.surface());
+  for (const Outline& o : model.outlines) bytes += outline_bytes(o);
   for (const Primitive& p : model.primitives) bytes += primitive_bytes(flags_of(p));
   return bytes;
 }
@@ -154,6 +158,7 @@ std::size_t encoded_object_bytes(const Model& model, const Object& object) {
     const Primitive& p = model.primitives[n.primitive];
     bytes += primitive_bytes(flags_of(p)) + p.plane_count * kPlaneBytes;
     if (p.kind == PrimitiveKind::kMesh) bytes += mesh_bytes(model.meshes[p.mesh].surface());
+    if (csg::has_outline(p.kind)) bytes += outline_bytes(model.outlines[p.outline]);
   }
   return bytes;
 }
@@ -170,11 +175,17 @@ bool meshes_fit(const Model& model) {
          triangles <= kMaxMeshTriangles;
 }
 
+bool outlines_fit(const Model& model) {
+  std::size_t segments = 0;
+  for (const Outline& o : model.outlines) segments += segment_count(o);
+  return model.outlines.size() <= kMaxModelOutlines && segments <= kMaxModelSegments;
+}
+
 bool fits_limits(const Model& model, std::size_t bytes) {
   return model.settings.lights.size() <= kMaxLights &&
          model.materials.size() <= kMaxModelMaterials &&
          model.primitives.size() <= kMaxModelPrimitives && model.planes.size() <= kMaxModelPlanes &&
-         meshes_fit(model) && model.nodes.size() <= kMaxModelNodes &&
+         meshes_fit(model) && outlines_fit(model) && model.nodes.size() <= kMaxModelNodes &&
          model.objects.size() <= kMaxModelObjects && depth_of(model.nodes) <= kMaxModelTreeDepth &&
          bytes <= kMaxModelBytes;
 }
@@ -192,9 +203,10 @@ std::vector<std::byte> encode_model(const Model& model) {
   ByteWriter w(size);
   put_beginning(w, model,
                 {model.planes.size(), model.primitives.size(), model.nodes.size(),
-                 model.objects.size(), model.meshes.size()});
+                 model.objects.size(), model.meshes.size(), model.outlines.size()});
   for (const Plane& plane : model.planes) put_plane(w, plane);
   for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
+  for (const Outline& outline : model.outlines) put_outline(w, outline);
   for (const Primitive& p : model.primitives) put_primitive(w, p, flags_of(p));
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);
@@ -216,7 +228,23 @@ struct SliceEncoder::Kept {
       counts.nodes += nodes.size();
     });
     counts.objects = trees.size();
+    number_outlines(model);
   }
+
+  /// Gives the outlines that are used their numbers in the slice.
+  void number_outlines(const Model& model) {
+    for_each_primitive([&](std::uint32_t index) {
+      const Primitive& p = model.primitives[index];
+      if (!csg::has_outline(p.kind)) return;
+      const auto next = static_cast<std::uint32_t>(outlines.size());
+      if (outline_numbers.try_emplace(p.outline, next).second) outlines.push_back(p.outline);
+    });
+    counts.outlines = outlines.size();
+  }
+
+  /// The numbers of outlines in the model, in the slice's order; and those in the slice.
+  std::vector<std::uint32_t> outlines;
+  std::unordered_map<std::uint32_t, std::uint32_t> outline_numbers;
 
   /// Calls f(index of a primitive) for all of them, in the order in which they are renumbered.
   template <typename F>
@@ -232,7 +260,7 @@ struct SliceEncoder::Kept {
 SliceEncoder::SliceEncoder(const Model& model) : model_(model) {
   flags_.reserve(model.primitives.size());
   for (const Primitive& p : model.primitives) {
-    const unsigned flags = flags_of(p) & ~(kHasMesh | kHasPlanes);
+    const unsigned flags = flags_of(p) & ~(kHasMesh | kHasOutline | kHasPlanes);
     flags_.push_back(static_cast<std::uint16_t>(flags | (p.plane_count > 0 ? kHasPlanes : 0)));
   }
 }
@@ -243,8 +271,10 @@ std::vector<std::byte> SliceEncoder::encode(
   Counts& counts = kept.counts;
   std::size_t bytes =
       beginning_bytes(model_) + counts.nodes * kNodeBytes + counts.objects * kObjectBytes;
-  // The first mesh of a slice is number 0, which is not written.
+  // The first mesh and outline of a slice are number 0, which is not written.
   const auto flags = [&](const Primitive& p, unsigned of_whole) {
+    if (csg::has_outline(p.kind) && kept.outline_numbers.at(p.outline) > 0)
+      return of_whole | kHasOutline;
     return p.kind == PrimitiveKind::kMesh && counts.meshes > 0 ? of_whole | kHasMesh : of_whole;
   };
   kept.for_each_primitive([&](std::uint32_t index) {
@@ -256,6 +286,7 @@ std::vector<std::byte> SliceEncoder::encode(
     bytes += mesh_bytes(model_.meshes[p.mesh].surface());
     ++counts.meshes;
   });
+  for (const std::uint32_t o : kept.outlines) bytes += outline_bytes(model_.outlines[o]);
   for (const auto tail : tails) bytes += tail.size();
   ByteWriter w(bytes);
   put_beginning(w, model_, counts);
@@ -268,16 +299,19 @@ std::vector<std::byte> SliceEncoder::encode(
     const Primitive& p = model_.primitives[index];
     if (p.kind == PrimitiveKind::kMesh) put_mesh(w, model_.meshes[p.mesh].surface());
   });
+  for (const std::uint32_t o : kept.outlines) put_outline(w, model_.outlines[o]);
   counts.planes = counts.meshes = 0;
   kept.for_each_primitive([&](std::uint32_t index) {
     const Primitive& p = model_.primitives[index];
     const unsigned written = flags(p, flags_[index]);
-    if (p.plane_count == 0 && p.kind != PrimitiveKind::kMesh) return put_primitive(w, p, written);
+    if (p.plane_count == 0 && p.kind != PrimitiveKind::kMesh && !csg::has_outline(p.kind))
+      return put_primitive(w, p, written);
     Primitive renumbered = p;
     renumbered.first_plane = static_cast<std::uint32_t>(counts.planes);
     counts.planes += p.plane_count;
     renumbered.mesh = static_cast<std::uint32_t>(counts.meshes);
     counts.meshes += p.kind == PrimitiveKind::kMesh ? 1 : 0;
+    if (csg::has_outline(p.kind)) renumbered.outline = kept.outline_numbers.at(p.outline);
     put_primitive(w, renumbered, written);
   });
   std::uint32_t primitives = 0, nodes = 0;

@@ -62,6 +62,7 @@ void set_face(Model& model, const Face& face) {
       return;
     case PrimitiveKind::kCylinder:
     case PrimitiveKind::kCone:
+    case PrimitiveKind::kSweep:
     case PrimitiveKind::kEllipticCone:
       set_caps(p, normal + Vec3{}, is_upper(face.slot) ? lower_cap(p) : offset,
                is_upper(face.slot) ? offset : upper_cap(p));

@@ -27,6 +27,7 @@ inline std::uint32_t face_count(const Primitive& p) {
     case PrimitiveKind::kParallelepiped: return 6;
     case PrimitiveKind::kCylinder:
     case PrimitiveKind::kCone:
+    case PrimitiveKind::kSweep:
     case PrimitiveKind::kEllipticCone: return 2;
     case PrimitiveKind::kHalfSpace: return 1;
     case PrimitiveKind::kPolyhedron:
@@ -35,6 +36,7 @@ inline std::uint32_t face_count(const Primitive& p) {
     case PrimitiveKind::kEllipsoid:
     case PrimitiveKind::kTorus:
     case PrimitiveKind::kEllipticTorus:
+    case PrimitiveKind::kLathe:
     case PrimitiveKind::kMesh: break;
   }
   return 0;
@@ -59,6 +61,7 @@ inline Vec3 heading_of(const Model& model, const Primitive& p, std::uint32_t slo
     case PrimitiveKind::kHalfSpace: return half_space_plane(p).normal;
     case PrimitiveKind::kCylinder:
     case PrimitiveKind::kCone:
+    case PrimitiveKind::kSweep:
     case PrimitiveKind::kEllipticCone: return cap_normal(p);
     default: return {};
   }

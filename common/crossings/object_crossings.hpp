@@ -92,7 +92,9 @@ inline bool interval_of(const Literal& literal, const Model& model, const Prepar
       csg::clip_to_caps(i, p, ray.ray);
       break;
     }
-    case PrimitiveKind::kMesh: return false;
+    case PrimitiveKind::kMesh:
+    case PrimitiveKind::kLathe:
+    case PrimitiveKind::kSweep: return false;
     default: {
       const Spans s = spans_along(model.primitives[literal.primitive], model.data(), ray.ray);
       if (s.count > 1) return false;
@@ -115,6 +117,12 @@ inline bool has_lane_interval(PrimitiveKind kind) {
 }
 /// Kinds that a line may be inside of twice.
 inline bool may_have_two_intervals(PrimitiveKind kind) { return !has_lane_interval(kind); }
+
+/// Kinds that a line may be inside of any number of times.
+inline bool may_have_many_intervals(PrimitiveKind kind) {
+  constexpr std::uint32_t kMany = csg::kinds_with(&csg::KindTraits::has_many_intervals);
+  return csg::is_among(kind, kMany);
+}
 
 /// Kinds whose literals hold bounds, since solving them looks their primitive up.
 inline bool has_bounds(PrimitiveKind kind) {
@@ -140,7 +148,8 @@ inline bool may_meet(const Literal& literal, const PreparedRay& ray, double t0, 
   return !(t0 > t1 + 1e-12 * std::fabs(t1));
 }
 
-/// Calls add(enter, leave) for the literal's intervals along the line; the kind isn't a mesh.
+/// Calls add(enter, leave) for the literal's intervals along the line, of which there are
+/// two at most.
 template <typename Add>
 void each_interval(const Literal& literal, const Model& model, const PreparedRay& ray, Add&& add) {
   Ends ends;
@@ -223,7 +232,8 @@ struct SurfaceItem {
   bool is_complement = false;
   /// No crossing of it lets light through.
   bool is_opaque = true;
-  /// It has few literals and no mesh: it is solved without taking memory, several rays at once.
+  /// It has few literals, none with many intervals: it is solved without taking memory, several
+  /// rays at once.
   bool is_small = false;
   /// Any line is inside each literal's primitive in one interval at most.
   bool is_simple = false;

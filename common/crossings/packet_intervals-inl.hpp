@@ -296,12 +296,14 @@ HWY_INLINE LaneInterval lane_interval_of(const Literal& literal, const Model& mo
     case PrimitiveKind::kParallelepiped:
       i = lanes_parallelepiped(model.primitives[literal.primitive], rays);
       break;
-    // A line may be inside of these twice: LaneItem solves them lane by lane.
+    // A line may be inside of these twice or more: LaneItem solves them lane by lane.
     case PrimitiveKind::kTorus:
     case PrimitiveKind::kEllipticCone:
     case PrimitiveKind::kEllipticTorus:
     case PrimitiveKind::kQuadric:
-    case PrimitiveKind::kMesh: break;
+    case PrimitiveKind::kMesh:
+    case PrimitiveKind::kLathe:
+    case PrimitiveKind::kSweep: break;
   }
   // −0 is made +0.
   i.enter = hn::Add(i.enter, hn::Zero(Lanes()));

@@ -105,7 +105,7 @@ class SurfaceTreeBuilder {
       Literal literal = literal_of(n.primitive);
       literal.is_inverted = (n.kind == TreeNode::Kind::kInvertedLeaf) != item.is_complement;
       tree_.literals_.push_back(literal);
-      item.is_small = item.is_small && p.kind != PrimitiveKind::kMesh;
+      item.is_small = item.is_small && !crossings::may_have_many_intervals(p.kind);
       item.is_simple = item.is_simple && !crossings::may_have_two_intervals(p.kind);
       item.is_opaque = item.is_opaque && !(model_.materials[p.material].transmit > 0);
     }

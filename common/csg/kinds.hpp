@@ -15,6 +15,8 @@
 #include "csg/quadric.hpp"
 #include "csg/sphere.hpp"
 #include "csg/torus.hpp"
+#include "outline/lathe.hpp"
+#include "outline/sweep.hpp"
 
 namespace graycube::csg {
 
@@ -33,6 +35,8 @@ struct KindTraits {
   /// A line may be inside it in two intervals (or more). Other kinds are solved for several rays at
   /// once (crossings/packet_intervals-inl.hpp).
   bool has_two_intervals = false;
+  /// The number of its intervals has no bound.
+  bool has_many_intervals = false;
   /// It can be solved from its slots alone.
   bool is_all_slots = false;
   /// Its solver mostly solves a quartic, which WalkCounts counts.
@@ -43,7 +47,13 @@ struct KindTraits {
   Aabb (*grown_bounds)(const Primitive&, double by) = nullptr;
 };
 
-/// Calls a kind's function with what it asks for: the primitive, its faces, both, or its mesh.
+inline PlacedOutline placed_outline(const Primitive& p, const PrimitiveData& data) {
+  return {
+      data.outlines[p.outline], p.to_local, p.bounds, cap_normal(p), lower_cap(p), upper_cap(p)};
+}
+
+/// Calls a kind's function with what it asks for: the primitive, its faces, both, its outline, or
+/// its mesh.
 template <auto function, typename... Arguments>
 auto ask(const Primitive& p, const PrimitiveData& data, const Arguments&... arguments) {
   using F = decltype(function);
@@ -54,6 +64,8 @@ auto ask(const Primitive& p, const PrimitiveData& data, const Arguments&... argu
     return function(p, faces_of(p, data.planes), arguments...);
   } else if constexpr (std::is_invocable_v<F, Faces, const Arguments&...>) {
     return function(faces_of(p, data.planes), arguments...);
+  } else if constexpr (std::is_invocable_v<F, const PlacedOutline&, const Arguments&...>) {
+    return function(placed_outline(p, data), arguments...);
   } else {
     return std::invoke(function, data.meshes[p.mesh], arguments...);
   }
@@ -160,7 +172,18 @@ inline constexpr std::array<KindTraits, kPrimitiveKinds> kKinds{{
     {.kind = PrimitiveKind::kMesh,
      .name = "mesh",
      .solvers = solvers<&Mesh::spans, &Mesh::contains, &Mesh::outward_normal, &Mesh::classify>(),
-     .has_two_intervals = true},
+     .has_two_intervals = true,
+     .has_many_intervals = true},
+    {.kind = PrimitiveKind::kLathe,
+     .name = "lathe",
+     .solvers = solvers<lathe_spans, lathe_contains, lathe_normal, classify_lathe>(),
+     .has_two_intervals = true,
+     .has_many_intervals = true},
+    {.kind = PrimitiveKind::kSweep,
+     .name = "sweep",
+     .solvers = solvers<sweep_spans, sweep_contains, sweep_normal, classify_sweep>(),
+     .has_two_intervals = true,
+     .has_many_intervals = true},
 }};
 
 constexpr const KindTraits& traits_of(PrimitiveKind kind) {

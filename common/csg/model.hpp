@@ -47,10 +47,11 @@ struct Model {
   std::vector<Primitive> primitives;
   std::vector<Plane> planes;
   std::vector<Mesh> meshes;
+  std::vector<Outline> outlines;
   std::vector<TreeNode> nodes;
   std::vector<Object> objects;
 
-  PrimitiveData data() const { return {planes, meshes}; }
+  PrimitiveData data() const { return {planes, meshes, outlines}; }
   std::span<const TreeNode> tree(const Object& object) const {
     return {nodes.data() + object.first_node, object.node_count};
   }

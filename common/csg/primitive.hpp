@@ -13,6 +13,7 @@
 #include "geometry/ray.hpp"
 #include "geometry/spans.hpp"
 #include "mesh/mesh.hpp"
+#include "outline/placed_outline.hpp"
 
 namespace graycube {
 
@@ -32,8 +33,17 @@ enum class PrimitiveKind : std::uint8_t {
   kEllipticTorus,
   kQuadric,
   kMesh,
+  kLathe,
+  kSweep,
 };
-inline constexpr int kPrimitiveKinds = 13;
+inline constexpr int kPrimitiveKinds = 15;
+
+namespace csg {
+/// Whether primitives of this kind have an outline.
+constexpr bool has_outline(PrimitiveKind kind) {
+  return kind == PrimitiveKind::kLathe || kind == PrimitiveKind::kSweep;
+}
+}  // namespace csg
 
 /// The numbers of a primitive beside its frame and its planes.
 using Slots = std::array<double, 6>;
@@ -44,6 +54,8 @@ struct Primitive {
   std::uint32_t first_plane = 0;
   std::uint32_t plane_count = 0;
   std::uint32_t mesh = 0;
+  /// Of a lathe or a sweep; several may share one.
+  std::uint32_t outline = 0;
   Slots v{};
   /// World → local; unused by kinds that work in world coordinates.
   Affine to_local;
@@ -53,15 +65,17 @@ struct Primitive {
   friend bool operator==(const Primitive&, const Primitive&) = default;
 };
 
-/// The planes and meshes of a model, to which its primitives refer.
+/// The planes, meshes and outlines of a model, to which its primitives refer.
 struct PrimitiveData {
-  PrimitiveData(std::span<const Plane> all_planes, std::span<const Mesh> all_meshes)
-      : planes(all_planes), meshes(all_meshes) {}
-  /// For primitives other than meshes.
+  PrimitiveData(std::span<const Plane> all_planes, std::span<const Mesh> all_meshes,
+                std::span<const Outline> all_outlines = {})
+      : planes(all_planes), meshes(all_meshes), outlines(all_outlines) {}
+  /// For primitives without a mesh or an outline.
   PrimitiveData(const std::vector<Plane>& all_planes) : planes(all_planes) {}  // NOLINT: implicit
 
   std::span<const Plane> planes;
   std::span<const Mesh> meshes;
+  std::span<const Outline> outlines;
 };
 
 /// The whole line's intervals, negative parameters too, never clipped. −0 is given as +0.

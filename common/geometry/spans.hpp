@@ -12,7 +12,7 @@ namespace graycube {
 /// ±infinity if the primitive is unbounded. Tangency gives an interval of length zero or none.
 class Spans {
  public:
-  /// The most intervals of kinds other than meshes; more than these take memory.
+  /// The most intervals of most kinds; more than these take memory.
   static constexpr int kMax = 2;
   struct Interval {
     double enter, leave;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <vector>
 
 #include "csg/bounding_sphere.hpp"
@@ -51,12 +52,23 @@ class ModelExtract {
       to_.meshes.push_back(from_.meshes[p.mesh]);
       p.mesh = static_cast<std::uint32_t>(to_.meshes.size() - 1);
     }
+    if (csg::has_outline(p.kind)) p.outline = copy_outline(p.outline);
     to_.primitives.push_back(p);
     return static_cast<std::uint32_t>(to_.primitives.size() - 1);
   }
 
+  /// Primitives may share an outline, which is copied once.
+  std::uint32_t copy_outline(std::uint32_t index) {
+    const auto [known, is_new] =
+        outlines_.try_emplace(index, static_cast<std::uint32_t>(to_.outlines.size()));
+    if (is_new) to_.outlines.push_back(from_.outlines[index]);
+    return known->second;
+  }
+
   const Model& from_;
   Model to_;
+  /// The copies' indices.
+  std::unordered_map<std::uint32_t, std::uint32_t> outlines_;
 };
 
 /// Whether a bounded thing may reach into any region of a share: a column, a row and a slab of it.

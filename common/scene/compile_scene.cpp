@@ -24,6 +24,7 @@
 #include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/leaf_reach.hpp"
+#include "scene/outline_solids.hpp"
 #include "scene/repeat.hpp"
 #include "scene/scene_fault.hpp"
 #include "scene/scene_place.hpp"
@@ -333,6 +334,12 @@ class Compiler {
   Primitive build(const Affine& m, const MeshShape& s) {
     return build_mesh(m, s.mesh, model_.meshes);
   }
+  Primitive build(const Affine& m, const LatheShape& s) {
+    return build_lathe(m, outlines_.of(s.outline));
+  }
+  Primitive build(const Affine& m, const SweepShape& s) {
+    return build_sweep(m, outlines_.of(s.outline), s.base, s.height);
+  }
 
   double delta() const {
     double largest = std::fmax(largest_, max_abs(scene_.settings.camera.eye));
@@ -350,6 +357,7 @@ class Compiler {
   /// Places of leaves in repeats whose fault has been told.
   std::set<std::string> told_;
   Model model_;
+  OutlineStock outlines_{model_.outlines};
   CoincidenceUnifier unifier_{model_};
   /// The largest finite coordinate of the primitives' bounds so far.
   double largest_ = 0;

@@ -50,6 +50,20 @@ LeafReach reach(const MeshShape& s) {
   for (const Vec3& p : s.mesh.points) most = larger_of(most, p);
   return {most, 1};
 }
+Vec3 reach_across(const OutlineLoops& outline) {
+  Vec3 most;
+  for (const OutlineLoop& loop : outline) {
+    for (const OutlinePoint& p : loop) most = larger_of(most, {p.x, p.y, 0});
+  }
+  return most;
+}
+LeafReach reach(const LatheShape& s) {
+  const Vec3 most = reach_across(s.outline);
+  return {{most.x, most.x, most.y}, 1};
+}
+LeafReach reach(const SweepShape& s) {
+  return {larger_of(reach_across(s.outline), {0, 0, std::fabs(s.base) + s.height}), 1};
+}
 
 /// A polyhedron's reach is that of its bounds in the world, mapped back; that of an unbounded one
 /// is that of the points of its planes nearest to the origin.

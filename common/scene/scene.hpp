@@ -14,6 +14,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/vec.hpp"
 #include "mesh/triangle_mesh.hpp"
+#include "outline/pieces.hpp"
 #include "scene/sparse_optional.hpp"
 #include "shading/material.hpp"
 #include "shading/settings.hpp"
@@ -117,6 +118,19 @@ struct BezierShape {
   friend bool operator==(const BezierShape&, const BezierShape&) = default;
 };
 
+/// A closed outline turned about the z axis: x of its points is the distance from the axis, ≥ 0, y
+/// the height. A point is inside when an odd number of loops goes round it.
+struct LatheShape {
+  OutlineLoops outline;
+  friend bool operator==(const LatheShape&, const LatheShape&) = default;
+};
+/// A closed outline × [base, base + height] along z.
+struct SweepShape {
+  OutlineLoops outline;
+  double height = 0, base = 0;
+  friend bool operator==(const SweepShape&, const SweepShape&) = default;
+};
+
 enum class Operation : std::uint8_t { kUnion, kIntersection, kDifference, kComplement };
 /// `kDifference` is the first child minus the rest; `kComplement` has exactly one child.
 struct OperationNode {
@@ -147,7 +161,7 @@ struct CsgNode {
   std::variant<OperationNode, ReferenceNode, RepeatNode, SphereShape, BoxShape, CylinderShape,
                ConeShape, TorusShape, HalfSpaceShape, EllipsoidShape, PolyhedronShape,
                EllipticConeShape, EllipticTorusShape, QuadricShape, PrismShape, MeshShape,
-               BezierShape>
+               BezierShape, LatheShape, SweepShape>
       value;
   /// The node's whole `transform` list, composed; applied to everything below.
   SparseOptional<Affine> transform;

@@ -10,9 +10,10 @@ std::size_t bytes_of(const std::vector<T>& v) {
   return v.size() * sizeof(T);
 }
 
-std::size_t mesh_bytes(const Model& model) {
+std::size_t shape_bytes(const Model& model) {
   std::size_t bytes = 0;
   for (const Mesh& mesh : model.meshes) bytes += mesh.memory_bytes();
+  for (const Outline& outline : model.outlines) bytes += outline.memory_bytes();
   return bytes;
 }
 
@@ -34,7 +35,7 @@ std::shared_ptr<const Territory> Territory::of(std::shared_ptr<const Model> mode
 
 std::size_t Territory::memory_bytes() const {
   return bytes_of(model->primitives) + bytes_of(model->planes) + bytes_of(model->nodes) +
-         bytes_of(model->objects) + mesh_bytes(*model) + bytes_of(model->materials) +
+         bytes_of(model->objects) + shape_bytes(*model) + bytes_of(model->materials) +
          (tree ? tree->memory_bytes() : search->memory_bytes());
 }
 

@@ -122,6 +122,10 @@ void CsgReader::read_node(JsonIndex at, CsgNode& out, bool has_material, std::ui
     case NodeType::kMesh:
       read_leaf(at, has_material, rules->owner, context);
       return read_mesh_leaf(at, member, out, context);
+    case NodeType::kLathe:
+    case NodeType::kSweep:
+      read_leaf(at, has_material, rules->owner, context);
+      return read_outlined_leaf(at, rules->type, member, out);
     default:
       read_leaf(at, has_material, rules->owner, context);
       read_leaf_value(json_, rules->type, member, out);
@@ -158,6 +162,17 @@ void CsgReader::read_bezier_leaf(JsonIndex at, const std::array<JsonIndex, kMaxN
   const std::uint64_t triangles = read_bezier(json_, members, shape);
   // A closed mesh has about half as many points as triangles, a net never more.
   if (!count_mesh(at, shape.net.points.size(), triangles, context)) shape = {};
+}
+
+void CsgReader::read_outlined_leaf(JsonIndex at, NodeType type,
+                                   const std::array<JsonIndex, kMaxNodeKeys>& members,
+                                   CsgNode& out) {
+  segments_read_ += read_outlined(json_, type, members, out);
+  ++outlines_read_;
+  if (outlines_read_ <= kMaxOutlines && segments_read_ <= kMaxSegmentsOfOutlines) return;
+  json_.errors.add(at, "more than " + std::to_string(kMaxOutlines) + " outlines or " +
+                           std::to_string(kMaxSegmentsOfOutlines) + " segments of them together");
+  out.value = {};
 }
 
 bool CsgReader::count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles,

@@ -48,6 +48,8 @@ class CsgReader {
                         CsgNode& out, Context& context);
   /// Counts what a mesh takes; false, after reporting, if all of them take too much.
   bool count_mesh(JsonIndex at, std::uint64_t points, std::uint64_t triangles, Context& context);
+  void read_outlined_leaf(JsonIndex at, NodeType type,
+                          const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out);
   ReferenceNode read_reference(JsonIndex name, JsonIndex at, bool has_material, std::uint32_t depth,
                                Context& context);
 
@@ -61,6 +63,8 @@ class CsgReader {
   std::uint64_t maps_read_ = 0;
   /// Points and triangles of meshes in the file so far, for the same reason.
   std::uint64_t mesh_points_read_ = 0, triangles_read_ = 0;
+  /// Outlines of the file so far and their segments, for the same reason.
+  std::uint64_t outlines_read_ = 0, segments_read_ = 0;
 };
 
 }  // namespace graycube

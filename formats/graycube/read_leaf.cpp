@@ -86,6 +86,17 @@ constexpr std::array kRules{
                 {"points", true},
                 {"patches", true},
                 {"tolerance"}}}},
+    rules_of(NodeType::kLathe, "lathe", "a lathe", "outline"),
+    NodeRules{"sweep",
+              "a sweep",
+              NodeType::kSweep,
+              kOwn + 3,
+              {{{"type", true},
+                {"transform"},
+                {"material"},
+                {"outline", true},
+                {"height", true},
+                {"base"}}}},
 };
 
 /// Reads a leaf's members one after the other; absent ones fail without another report.

@@ -34,6 +34,8 @@ enum class NodeType : std::uint8_t {
   kPrism,
   kMesh,
   kBezier,
+  kLathe,
+  kSweep,
 };
 
 /// The first keys of every node; those of its type follow.
@@ -64,6 +66,11 @@ bool read_points(JsonAccess& json, JsonIndex at, std::vector<Vec3>& out);
 /// reporting that something is wrong.
 std::uint64_t read_bezier(JsonAccess& json, const std::array<JsonIndex, kMaxNodeKeys>& members,
                           BezierShape& out);
+
+/// Reads the outline of a lathe or a sweep, and how far that is swept, into `out`. Returns the
+/// number of its segments, 0 after reporting that something is wrong.
+std::uint32_t read_outlined(JsonAccess& json, NodeType type,
+                            const std::array<JsonIndex, kMaxNodeKeys>& members, CsgNode& out);
 
 /// Reads a mesh (`at`) into `out`. `load` opens mesh files; null refuses them.
 void read_mesh(JsonAccess& json, JsonIndex at, const std::array<JsonIndex, kMaxNodeKeys>& members,

@@ -281,6 +281,32 @@ class SceneWriter {
     json_.text += ']';
     if (b.tolerance != 0) json_.member("tolerance", b.tolerance);
   }
+  void write_value(const LatheShape& l) {
+    json_.text += "\"lathe\"";
+    write_outline(l.outline);
+  }
+  void write_value(const SweepShape& s) {
+    json_.text += "\"sweep\"";
+    write_outline(s.outline);
+    json_.member("height", s.height);
+    if (s.base != 0) json_.member("base", s.base);
+  }
+  void write_outline(const OutlineLoops& outline) {
+    json_.next_key("outline");
+    char before = '[';
+    for (const OutlineLoop& loop : outline) {
+      json_.text += before;
+      char inner = '[';
+      for (const OutlinePoint& p : loop) {
+        json_.text += inner;
+        json_.write_numbers({p.x, p.y});
+        inner = ',';
+      }
+      json_.text += ']';
+      before = ',';
+    }
+    json_.text += ']';
+  }
   void write_points(const std::vector<Vec3>& points) {
     json_.next_key("points");
     char before = '[';

@@ -8,6 +8,7 @@
 #include "geometry/aabb.hpp"
 #include "geometry/affine.hpp"
 #include "mesh/line.hpp"
+#include "outline/outline.hpp"
 #include "scene/bezier_solid.hpp"
 #include "scene/flat_solids.hpp"
 #include "scene/repeat.hpp"
@@ -132,6 +133,13 @@ bool value_holds(const Scene& scene, const PolyhedronShape& s, const Vec3& p) {
 }
 bool value_holds(const Scene&, const PrismShape& s, const Vec3& p) {
   return p.z >= s.base && p.z <= s.base + s.height && is_within(loops_of(s), {p.x, p.y});
+}
+
+bool value_holds(const Scene&, const LatheShape& s, const Vec3& p) {
+  return Outline(s.outline).contains({std::sqrt(p.x * p.x + p.y * p.y), p.z});
+}
+bool value_holds(const Scene&, const SweepShape& s, const Vec3& p) {
+  return p.z >= s.base && p.z <= s.base + s.height && Outline(s.outline).contains({p.x, p.y});
 }
 
 bool holds(const Scene& scene, const CsgNode& node, Vec3 p) {

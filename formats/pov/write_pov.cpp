@@ -11,6 +11,7 @@
 
 #include "formats/graycube/scene_words.hpp"
 #include "formats/pov/scene_membership.hpp"
+#include "formats/pov/write_outline.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
 #include "scene/bezier_solid.hpp"
@@ -366,6 +367,8 @@ class PovWriter {
     else
       refuse("bezier that encloses no solid");
   }
+  void write_value(const LatheShape& l) { text_ += pov_lathe(l); }
+  void write_value(const SweepShape& s) { text_ += pov_prism(s); }
   void write_value(const PolyhedronShape& p) {
     if (p.planes.size() == 1) return write_value(p.planes.front());
     text_ += "intersection {";

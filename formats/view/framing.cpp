@@ -75,6 +75,21 @@ struct LocalReach {
     for (const Vec3& p : s.mesh.points) largest = std::max(largest, dot(n, p));
     return largest;
   }
+  double operator()(const LatheShape& s) const {
+    const double across = std::sqrt(n.x * n.x + n.y * n.y);
+    double largest = -kInf;
+    for (const OutlineLoop& loop : s.outline) {
+      for (const OutlinePoint& p : loop) largest = std::max(largest, across * p.x + n.z * p.y);
+    }
+    return largest;
+  }
+  double operator()(const SweepShape& s) const {
+    double largest = -kInf;
+    for (const OutlineLoop& loop : s.outline) {
+      for (const OutlinePoint& p : loop) largest = std::max(largest, n.x * p.x + n.y * p.y);
+    }
+    return largest + std::max(n.z * s.base, n.z * (s.base + s.height));
+  }
   double operator()(const TorusShape& s) const {
     return disc_reach(n, s.center, normalized(s.axis), s.major) + s.minor * length(n);
   }

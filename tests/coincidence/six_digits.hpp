@@ -46,6 +46,20 @@ class SixDigits {
   static void round(BezierShape& b) {
     for (Vec3& p : b.net.points) round(p);
   }
+  static void round(OutlineLoops& outline) {
+    for (OutlineLoop& loop : outline) {
+      for (OutlinePoint& p : loop) {
+        round(p.x);
+        round(p.y);
+      }
+    }
+  }
+  static void round(LatheShape& l) { round(l.outline); }
+  static void round(SweepShape& s) {
+    round(s.outline);
+    round(s.height);
+    round(s.base);
+  }
   static void round(ReferenceNode&) {}
   static void round(SphereShape& s) {
     round(s.center);

@@ -9,9 +9,10 @@
 
 namespace graycube::testing {
 
-inline const std::array<const char*, kLeafKinds> kLeafNames{
-    "sphere",     "box",           "cylinder",       "cone",    "torus", "ellipsoid",
-    "polyhedron", "elliptic_cone", "elliptic_torus", "quadric", "mesh",  "half_space"};
+inline const std::array<const char*, kAllLeafKinds> kLeafNames{
+    "sphere",    "box",        "cylinder",      "cone",           "torus",
+    "ellipsoid", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",
+    "mesh",      "half_space", "lathe",         "sweep"};
 
 struct OnePrimitive {
   Model model;

@@ -2,6 +2,7 @@
 // and mirror, operation trees, faces that coincide, floors, complements.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -9,13 +10,16 @@
 
 #include "csg/dice.hpp"
 #include "geometry/affine.hpp"
+#include "geometry/portable_math.hpp"
 #include "mesh/samples.hpp"
 #include "scene/compile_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace graycube::testing {
 
+/// Kinds of leaves of random scenes; with those whose intervals have no bound, the last ones.
 inline constexpr std::size_t kLeafKinds = 12;
+inline constexpr std::size_t kAllLeafKinds = 14;
 
 struct RandomOptions {
   /// Half of all coordinates are multiples of 1/2, and some leaves repeat others: faces coincide.
@@ -62,7 +66,7 @@ class RandomModel {
     return s;
   }
 
-  /// A leaf of kind number 0 … kLeafKinds − 1, in its own coordinates near the origin.
+  /// A leaf of kind number 0 … kAllLeafKinds − 1, in its own coordinates near the origin.
   CsgNode leaf(std::size_t kind) {
     switch (kind) {
       case 0: return node_of(SphereShape{place(), size()});
@@ -76,6 +80,8 @@ class RandomModel {
       case 8: return node_of(elliptic_torus());
       case 9: return node_of(quadric());
       case 10: return node_of(mesh());
+      case 12: return node_of(LatheShape{outline(0)});
+      case 13: return node_of(SweepShape{outline(-1), size(), is_on_grid() ? -0.5 : 0.0});
       default: return node_of(half_space());
     }
   }
@@ -282,6 +288,27 @@ class RandomModel {
       }
     }
     return {closed(polygons)};
+  }
+  /// One loop about a middle and perhaps a hole in it; x is no less than `least`.
+  OutlineLoops outline(double least) {
+    const double x = 1 + dice_.between(-0.3, 0.3), y = dice_.between(-0.3, 0.3);
+    OutlineLoops loops{ring_of_curves(x, y, 0.4, least < 0 || dice_.one_in(2) ? 1.0 : 1.6, least)};
+    if (dice_.one_in(2)) loops.push_back(ring_of_curves(x, y, 0.15, 0.3, least));
+    return loops;
+  }
+  /// Curves and straight sides through points that far around a middle.
+  OutlineLoop ring_of_curves(double x, double y, double near, double far, double least) {
+    OutlineLoop loop;
+    for (int i = 0; i < 4; ++i) {
+      const bool is_straight = dice_.one_in(3);
+      for (int k = 0; k < 3; ++k) {
+        const double around = 90 * i + 30 * k;
+        const double away = k > 0 && is_straight ? 0.7 * far : dice_.between(near, far);
+        loop.push_back(
+            {std::fmax(least, x + away * cos_degrees(around)), y + away * sin_degrees(around)});
+      }
+    }
+    return loop;
   }
   HalfSpaceShape half_space() {
     return {axis(), is_on_grid() ? dice_.on_grid(2) : dice_.between(-2, 2)};

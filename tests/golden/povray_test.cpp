@@ -50,6 +50,7 @@ std::vector<Golden> golden_scenes() {
           {"sponge", {}, 0.05},
           {"tetrahedra", {}, 0.05},
           {"tree", {}, 0.05},
+          {"vase", {}, 0.2},
           // The lenses and the prism reach into their neighbours.
           {"glass", {"biconvex lens", "biconcave lens", "prism"}, 0.2}};
 }

@@ -366,6 +366,9 @@ TEST_CASE("solids that repeat themselves look the same whatever computes them") 
 TEST_CASE("solids of Bézier patches look the same whatever computes them") {
   check_model("pot.json");
 }
+TEST_CASE("outlines that are turned and swept look the same whatever computes them") {
+  check_identity("vase.json", kSmallSize, {"--aov", "depth,normal,albedo,object"});
+}
 TEST_CASE("a scene on an endless floor looks the same whatever computes it") {
   check_identity("first.json");
 }
@@ -375,8 +378,8 @@ TEST_CASE("an orthographic picture is the same whatever computes it") {
 
 TEST_CASE("a picture does not show which vector instructions computed it") {
   Sandbox sandbox;
-  for (const char* scene :
-       {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json", "spheres.json"}) {
+  for (const char* scene : {"first.json", "glass.json", "mirrors.json", "tori.json", "meshes.json",
+                            "spheres.json", "vase.json"}) {
     std::string reference;
     for (const std::string& name : simd_names()) {
       INFO(scene << " with " << name);

@@ -34,6 +34,8 @@ Primitive some_primitive(Random& random, const Model& model) {
   }
   if (p.kind == PrimitiveKind::kMesh)
     p.mesh = static_cast<std::uint32_t>(random.below(model.meshes.size()));
+  if (csg::has_outline(p.kind))
+    p.outline = static_cast<std::uint32_t>(random.below(model.outlines.size()));
   for (double& v : p.v) v = random.chance(2) ? 0.0 : random.any_finite();
   if (random.chance(2)) {
     for (auto& row : p.to_local.m) {
@@ -52,6 +54,15 @@ Mesh some_mesh(Random& random) {
   for (std::uint64_t n = 1 + random.below(9); n > 0; --n)
     m.triangles.push_back({point(), point(), point()});
   return Mesh(std::move(m));
+}
+
+Outline some_outline(Random& random) {
+  OutlineLoops loops(1 + random.below(3));
+  for (OutlineLoop& loop : loops) {
+    loop.resize(3 * (1 + random.below(5)));
+    for (OutlinePoint& p : loop) p = {random.uniform(0, 1), random.uniform(-1, 1)};
+  }
+  return Outline(std::move(loops));
 }
 
 /// Appends a tree of at most `depth` levels.
@@ -164,6 +175,8 @@ Model some_model(std::uint64_t seed) {
   for (std::uint64_t n = random.below(5); n > 0; --n)
     model.planes.push_back({random.vec(), random.any_finite()});
   for (std::uint64_t n = 1 + random.below(2); n > 0; --n) model.meshes.push_back(some_mesh(random));
+  for (std::uint64_t n = 1 + random.below(3); n > 0; --n)
+    model.outlines.push_back(some_outline(random));
   for (std::uint64_t n = 1 + random.below(6); n > 0; --n) {
     model.primitives.push_back(some_primitive(random, model));
   }
@@ -426,6 +439,21 @@ TEST_CASE("a broken model is refused, and the error names the part") {
          m.meshes[0] =
              Mesh(TriangleMesh{old.points, old.triangles, {{{0, 0, 1}, std::nan("")}}, {0, 0}});
        }},
+      {"primitive 1", "outline", [](Model& m) { m.primitives[1].outline = 1; }},
+      {"primitive 0", "outline", [](Model& m) { m.primitives[0].kind = PrimitiveKind::kLathe; }},
+      {"outline 0", "empty", [](Model& m) { m.outlines = {Outline(OutlineLoops{})}; }},
+      {"outline 0", "segments",
+       [](Model& m) {
+         m.outlines = {Outline(OutlineLoops{{{0, 0}, {0, 1}, {1, 1}}, {}})};
+       }},
+      {"outline 0", "range",
+       [](Model& m) {
+         m.outlines = {Outline(OutlineLoops{{{0, 0}, {0, 1.5}, {1, 1}}})};
+       }},
+      {"outline 0", "range",
+       [](Model& m) {
+         m.outlines = {Outline(OutlineLoops{{{0, 0}, {0, std::nan("")}, {1, 1}}})};
+       }},
       {"node 1", "primitive", [](Model& m) { m.nodes[1].primitive = 2; }},
       {"node 2", "children", [](Model& m) { m.nodes[2].size = 1; }},
       {"node 2", "parent", [](Model& m) { m.nodes[2].size = 4; }},
@@ -467,6 +495,29 @@ TEST_CASE("a mesh's counts and indices are checked") {
   CHECK(why_with(8, 3) == "more planes than triangles");
   CHECK(why_with(12 + 72, 3) == "no such point");
   CHECK(why_with(12 + 72 + 24 + 32, 1) == "no such plane");
+}
+
+TEST_CASE("an outline's counts are checked") {
+  Model model = small_model();
+  model.meshes.clear();
+  model.outlines = {Outline(OutlineLoops{{{0, 0}, {0, 1}, {1, 1}}})};
+  model.primitives[0].kind = PrimitiveKind::kSweep;
+  const Bytes good = encode_model(model);
+  REQUIRE(decode_model(good).index() == 0);
+  CHECK(load_little<std::uint16_t>(good.data() + 6) == 1);
+  constexpr std::size_t kOutline = 224 + 82 + 64;
+  const auto why_with = [&](std::size_t at, std::uint32_t value) {
+    Bytes bytes = good;
+    store_little(bytes.data() + kOutline + at, value);
+    const ModelError error = error_of(bytes);
+    CHECK(error.where == "outline 0");
+    return error.why;
+  };
+  CHECK(why_with(0, 0) == "empty");
+  CHECK(why_with(0, kMaxOutlineSegments + 1) == "a count beyond its limit");
+  CHECK(why_with(4, 0) == "a loop without segments");
+  CHECK(why_with(4, kMaxOutlineSegments) == "too short");
+  CHECK(why_with(4, kMaxOutlineSegments + 1) == "a count beyond its limit");
 }
 
 TEST_CASE("counts beyond the bytes are refused before memory is taken") {

@@ -181,7 +181,7 @@ class RandomScene {
   void leaf(CsgNode& node) {
     const Vec3 corner = vector();
     const double major = positive();
-    switch (below(scene_.shapes.empty() ? 13 : 14)) {
+    switch (below(scene_.shapes.empty() ? 15 : 16)) {
       case 0: node.value = SphereShape{vector(), positive()}; return;
       case 1:
         node.value =
@@ -229,10 +229,22 @@ class RandomScene {
                       static_cast<std::uint32_t>(below(18))};
         return;
       case 12: node.value = BezierShape{cube_net(0.2, random_()), 0.05 + fraction()}; return;
+      case 13: node.value = LatheShape{outline()}; return;
+      case 14: node.value = SweepShape{outline(), positive(), number()}; return;
       default:
         node.value = ReferenceNode{static_cast<std::uint32_t>(below(scene_.shapes.size()))};
         return;
     }
+  }
+
+  /// x is not negative.
+  OutlineLoops outline() {
+    OutlineLoops loops(1 + below(2));
+    for (OutlineLoop& loop : loops) {
+      loop.resize(3 * (1 + below(3)));
+      for (OutlinePoint& p : loop) p = {positive(), number()};
+    }
+    return loops;
   }
 
   std::mt19937_64 random_;

@@ -171,6 +171,16 @@ TEST_CASE("a net of patches is written as its mesh") {
   require_holds(text(0), " } face_indices { 12, <");
 }
 
+TEST_CASE("lathes and sweeps are written as POV-Ray's, exactly") {
+  require_holds(csg_text(R"({"type": "lathe", "outline": [[[0,0],[1,0],[1,3],[0,3]]]})"),
+                "lathe { bezier_spline 4, <0,0>, <1,0>, <1,3>, <0,3> sturm matrix "
+                "<1,0,0,0,0,1,0,1,0,0,0,0>");
+  require_holds(
+      csg_text(R"({"type": "sweep", "height": 2, "base": -0.5, "outline": [[[0,0],[1,0],[1,1]]]})"),
+      "prism { linear_sweep bezier_spline -0.5, 1.5, 4, <0,0>, <1,0>, <1,1>, <0,0> matrix "
+      "<1,0,0,0,0,1,0,1,0,0,0,0>");
+}
+
 TEST_CASE("unions are merges where their inner surfaces could be seen") {
   const std::string objects = R"([{"material": "red", "csg": {"type": "union", "children": [
       {"type": "sphere", "center": [0,0,0], "radius": RADIUS}, {"type": "sphere", "center": [1,0,0], "radius": 1}]}}])";
