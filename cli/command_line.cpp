@@ -21,8 +21,6 @@ namespace graycube {
 namespace {
 
 constexpr std::uint32_t kMaxCores = 1u << 16;
-/// Rays that take about 100 GB of memory.
-constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
 constexpr std::uint32_t kMaxJobsShown = 1'000'000;
 
 /// All commands; after parsing, the chosen command's values are in its declaration.
@@ -138,13 +136,7 @@ class Parser {
                     .help = "A web page of the farm at this loopback address"},
                    [&up](const std::string& text) { up.http = text; });
     add_losses(options, up.losses);
-    options.option({.names = "--outbox-rays",
-                    .value = "N",
-                    .help = "Rays to be sent that a node may hold (default " +
-                            std::to_string(kDefaultOutboxRays) + ")"},
-                   [&up](const std::string& text) {
-                     up.outbox_rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays);
-                   });
+    add_outbox_rays(options, up.outbox_rays);
   }
 
   void declare_submit() {

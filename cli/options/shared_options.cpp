@@ -7,6 +7,12 @@
 #include "shading/settings.hpp"
 
 namespace graycube {
+namespace {
+
+/// Rays that take about 100 GB of memory.
+constexpr std::uint32_t kMaxOutboxRays = 1'000'000'000;
+
+}  // namespace
 
 void add_scene(Declaring& options, std::string& scene) {
   options.option({.names = "SCENE",
@@ -226,6 +232,16 @@ void add_losses(Declaring& options, LossOptions& losses) {
                           std::to_string(kDefaultRetries) + ")"},
                  [&losses](const auto& text) {
                    losses.retries = parse_count("--retries", text, 0, kMaxRetries);
+                 });
+}
+
+void add_outbox_rays(Declaring& options, std::uint32_t& rays) {
+  options.option({.names = "--outbox-rays",
+                  .value = "N",
+                  .help = "Rays to be sent that a node may hold (default " +
+                          std::to_string(kDefaultOutboxRays) + ")"},
+                 [&rays](const std::string& text) {
+                   rays = parse_count("--outbox-rays", text, 1, kMaxOutboxRays);
                  });
 }
 

@@ -49,6 +49,9 @@ void add_job_options(Declaring& options, control::JobOptions& o);
 /// Options for how a farm takes the loss of a node.
 void add_losses(Declaring& options, LossOptions& losses);
 
+/// How many rays a node may hold that are to be sent.
+void add_outbox_rays(Declaring& options, std::uint32_t& rays);
+
 /// Options to print a table as JSON, or nothing but the table, or to draw a picture of it, too.
 void add_table_options(Declaring& options, bool& as_json, bool& is_quiet,
                        std::filesystem::path& plot);
