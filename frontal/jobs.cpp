@@ -207,7 +207,8 @@ std::optional<PreparationWork> Jobs::take_work() {
   tell_progress();
   try {
     if (next.is_recovered) next.work.scene = store_.scene(next.info.job);
-    const std::uint32_t begun = store_.begin(next.info.job);
+    const auto [begun, ever] = store_.begin(next.info.job);
+    running_->goes_on_after(ever - 1);
     if (begun > kMaxBegins) {
       fail({JobState::kFailed,
             FailureCode::kFailed,

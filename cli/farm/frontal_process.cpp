@@ -10,6 +10,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <thread>
 
@@ -130,6 +132,19 @@ int FrontalProcess::exit_status() const {
 
 int FrontalProcess::death_signal() const {
   return WIFSIGNALED(wait_status_) ? WTERMSIG(wait_status_) : 0;
+}
+
+bool FrontalProcess::is_stopped() const {
+  if (has_ended_) return false;
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+  // Behind the name in brackets, which may hold anything, stands the state.
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t end_of_name = text.rfind(") ");
+  return end_of_name != std::string::npos && text.compare(end_of_name + 2, 1, "T") == 0;
+}
+
+void FrontalProcess::kill() noexcept {
+  if (!has_ended_) ::kill(pid_, SIGKILL);
 }
 
 Failure FrontalProcess::ended() const {

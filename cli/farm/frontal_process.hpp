@@ -42,6 +42,10 @@ class FrontalProcess {
   /// The signal that ended it, 0 if it ended by itself; it must have ended.
   int death_signal() const;
 
+  /// Whether a signal has stopped it, so that it does nothing until another lets it go on.
+  bool is_stopped() const;
+  /// Kills it, with its nodes.
+  void kill() noexcept;
   /// Asks it to stop, without waiting.
   void request_stop() noexcept;
   /// Stops it and waits until it has ended; after the grace it is killed.

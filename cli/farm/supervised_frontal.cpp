@@ -12,6 +12,8 @@ namespace graycube {
 namespace {
 
 constexpr std::chrono::milliseconds kWatchInterval{500};
+/// A frontal that is stopped for so long is killed.
+constexpr std::chrono::seconds kStopPatience{2};
 
 /// HOST:PORT of http://HOST:PORT/.
 std::string address_of(const std::string& page) {
@@ -52,6 +54,21 @@ void SupervisedFrontal::start_again() {
   start();
 }
 
+/// Whoever stops a frontal stops its farm. Left alone it might never be let go on.
+void SupervisedFrontal::kill_if_stopped() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!frontal_->is_stopped()) {
+    stopped_since_.reset();
+  } else if (!stopped_since_) {
+    stopped_since_ = now;
+  } else if (now - *stopped_since_ > kStopPatience) {
+    print({"farm", "graycube-frontal",
+           "stopped for " + std::to_string(kStopPatience.count()) + " s; it is killed"});
+    frontal_->kill();
+    stopped_since_.reset();
+  }
+}
+
 void SupervisedFrontal::run() {
   while (!is_interrupted()) {
     if (frontal_->has_ended()) {
@@ -61,6 +78,7 @@ void SupervisedFrontal::run() {
       }
       start_again();
     }
+    kill_if_stopped();
     pollfd wait{wakeup_descriptor(), POLLIN, 0};
     ::poll(&wait, 1, static_cast<int>(kWatchInterval.count()));
     clear_wakeup();

@@ -1,7 +1,9 @@
 // A farm's frontal under supervision: when it dies, another one is started in its place.
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,10 +36,12 @@ class SupervisedFrontal {
  private:
   void start();
   void start_again();
+  void kill_if_stopped();
 
   std::vector<std::string> arguments_;
   std::string endpoint_, http_;
   RestartLimit restarts_;
+  std::optional<std::chrono::steady_clock::time_point> stopped_since_;
   std::unique_ptr<FrontalProcess> frontal_;
 };
 

@@ -61,9 +61,13 @@ class JobStore {
   virtual std::vector<EndedJob> recover() { return {}; }
   /// Its jobs that had not ended, in the order in which they were accepted.
   virtual std::vector<AcceptedJob> recover_accepted() { return {}; }
-  /// A job begins to be rendered. Returns how often it has begun since it got on, this time
-  /// included: more than once only after frontals died.
-  virtual std::uint32_t begin(std::uint32_t) { return 1; }
+  /// How often a job has begun to be rendered, this time included: since it got on, and ever. More
+  /// than once only after frontals have ended.
+  struct Begun {
+    std::uint32_t since_it_got_on = 1, ever = 1;
+  };
+  /// A job begins to be rendered.
+  virtual Begun begin(std::uint32_t) { return {}; }
   /// The scene of a job that has not ended.
   virtual Bytes scene(std::uint32_t) { return {}; }
   /// The largest number that a job ever had; 0 if there never was one.

@@ -356,7 +356,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.render_s = times_.render_ended_s - times_.render_began_s;
   s.slices = farm_.cube.nodes();
   s.slice_bytes = render_->slices().own_bytes();
-  s.epochs = render_->epoch() + 1;
+  s.epochs = render_->epoch() + 1 + earlier_frontals_;
   s.losses = losses_;
   s.resumed_tiles = resumed_tiles_;
   s.token_rounds = render_->token().round;

@@ -76,6 +76,9 @@ class RunningJob {
   bool can_start() const;
   void start(std::vector<std::uint32_t> incarnations, double now_s, Post& post);
 
+  /// So many frontals have begun this job and ended before it did.
+  void goes_on_after(std::uint32_t frontals);
+
   // Losses. The job goes on in another epoch, unless a failure is returned.
   /// A node is lost; another process takes its place.
   [[nodiscard]] std::optional<JobFailure> lose(const NodeLoss& node, Post& post);
@@ -162,6 +165,8 @@ class RunningJob {
   std::optional<RenderJob> render_;
   StandstillWatch standstill_watch_;
   std::vector<Loss> losses_;
+  /// Frontals that had begun this job.
+  std::uint32_t earlier_frontals_ = 0;
   TileLog log_;
   /// Whether there are records of this picture already.
   bool has_records_ = false;

@@ -1,10 +1,17 @@
 // The part of RunningJob that goes on after losses (docs/design/epochs.md).
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "frontal/parts/running_job.hpp"
 
 namespace graycube {
+
+void RunningJob::goes_on_after(std::uint32_t frontals) {
+  earlier_frontals_ = frontals;
+  losses_.assign(std::min<std::size_t>(frontals, kMaxLossesListed),
+                 {std::nullopt, "the frontal ended, and another one goes on", 0, 0});
+}
 
 std::optional<JobFailure> RunningJob::lose(const NodeLoss& node, Post& post) {
   if (stage_ == JobStage::kReporting) {

@@ -81,7 +81,7 @@ class DatabaseStore : public JobStore {
 
   std::vector<EndedJob> recover() override { return rows_.newest_ended(kMaxJobsListed, warn_); }
   std::vector<AcceptedJob> recover_accepted() override { return rows_.accepted(warn_); }
-  std::uint32_t begin(std::uint32_t job) override { return rows_.begin(job); }
+  Begun begin(std::uint32_t job) override { return rows_.begin(job); }
   Bytes scene(std::uint32_t job) override { return rows_.scene(job); }
   std::uint32_t last_number() override {
     return std::max(rows_.last_number(), last_job_of_files(folder_));

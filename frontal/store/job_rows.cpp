@@ -49,7 +49,9 @@ JobRows::JobRows(Database& db)
       drop_scene_(db.handle(), "DELETE FROM scenes WHERE job = ?"),
       keep_statistics_(db.handle(), "INSERT OR REPLACE INTO statistics (job, json) VALUES (?, ?)"),
       remove_(db.handle(), "DELETE FROM jobs WHERE number = ?"),
-      begin_(db.handle(), "UPDATE jobs SET begun = begun + 1 WHERE number = ? RETURNING begun"),
+      begin_(db.handle(),
+             "UPDATE jobs SET begun = begun + 1, begun_ever = begun_ever + 1 WHERE number = ? "
+             "RETURNING begun, begun_ever"),
       got_on_(db.handle(), "UPDATE jobs SET begun = 0 WHERE number = ?"),
       by_key_(db.handle(), "SELECT number, content FROM jobs WHERE submit_key = ?"),
       scene_(db.handle(), "SELECT text FROM scenes WHERE job = ?"),
@@ -85,9 +87,14 @@ void JobRows::end(const EndedJob& job) {
 
 void JobRows::remove(std::uint32_t job) { remove_.set(std::int64_t{job}).run(); }
 
-std::uint32_t JobRows::begin(std::uint32_t job) {
-  const auto times = numbers_in(begin_.set(std::int64_t{job}));
-  return times.empty() ? 1 : times.front();
+JobStore::Begun JobRows::begin(std::uint32_t job) {
+  JobStore::Begun begun;
+  begin_.set(std::int64_t{job});
+  while (begin_.next()) {
+    begun = {static_cast<std::uint32_t>(begin_.integer(0)),
+             static_cast<std::uint32_t>(begin_.integer(1))};
+  }
+  return begun;
 }
 
 void JobRows::got_on(std::uint32_t job) { got_on_.set(std::int64_t{job}).run(); }

@@ -27,8 +27,8 @@ class JobRows {
   /// The job has ended; its scene is dropped.
   void end(const EndedJob& job);
   void remove(std::uint32_t job);
-  /// Counts that the job begins; returns how often it has since it got on.
-  std::uint32_t begin(std::uint32_t job);
+  /// Counts that the job begins, as JobStore::begin() does.
+  JobStore::Begun begin(std::uint32_t job);
   void got_on(std::uint32_t job);
 
   std::optional<KeyedJob> find_key(const std::string& key);

@@ -21,8 +21,8 @@ constexpr const char* kHowItIsKept = R"sql(
 
 /// A job's `info` is its job_info message, its `request` its submit message (proto/FORMAT.md);
 /// `state` is that of the info, or "damaged" when they can't be read; `begun` counts frontals that
-/// have begun to render it and recorded nothing. AUTOINCREMENT remembers the
-/// largest number when its job is gone.
+/// have begun to render it and recorded nothing, `begun_ever` all that have begun. AUTOINCREMENT
+/// remembers the largest number when its job is gone.
 constexpr const char* kFirstTables = R"sql(
   CREATE TABLE jobs (
     number        INTEGER PRIMARY KEY AUTOINCREMENT CHECK (number BETWEEN 1 AND 4294967295),
@@ -33,6 +33,7 @@ constexpr const char* kFirstTables = R"sql(
     content       INTEGER NOT NULL,
     is_deadlocked INTEGER NOT NULL DEFAULT 0,
     begun         INTEGER NOT NULL DEFAULT 0,
+    begun_ever    INTEGER NOT NULL DEFAULT 0,
     finished_s    REAL
   );
   CREATE INDEX jobs_by_end ON jobs (finished_s);

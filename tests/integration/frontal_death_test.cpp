@@ -115,6 +115,9 @@ TEST_CASE("a frontal that is killed is started again, and every job ends right")
   CHECK(o.status == 0);
   CHECK(o.out == "1\n");
   CHECK((file_bytes(sandbox / "a.exr") == expected));
+  const auto stats = nlohmann::json::parse(file_bytes(sandbox / "a.json"));
+  CHECK(stats.at("epochs") == 2);
+  CHECK(stats.at("losses").at(0).at("why") == "the frontal ended, and another one goes on");
   CHECK(frontal(sandbox) != killed);
   for (const std::string& job : {second, third}) {
     ok(sandbox, {"watch", job});
@@ -127,6 +130,27 @@ TEST_CASE("a frontal that is killed is started again, and every job ends right")
   CHECK(farm.up().wait(10s).status == 0);
   CHECK(sandbox.processes().empty());
   CHECK(sandbox.temporary_files().empty());
+}
+
+TEST_CASE("a frontal that is stopped is killed, and another one goes on") {
+  Sandbox sandbox;
+  const std::string expected = serial(sandbox, kLongSize);
+  Farm farm(sandbox, {"--state", "state"});
+  Running waiting =
+      sandbox.start({"submit", first(), "--size", kLongSize, "--wait", "-o", "a.exr"});
+  waiting.wait_for("1\n");
+  wait_until_on(sandbox, "1");
+  const pid_t stopped = frontal(sandbox);
+  REQUIRE(::kill(stopped, SIGSTOP) == 0);
+  farm.up().wait_for("killed by signal 9; it is started again");
+  const Outcome o = waiting.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK((file_bytes(sandbox / "a.exr") == expected));
+  CHECK(frontal(sandbox) != stopped);
+  ok(sandbox, {"down"});
+  CHECK(farm.up().wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
 }
 
 TEST_CASE("jobs that had not ended when a farm with --state stopped go on when it is up again") {
