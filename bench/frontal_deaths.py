@@ -17,39 +17,12 @@ import sys
 import tempfile
 import time
 
+from local_farm import LIMIT_S, Farm
+
 # A farm gives up after so many deaths of its frontal within a minute.
 DEATHS_PER_FARM = 3
 # Seconds of rendering before which a frontal isn't killed.
 EARLIEST_S = 1.0
-LIMIT_S = 600
-
-
-class Farm:
-    def __init__(self, command, folder, nodes):
-        self.command = command
-        self.endpoint = "ipc://" + os.path.join(folder, "farm")
-        self.up = subprocess.Popen(
-            [command, "up", "-n", str(nodes), "--listen", self.endpoint,
-             "--state", os.path.join(folder, "state")],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        until = time.monotonic() + LIMIT_S
-        while self.run("status", "--farm", may_fail=True) is None:
-            if time.monotonic() > until:
-                raise SystemExit("the farm does not start")
-
-    def run(self, *arguments, may_fail=False):
-        done = subprocess.run([self.command, *arguments, "--connect", self.endpoint],
-                              capture_output=True, text=True, check=False)
-        if done.returncode != 0 and not may_fail:
-            raise SystemExit(" ".join(arguments) + ": " + done.stderr)
-        return done.stdout if done.returncode == 0 else None
-
-    def json(self, *arguments):
-        return json.loads(self.run(*arguments, "--json"))
-
-    def down(self):
-        self.run("down")
-        self.up.wait(timeout=LIMIT_S)
 
 
 def read(path):
@@ -125,7 +98,7 @@ def main():
                             "serial", "-q", "-o", picture], check=True)
             expected[size] = read(picture)
         while len(deaths) < options.deaths:
-            farm = Farm(options.command, folder, options.nodes)
+            farm = Farm(options.command, folder, options.nodes, "--state", os.path.join(folder, "state"))
             for _ in range(min(DEATHS_PER_FARM, options.deaths - len(deaths))):
                 death = one_death(farm, options, folder, expected, numbers, chance)
                 if death is not None:

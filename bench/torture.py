@@ -20,37 +20,10 @@ import sys
 import tempfile
 import time
 
-LIMIT_S = 600
+from local_farm import LIMIT_S, Farm
+
 # A fault is noticed late if at all after so long.
 NOTICE_LIMIT_S = 30
-
-
-class Farm:
-    def __init__(self, command, folder, nodes):
-        self.command = command
-        self.endpoint = "ipc://" + os.path.join(folder, f"farm-{nodes}")
-        self.up = subprocess.Popen(
-            [command, "up", "-n", str(nodes), "--listen", self.endpoint, "--retries", "100"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        until = time.monotonic() + LIMIT_S
-        while self.run("nodes", may_fail=True) is None:
-            if time.monotonic() > until:
-                raise SystemExit("the farm does not start")
-            time.sleep(0.1)
-
-    def run(self, *arguments, may_fail=False):
-        done = subprocess.run([self.command, *arguments, "--connect", self.endpoint],
-                              capture_output=True, text=True, check=False)
-        if done.returncode != 0 and not may_fail:
-            raise SystemExit(" ".join(arguments) + ": " + done.stderr)
-        return done.stdout if done.returncode == 0 else None
-
-    def json(self, *arguments):
-        return json.loads(self.run(*arguments, "--json"))
-
-    def down(self):
-        self.run("down")
-        self.up.wait(timeout=LIMIT_S)
 
 
 class Job:
@@ -158,7 +131,7 @@ def main():
         with open(serial, "rb") as file:
             expected = file.read()
         for nodes in options.nodes.split(","):
-            farm = Farm(options.command, folder, nodes)
+            farm = Farm(options.command, folder, nodes, "--retries", "100")
             for algorithm in options.algorithms.split(","):
                 for kind in options.kinds.split(","):
                     row, bad = torture(farm, options, kind, algorithm, folder, expected, chance)
