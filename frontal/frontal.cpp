@@ -41,15 +41,22 @@ void Frontal::on_time(const Moment& now) {
   jobs_.set_time(now);
   nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
   if (is_going_down_) return;
-  if (const auto ping = heartbeat_.take_ping(now_s_)) post_.to_nodes(*ping);
+  if (const auto ping = heartbeat_.take_ping(now_s_)) {
+    post_.to_nodes(*ping);
+    look_for_standstills();
+  }
   for (const Rank rank : nodes_.take_silent(now_s_)) lose(rank, "fell silent");
+  in_job(jobs_, [&] { jobs_.check_time(); });
+  get_on();
+}
+
+void Frontal::look_for_standstills() {
   if (const auto rank = jobs_.standing_still()) {
     nodes_.kill(*rank);
     lose(*rank, "answered, but was at the same piece of work for " +
                     std::to_string(static_cast<int>(options_.standstill_s)) + " seconds");
   }
-  in_job(jobs_, [&] { jobs_.check_time(); });
-  get_on();
+  in_job(jobs_, [&] { jobs_.look_for_lost_messages(); });
 }
 
 void Frontal::on_message(const PeerId& peer, const MessageView& message) {

@@ -74,6 +74,7 @@ class Frontal {
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
+  void look_for_standstills();
   void get_on();
 
   FrontalOptions options_;

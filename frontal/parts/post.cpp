@@ -36,10 +36,11 @@ void Post::to_nodes(const ControlMessage& message) {
 }
 
 void Post::to_each_node(const ControlMessage& message,
-                        const std::function<SharedBytes(Rank)>& payload_of) {
+                        const std::function<std::optional<SharedBytes>(Rank)>& payload_of) {
   const std::string text = encode(message);
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
-    outgoing_.push_back({nodes_[rank], Message::of_text(text, payload_of(Rank{rank}))});
+    if (auto payload = payload_of(Rank{rank}))
+      outgoing_.push_back({nodes_[rank], Message::of_text(text, *std::move(payload))});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -52,9 +53,9 @@ class Post {
   void to_node(Rank rank, Bytes batch);
   /// Sends a message to all nodes that have a connection.
   void to_nodes(const ControlMessage& message);
-  /// The same with a payload for each node.
+  /// The same with a payload for each node; nothing is sent to a node that has none.
   void to_each_node(const ControlMessage& message,
-                    const std::function<SharedBytes(Rank)>& payload_of);
+                    const std::function<std::optional<SharedBytes>(Rank)>& payload_of);
 
   std::vector<Outgoing> take() { return std::exchange(outgoing_, {}); }
 

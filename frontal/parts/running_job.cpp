@@ -75,14 +75,11 @@ void RunningJob::load(double now_s, Post& post) {
     times_.build_began_s = now_s;
   }
   const bool over_links = render_->slice_way().has_value();
-  const control::Load load = render_->load();
-  for (std::uint32_t r = 0; r < farm_.cube.nodes(); ++r) {
-    const Rank rank{r};
-    if (!render_->barrier().needs_load(rank)) continue;
+  post.to_each_node(render_->load(), [&](Rank rank) -> std::optional<SharedBytes> {
+    if (!render_->barrier().needs_load(rank)) return std::nullopt;
     render_->barrier().was_loaded(rank);
-    post.to_node(rank, load,
-                 over_links && rank != Rank{0} ? SharedBytes{} : render_->slices().of(rank));
-  }
+    return over_links && rank != Rank{0} ? SharedBytes{} : render_->slices().of(rank);
+  });
 }
 
 bool RunningJob::waits_to_be_loaded() const {

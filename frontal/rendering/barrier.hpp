@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,8 @@ class Barrier {
  public:
   /// `waits_for_all`: no node may trace before all can. Otherwise a node that is replaced joins the
   /// others later.
-  Barrier(std::uint32_t nodes, bool waits_for_all) : waits_for_all_(waits_for_all), nodes_(nodes) {}
+  Barrier(std::uint32_t nodes, bool waits_for_all)
+      : waits_for_all_(waits_for_all), nodes_(nodes), to_load_(nodes) {}
 
   void begin(std::uint32_t epoch) {
     epoch_ = epoch;
@@ -23,13 +25,20 @@ class Barrier {
   /// All nodes need their slices anew.
   void load_all() {
     std::ranges::fill(nodes_, Node{});
+    to_load_ = nodes_.size();
     loaded_in_ = epoch_;
   }
   /// The node is lost: another process needs its slice.
-  void lose(Rank rank) { nodes_[rank.value] = {}; }
+  void lose(Rank rank) {
+    to_load_ += nodes_[rank.value].is_loaded ? 1 : 0;
+    nodes_[rank.value] = {};
+  }
   bool needs_load(Rank rank) const { return !nodes_[rank.value].is_loaded; }
-  bool needs_load() const { return !std::ranges::all_of(nodes_, &Node::is_loaded); }
-  void was_loaded(Rank rank) { nodes_[rank.value].is_loaded = true; }
+  bool needs_load() const { return to_load_ > 0; }
+  void was_loaded(Rank rank) {
+    to_load_ -= nodes_[rank.value].is_loaded ? 0 : 1;
+    nodes_[rank.value].is_loaded = true;
+  }
 
   /// The node says, in that epoch, that its slice is subdivided.
   void is_ready(Rank rank, std::uint32_t epoch) {
@@ -66,6 +75,8 @@ class Barrier {
   /// The epoch in which all nodes were loaded last.
   std::uint32_t loaded_in_ = 0;
   std::vector<Node> nodes_;  // by rank
+  /// Nodes that need their slices.
+  std::size_t to_load_;
 };
 
 }  // namespace graycube
