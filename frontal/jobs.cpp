@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint32_t kMaxBegins = 5;
 /// Seconds after which it is asked again which ended jobs aren't to be kept any longer.
 constexpr double kClearInterval_s = 10;
+/// Seconds after which it is looked again how far the job has got.
+constexpr double kLookInterval_s = 0.05;
 
 Refusal unknown(std::uint32_t job) { return {job, FailureCode::kUnknownJob, "", "no such job"}; }
 
@@ -63,8 +65,10 @@ void Jobs::check_time() {
           {{"--timeout", "the render did not end in time"}}});
   }
   if (running_ && running_->has_lost_patience(now_.now_s)) fail(*running_->deadlock());
-  look_for_lost_messages();
-  if (running_) progress_watch_.see(running_->info(), running_->stage(), now_.now_s);
+  if (running_ && now_.now_s - looked_s_ >= kLookInterval_s) {
+    looked_s_ = now_.now_s;
+    progress_watch_.see(running_->info(), running_->stage(), now_.now_s);
+  }
   if (watchers_.are_due(now_.now_s)) tell_progress();
   if (running_) record_tiles(false);
   if (now_.now_s - cleared_s_ >= kClearInterval_s) {

@@ -85,6 +85,8 @@ class Jobs {
   std::optional<Rank> standing_still() const {
     return running_ ? running_->standing_still(now_.now_s) : std::nullopt;
   }
+  /// The job that is on begins another epoch if its nodes wait for what never comes.
+  void look_for_lost_messages();
   /// Tells that a node is lost: a job that it had goes on in another epoch.
   void node_was_lost(const NodeLoss& node);
   /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
@@ -101,7 +103,6 @@ class Jobs {
   control::JobInfo running_info() const;
   /// The picture of a job that is done.
   std::variant<const Picture*, Refusal> picture(std::uint32_t job);
-  void look_for_lost_messages();
   void tell_progress();
   void finish_when_complete();
   void end_when_over();
@@ -117,6 +118,7 @@ class Jobs {
   Post& post_;
   Moment now_;
   /// When old jobs were cleared last.
+  double looked_s_ = 0;
   double cleared_s_ = 0;
   CpuMeter cpu_;
   JobQueue queue_;
