@@ -9,9 +9,9 @@
 
 namespace graycube {
 
-/// A turn of the loop that takes longer is told on standard error, so that what holds it up is
-/// found; at most once in so many seconds.
-inline constexpr double kLongTurn_s = 0.05, kLongTurnPause_s = 1;
+/// A turn of the loop that takes more of the thread's own time, and more than any before, is told
+/// on standard error, so that what holds the loop up is found.
+inline constexpr double kLongTurn_s = 0.05;
 
 class LoopWatch {
  public:
@@ -22,20 +22,16 @@ class LoopWatch {
   }
   /// It ends: the loop waits for the next event.
   void end(double now_s) {
-    const double took_s = now_s - began_s_;
-    longest_s_ = std::max(longest_s_, took_s);
-    if (took_s < kLongTurn_s || now_s - told_s_ < kLongTurnPause_s) return;
-    told_s_ = now_s;
+    if (now_s - began_s_ < longest_s_) return;
     const double cpu_s = seconds_of(CLOCK_THREAD_CPUTIME_ID) - cpu_began_s_;
-    std::fprintf(stderr,
-                 "graycube-frontal: held up for %.3f s, %.3f s of it by its own work "
-                 "(longest so far %.3f s)\n",
-                 took_s, cpu_s, longest_s_);
+    if (cpu_s < longest_s_) return;
+    longest_s_ = cpu_s;
+    std::fprintf(stderr, "graycube-frontal: held up for %.3f s, %.3f s of it by its own work\n",
+                 now_s - began_s_, cpu_s);
   }
-  double longest_s() const { return longest_s_; }
 
  private:
-  double began_s_ = 0, cpu_began_s_ = 0, longest_s_ = 0, told_s_ = -kLongTurnPause_s;
+  double began_s_ = 0, cpu_began_s_ = 0, longest_s_ = kLongTurn_s;
 };
 
 }  // namespace graycube
