@@ -46,6 +46,8 @@ namespace {
 /// A store in which an earlier frontal left job 1, a picture of 4 × 2 pixels.
 class OnePicture : public JobStore {
  public:
+  void add(const AcceptedJob&, std::span<const std::byte>) override {}
+  std::optional<KeyedJob> find_key(const std::string&) override { return std::nullopt; }
   void keep(const EndedJob&, Picture) override {}
   const Picture* picture(std::uint32_t job) override { return job == 1 ? &picture_ : nullptr; }
   std::vector<EndedJob> recover() override {
