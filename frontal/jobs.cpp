@@ -77,13 +77,6 @@ void Jobs::check_time() {
   }
 }
 
-void Jobs::look_for_lost_messages() {
-  if (!running_) return;
-  if (auto failure = running_->look_for_lost_messages(now_.now_s, post_))
-    return fail(*std::move(failure));
-  if (running_->is_loaded()) finish_when_complete();
-}
-
 // ---- asked by clients
 
 Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) {
@@ -319,12 +312,6 @@ void Jobs::on_node(Rank rank, const control::Slid& m) {
 
 void Jobs::on_wait_report(Rank rank, const control::WaitReport& m, std::uint64_t last_ping) {
   if (is_rendered()) running_->on_wait_report(rank, m, last_ping, now_.now_s, post_);
-}
-
-void Jobs::node_was_lost(const NodeLoss& node) {
-  if (!running_) return;
-  if (auto failure = running_->lose(node, post_)) return fail(*std::move(failure));
-  if (running_->is_loaded()) finish_when_complete();
 }
 
 bool Jobs::fail_internally(const std::string& why) {

@@ -51,7 +51,8 @@ bool are_left(const Sandbox& sandbox, std::size_t count) {
 
 /// A render that goes on for a while.
 Running long_render(Sandbox& sandbox) {
-  Running render = sandbox.start(apart({"render", first(), "-n", "4", "--size", kLongSize}));
+  Running render =
+      sandbox.start(apart({"render", first(), "-n", "4", "--size", kLongSize, "--retries", "0"}));
   render.wait_for("rendering");
   REQUIRE(are_left(sandbox, 4));
   return render;

@@ -103,7 +103,7 @@ std::string Running::err() const { return file_bytes(err_); }
 
 void Running::wait_for(const std::string& text, std::chrono::milliseconds limit) {
   const auto until = std::chrono::steady_clock::now() + limit;
-  while (out().find(text) == std::string::npos) {
+  while ((out() + err()).find(text) == std::string::npos) {
     INFO("waiting for \"" << text << "\"; so far: " << out() << err());
     REQUIRE_FALSE(has_ended());
     REQUIRE(std::chrono::steady_clock::now() < until);

@@ -204,6 +204,7 @@ TEST_CASE("a node with nothing left traces a neighbour's tiles in a copy of its 
   for (std::uint64_t seed = 1; seed <= 48; ++seed) {
     RandomFarmOptions how = farm_of(1u << (1 + seed % 4), seed);
     how.limits.window_tiles = 1 + static_cast<std::uint32_t>(seed % 3);
+    how.stalled_s = 6000;  // a window of one tile on a slow link takes ten minutes
     control::JobOptions options =
         macro_with(seed % 2 == 0 ? ShadowMode::kHorizon : ShadowMode::kForward, 1 + seed % 2);
     options.aov = "depth,normal,albedo,object";

@@ -74,13 +74,12 @@ TEST_CASE("leaves are counted without expanding refs") {
         .with("shapes", doubling_shapes(levels, count))
         .with("objects", object_of(ref(levels)));
   };
-  // 2^20 leaves are few enough, twice as many are not; 2^100 overflow every counter.
-  REQUIRE(errors_of(scene(20, 2)).empty());
-  auto errors = errors_of(scene(21, 2));
+  // 2^18 leaves are few enough, twice as many are not; 2^100 overflow every counter.
+  REQUIRE(errors_of(scene(18, 2)).empty());
+  auto errors = errors_of(scene(19, 2));
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].pointer == "/objects/0/csg");
-  CHECK(errors[0].message ==
-        "with this ref, refs make 2097152 leaves, at most 1048576 are accepted");
+  CHECK(errors[0].message == "with this ref, refs make 524288 leaves, at most 262144 are accepted");
   errors = errors_of(scene(100, 2));
   REQUIRE_FALSE(errors.empty());
   CHECK(errors[0].message.find("more than 2^64 leaves") != std::string::npos);
@@ -89,9 +88,9 @@ TEST_CASE("leaves are counted without expanding refs") {
 TEST_CASE("the ref that goes beyond what refs may repeat is told, once") {
   const auto errors = errors_of(
       SceneText()
-          .with("shapes", doubling_shapes(20, 2))
+          .with("shapes", doubling_shapes(18, 2))
           .with("objects", object_of(union_of(kSphere, 3) + "}, {\"material\": \"red\", \"csg\": " +
-                                     union_of(ref(19), 3))));
+                                     union_of(ref(17), 3))));
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].pointer == "/objects/1/csg/children/2");
 }

@@ -115,10 +115,14 @@ TEST_CASE("a mesh leaf's mistakes are told where they are") {
 }
 
 TEST_CASE("uses of one mesh count their triangles each time") {
-  // 2^19 uses of a mesh of 4 triangles are as many as are accepted.
+  // 2^17 uses of a mesh of 16 triangles, two octahedra, are as many as are accepted.
   SceneText text;
-  std::string shapes = std::string("{\"m0\": ") + kTetrahedron;
-  for (int i = 1; i <= 20; ++i) {
+  std::string shapes = R"({"m0": {"type": "mesh",
+    "points": [[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1],
+               [6,0,0],[4,0,0],[5,1,0],[5,-1,0],[5,0,1],[5,0,-1]],
+    "faces": [[0,2,4],[2,1,4],[1,3,4],[3,0,4],[2,0,5],[1,2,5],[3,1,5],[0,3,5],
+              [6,8,10],[8,7,10],[7,9,10],[9,6,10],[8,6,11],[7,8,11],[9,7,11],[6,9,11]]})";
+  for (int i = 1; i <= 18; ++i) {
     const std::string ref = R"({"type": "ref", "shape": "m)" + std::to_string(i - 1) + "\"}";
     shapes += ", \"m" + std::to_string(i) + R"(": {"type": "union", "children": [)" + ref + "," +
               ref + "]}";
@@ -128,8 +132,8 @@ TEST_CASE("uses of one mesh count their triangles each time") {
     return R"([{"material": "red", "csg": {"type": "ref", "shape": "m)" + std::to_string(i) +
            "\"}}]";
   };
-  CHECK(read_scene_text(text.with("objects", objects(19)).text()).scene);
-  const ReadResult read = read_scene_text(text.with("objects", objects(20)).text());
+  CHECK(read_scene_text(text.with("objects", objects(17)).text()).scene);
+  const ReadResult read = read_scene_text(text.with("objects", objects(18)).text());
   REQUIRE(read.errors.size() == 1);
   CHECK(read.errors[0].message.find("4194304 triangles of meshes") != std::string::npos);
 }
