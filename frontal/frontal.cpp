@@ -45,7 +45,8 @@ void Frontal::on_time(const Moment& now) {
     post_.to_nodes(*ping);
     look_for_standstills();
   }
-  for (const Rank rank : nodes_.take_silent(now_s_)) lose(rank, "fell silent");
+  for (const Rank rank : nodes_.take_silent(now_s_, options_.is_only_slow))
+    lose(rank, "fell silent");
   in_job(jobs_, [&] { jobs_.check_time(); });
   get_on();
 }

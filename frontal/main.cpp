@@ -25,6 +25,7 @@
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
 #include "process/descriptors.hpp"
+#include "process/process_state.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/secret.hpp"
@@ -64,6 +65,12 @@ double silence_of(const FrontalArguments& a) {
                          : usual_silence_s(a.nodes, std::thread::hardware_concurrency());
 }
 
+/// Whether nothing keeps the process from running but others that run, or what it waits for.
+bool can_run(std::uint64_t pid) {
+  const char state = process_state(static_cast<long>(pid));
+  return state == 'R' || state == 'S' || state == 'D';
+}
+
 /// A descriptor of the signals that ask for the end, and of SIGCHLD, which wakes the loop.
 int signal_descriptor() {
   sigset_t set;
@@ -86,6 +93,7 @@ class FrontalProcess {
                   .heartbeat_s = ping_interval_s(silence_of(a)),
                   .silence_s = silence_of(a),
                   .start_patience_s = start_patience_s(a.nodes),
+                  .is_only_slow = can_run,
                   .standstill_s = standstill_s(silence_of(a)),
                   .retries = a.retries,
                   .version = kVersion,

@@ -10,13 +10,12 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <thread>
 
 #include "cli/interrupts.hpp"
 #include "cli/temporary_place.hpp"
+#include "process/process_state.hpp"
 #include "process/spawn_plan.hpp"
 
 namespace graycube {
@@ -134,14 +133,7 @@ int FrontalProcess::death_signal() const {
   return WIFSIGNALED(wait_status_) ? WTERMSIG(wait_status_) : 0;
 }
 
-bool FrontalProcess::is_stopped() const {
-  if (has_ended_) return false;
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
-  // Behind the name in brackets, which may hold anything, stands the state.
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t end_of_name = text.rfind(") ");
-  return end_of_name != std::string::npos && text.compare(end_of_name + 2, 1, "T") == 0;
-}
+bool FrontalProcess::is_stopped() const { return !has_ended_ && process_state(pid_) == 'T'; }
 
 void FrontalProcess::kill() noexcept {
   if (!has_ended_) ::kill(pid_, SIGKILL);

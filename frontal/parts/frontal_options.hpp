@@ -22,6 +22,9 @@ struct FrontalOptions {
   /// A node that answers nothing for so many seconds is taken for dead; and so is one that hasn't
   /// said hello so many seconds after it was started.
   double silence_s = 10, start_patience_s = 60;
+  /// Whether a silent node's process, of that id, can run and only doesn't get its turn: then it
+  /// may be silent for kPatienceWithSlow times as long.
+  std::function<bool(std::uint64_t)> is_only_slow = [](std::uint64_t) { return false; };
   /// A node that answers, but has been at the same pieces of work for so many seconds, is taken for
   /// dead.
   double standstill_s = 300;

@@ -46,15 +46,18 @@ void NodeRegistry::was_held_up(double seconds) {
   for (Record& node : nodes_) node.last_heard_s += seconds;
 }
 
-std::vector<Rank> NodeRegistry::take_silent(double now_s) {
+std::vector<Rank> NodeRegistry::take_silent(
+    double now_s, const std::function<bool(std::uint64_t)>& is_only_slow) {
   std::vector<Rank> silent;
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
     Record& node = nodes_[rank];
     // A node that was to be started before time was first told counts as silent only from then on.
     if (node.last_heard_s == 0) node.last_heard_s = now_s;
+    const double silent_s = now_s - node.last_heard_s;
     const double patience_s = node.is_here ? patience_.silence_s : patience_.start_s;
-    const double more_s = node.is_here ? 0 : kStartPerNode_s * static_cast<double>(nodes_.size());
-    if (now_s - node.last_heard_s < patience_s + more_s) continue;
+    if (silent_s < patience_s) continue;
+    if (node.is_here && silent_s < kPatienceWithSlow * patience_s && is_only_slow(node.pid))
+      continue;
     silent.push_back(Rank{rank});
     kill(Rank{rank});
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,10 +17,9 @@ namespace graycube {
 
 /// The farm gives up when so many node processes in a row end before their hello.
 inline constexpr unsigned kMaxFailedStarts = 8;
-
-/// So many seconds more for each node of the farm, a process that is being started may be silent:
-/// all start together, on as many processors as there are.
-inline constexpr double kStartPerNode_s = 0.1;
+/// A silent node whose process is there and could run may be silent for so many times as long as
+/// another: on a busy machine it may only wait for its turn.
+inline constexpr double kPatienceWithSlow = 10;
 
 class NodeRegistry {
  public:
@@ -44,8 +44,7 @@ class NodeRegistry {
     double silence_s = 10, start_s = 60;
   };
 
-  /// A node that says nothing for longer than that is taken for dead, one that is being started
-  /// after kStartPerNode_s for each node more. Every rank gets a process.
+  /// A node that says nothing for longer than that is taken for dead. Every rank gets a process.
   NodeRegistry(const Hypercube& cube, const Patience& patience);
 
   /// A new process is to be started for the rank, which must have none.
@@ -58,7 +57,9 @@ class NodeRegistry {
   /// Tells that the frontal heard nobody for so long, so that it doesn't count as silence.
   void was_held_up(double seconds);
   /// Takes the nodes that were silent for too long; their processes are to be ended.
-  std::vector<Rank> take_silent(double now_s);
+  /// `is_only_slow(pid)`: the process is given more time.
+  std::vector<Rank> take_silent(double now_s,
+                                const std::function<bool(std::uint64_t)>& is_only_slow);
   /// The node's process is to be ended.
   void kill(Rank rank) { kills_.push_back({rank, nodes_[rank.value].incarnation}); }
   /// Forgets a node's process: its messages no longer count, and the rank must be started again.

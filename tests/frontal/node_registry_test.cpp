@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kSilence_s = 10, kStart_s = 40;
 
+bool is_not_slow(std::uint64_t) { return false; }
+
 control::Hello hello(const NodeRegistry::Process& process) {
   return {process.rank.value,
           4000 + process.incarnation,
@@ -72,11 +74,12 @@ TEST_CASE(
     "could hear it") {
   Four four;
   four.all_say_hello(100);
-  CHECK(four.nodes.take_silent(100 + kSilence_s - 0.1).empty());
+  CHECK(four.nodes.take_silent(100 + kSilence_s - 0.1, is_not_slow).empty());
   four.nodes.heard(Rank{2}, 105);
   four.nodes.was_held_up(3);
-  CHECK(four.nodes.take_silent(100 + kSilence_s).empty());
-  CHECK(four.nodes.take_silent(103 + kSilence_s) == std::vector{Rank{0}, Rank{1}, Rank{3}});
+  CHECK(four.nodes.take_silent(100 + kSilence_s, is_not_slow).empty());
+  CHECK(four.nodes.take_silent(103 + kSilence_s, is_not_slow) ==
+        std::vector{Rank{0}, Rank{1}, Rank{3}});
   const auto kills = four.nodes.take_kills();
   REQUIRE(kills.size() == 3);
   CHECK(kills[2].rank == Rank{3});
@@ -142,4 +145,17 @@ TEST_CASE("all have left when the last has") {
     four.nodes.has_left(Rank{rank});
   }
   CHECK(four.nodes.all_left());
+}
+
+TEST_CASE("a silent node whose process could run is given more time, but not for ever") {
+  Four four;
+  four.all_say_hello(100);
+  // The processes of all but node 2 are stopped.
+  const auto is_slow = [](std::uint64_t pid) { return pid == 4003; };
+  CHECK(four.nodes.take_silent(100 + kSilence_s, is_slow) ==
+        std::vector{Rank{0}, Rank{1}, Rank{3}});
+  const double end_s = 100 + kPatienceWithSlow * kSilence_s;
+  for (const std::uint32_t rank : {0u, 1u, 3u}) four.nodes.heard(Rank{rank}, end_s);
+  CHECK(four.nodes.take_silent(end_s - 1, is_slow).empty());
+  CHECK(four.nodes.take_silent(end_s, is_slow) == std::vector{Rank{2}});
 }
