@@ -136,6 +136,15 @@ Sandbox::Sandbox() {
   }
 }
 
+/// A farm whose command was killed goes on by itself.
+Sandbox::~Sandbox() {
+  try {
+    for (const std::string& process : processes()) ::kill(std::stoi(process), SIGKILL);
+  } catch (const fs::filesystem_error&) {
+    // What was looked at has just ended.
+  }
+}
+
 fs::path Sandbox::write(const std::string& name, const std::string& text) const {
   std::ofstream(work_ / name, std::ios::binary) << text;
   return work_ / name;

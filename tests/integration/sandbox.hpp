@@ -71,6 +71,8 @@ class Running {
 class Sandbox {
  public:
   Sandbox();
+  /// Kills what is left of the processes that were started in it.
+  ~Sandbox();
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
