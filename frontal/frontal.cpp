@@ -12,9 +12,6 @@
 namespace graycube {
 namespace {
 
-/// So many refused processes are told on standard error; further ones are only dropped.
-constexpr unsigned kMaxStrangersTold = 8;
-
 /// Does work for the job that is on: a check that fails there ends that job, not the farm.
 template <typename Work>
 void in_job(Jobs& jobs, Work&& work) {

@@ -117,9 +117,8 @@ class Jobs {
   JobStore& store_;
   Post& post_;
   Moment now_;
-  /// When old jobs were cleared last.
-  double looked_s_ = 0;
-  double cleared_s_ = 0;
+  /// When it was last looked how far the job is, and when old jobs were cleared.
+  double looked_s_ = 0, cleared_s_ = 0;
   CpuMeter cpu_;
   JobQueue queue_;
   std::optional<RunningJob> running_;

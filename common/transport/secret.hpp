@@ -10,6 +10,10 @@
 
 namespace graycube {
 
+/// So many who don't show a farm's secret are told of on standard error; further ones are only
+/// dropped.
+inline constexpr unsigned kMaxStrangersTold = 8;
+
 using Secret = std::array<std::byte, 32>;
 
 /// Where a farm's nodes find its secret when they are started: not on their command line nor in

@@ -15,9 +15,6 @@
 
 namespace graycube {
 
-/// So many greetings without the secret are told on standard error; further ones are only dropped.
-inline constexpr unsigned kMaxStrangersTold = 8;
-
 class NeighbourDoor {
  public:
   NeighbourDoor(Rank own, const Secret& secret) : own_(own), secret_(secret) {}
