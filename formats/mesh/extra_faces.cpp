@@ -1,0 +1,137 @@
+#include "formats/mesh/extra_faces.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <unordered_set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "mesh/join_points.hpp"
+
+namespace graycube {
+namespace {
+
+using Corners = std::vector<std::uint32_t>;
+
+std::uint64_t edge_key(std::uint32_t from, std::uint32_t to) {
+  return std::uint64_t{from} << 32 | to;
+}
+
+/// Calls `use` with each face's corners as they are, and as the numbers of points that differ,
+/// without those that follow themselves.
+template <typename Use>
+void for_each_face(const PolygonMesh& mesh, const Corners& numbers, Use use) {
+  Corners cycle;
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : mesh.face_ends) {
+    cycle.clear();
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint32_t number = numbers[mesh.corners[i]];
+      if (cycle.empty() || cycle.back() != number) cycle.push_back(number);
+    }
+    while (cycle.size() > 1 && cycle.back() == cycle.front()) cycle.pop_back();
+    use(std::span(mesh.corners).subspan(begin, end - begin), cycle);
+    begin = end;
+  }
+}
+
+/// The mesh with those faces only for which `keeps` is true.
+template <typename Keeps>
+PolygonMesh filtered(const PolygonMesh& mesh, const Corners& numbers, Keeps keeps) {
+  PolygonMesh rest{mesh.points, {}, {}, mesh.digits, mesh.side};
+  for_each_face(mesh, numbers, [&](std::span<const std::uint32_t> face, const Corners& cycle) {
+    if (keeps(cycle)) rest.add_face(face);
+  });
+  return rest;
+}
+
+/// A surface to which faces are added one by one.
+class Surface {
+ public:
+  explicit Surface(std::size_t points) : open_(points, 0), is_used_(points, false) {}
+
+  /// Adds a face, unless it doesn't fit.
+  bool add(const Corners& cycle) {
+    if (!fits(cycle)) return false;
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+      const std::uint32_t from = cycle[i], to = cycle[(i + 1) % cycle.size()];
+      is_used_[from] = true;
+      const int change = edges_.count(edge_key(to, from)) > 0 ? -1 : 1;
+      edges_.insert(edge_key(from, to));
+      open_[from] += change;
+      open_[to] += change;
+    }
+    return true;
+  }
+
+ private:
+  bool fits(const Corners& cycle) const {
+    Corners sorted = cycle;
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      return false;
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+      const std::uint32_t from = cycle[i], to = cycle[(i + 1) % cycle.size()];
+      const bool is_surrounded = is_used_[from] && open_[from] == 0;
+      if (is_surrounded || edges_.count(edge_key(from, to)) > 0) return false;
+    }
+    return true;
+  }
+
+  /// Edges with their direction.
+  std::unordered_set<std::uint64_t> edges_;
+  /// How many of a point's edges have a face on one side only.
+  std::vector<int> open_;
+  std::vector<bool> is_used_;
+};
+
+bool has_repeated_edges(const PolygonMesh& mesh, const Corners& numbers) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(mesh.corners.size());
+  for_each_face(mesh, numbers, [&](std::span<const std::uint32_t>, const Corners& cycle) {
+    for (std::size_t i = 0; i < cycle.size(); ++i)
+      edges.push_back(edge_key(cycle[i], cycle[(i + 1) % cycle.size()]));
+  });
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
+}
+
+/// The number of the point that each point is one with.
+Corners numbers_of(const PolygonMesh& mesh, double join_within) {
+  Corners used = mesh.corners;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  double largest = 0;
+  for (const std::uint32_t i : used) largest = std::max(largest, max_abs(mesh.points[i]));
+  return joined_points(mesh.points, used, std::max(join_within, kRoundingShare * largest));
+}
+
+}  // namespace
+
+std::optional<PolygonMesh> without_extra_faces(const PolygonMesh& mesh, double join_within) {
+  // Faces and points that are in order, which closed_mesh() would say.
+  if (std::holds_alternative<MeshFault>(welded_mesh(mesh))) return std::nullopt;
+  const Corners numbers = numbers_of(mesh, join_within);
+  if (!has_repeated_edges(mesh, numbers)) return std::nullopt;
+  const auto is_closed = [&](const PolygonMesh& m) {
+    return std::holds_alternative<TriangleMesh>(closed_mesh(m, join_within));
+  };
+  Surface surface(mesh.points.size());
+  PolygonMesh rest =
+      filtered(mesh, numbers, [&](const Corners& cycle) { return surface.add(cycle); });
+  if (is_closed(rest)) return rest;
+  // Solids that touch along an edge have edges with more than two faces, too.
+  if (is_closed(mesh)) return std::nullopt;
+  std::set<Corners> known;
+  rest = filtered(mesh, numbers, [&](Corners cycle) {
+    std::sort(cycle.begin(), cycle.end());
+    return known.insert(std::move(cycle)).second;
+  });
+  if (is_closed(rest)) return rest;
+  return std::nullopt;
+}
+
+}  // namespace graycube
