@@ -115,6 +115,15 @@ TEST_CASE("faces that a polyhedron has twice or three times are ignored, which i
   CHECK(is_left_out("cube(1);\n" + points + "[0, 1, 2], [0, 3, 1], [0, 3, 1], [1, 3, 2]]);"));
 }
 
+TEST_CASE("a path of a polygon without a list around it makes nothing, which is told") {
+  const std::string text =
+      "cube(1);\nlinear_extrude(height = 2) polygon(points = [[0, 0], [4, 0], [0, 4]], "
+      "paths = [0, 1, 2]);";
+  CHECK(scene_of(text).objects.size() == 1);
+  REQUIRE(warnings_of(text).size() == 1);
+  CHECK_THAT(warnings_of(text)[0], Catch::Contains("paths must be lists"));
+}
+
 TEST_CASE("a polyhedron without points or faces is left out alone") {
   for (const char* arguments : {"", "points = undef, faces = [[0, 1, 2]]",
                                 "points = [[0, 0, 0], [1, 1, 1]], faces = undef"}) {
