@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <variant>
@@ -48,43 +49,82 @@ PolygonMesh filtered(const PolygonMesh& mesh, const Corners& numbers, Keeps keep
   return rest;
 }
 
-/// A surface to which faces are added one by one.
+/// A surface to which faces are added one by one. The faces around a point form fans: each goes
+/// from a neighbour of the point to another, over faces that share edges; a fan that comes back to
+/// where it begins surrounds the point.
 class Surface {
  public:
-  explicit Surface(std::size_t points) : open_(points, 0), is_used_(points, false) {}
+  explicit Surface(std::size_t points) : fans_(points, 0), is_used_(points, false) {}
 
   /// Adds a face, unless it doesn't fit.
   bool add(const Corners& cycle) {
     if (!fits(cycle)) return false;
+    std::uint32_t before = cycle.back();
     for (std::size_t i = 0; i < cycle.size(); ++i) {
-      const std::uint32_t from = cycle[i], to = cycle[(i + 1) % cycle.size()];
-      is_used_[from] = true;
-      const int change = edges_.count(edge_key(to, from)) > 0 ? -1 : 1;
-      edges_.insert(edge_key(from, to));
-      open_[from] += change;
-      open_[to] += change;
+      const std::uint32_t at = cycle[i], after = cycle[(i + 1) % cycle.size()];
+      edges_.insert(edge_key(at, after));
+      is_used_[at] = true;
+      widen_fan(at, before, after);
+      before = at;
     }
     return true;
   }
 
  private:
+  using Ends = std::unordered_map<std::uint64_t, std::uint32_t>;
+
   bool fits(const Corners& cycle) const {
     Corners sorted = cycle;
     std::sort(sorted.begin(), sorted.end());
     if (sorted.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       return false;
+    std::uint32_t before = cycle.back();
     for (std::size_t i = 0; i < cycle.size(); ++i) {
-      const std::uint32_t from = cycle[i], to = cycle[(i + 1) % cycle.size()];
-      const bool is_surrounded = is_used_[from] && open_[from] == 0;
-      if (is_surrounded || edges_.count(edge_key(from, to)) > 0) return false;
+      const std::uint32_t at = cycle[i], after = cycle[(i + 1) % cycle.size()];
+      const bool is_surrounded = is_used_[at] && fans_[at] == 0;
+      if (is_surrounded || edges_.count(edge_key(at, after)) > 0) return false;
+      // What surrounds a point leaves no room for its other fans.
+      if (fans_[at] > 1 && closes(at, before, after)) return false;
+      before = at;
     }
     return true;
   }
 
+  /// Whether a face between two neighbours of a point makes a fan come back to where it begins.
+  bool closes(std::uint32_t at, std::uint32_t before, std::uint32_t after) const {
+    const auto fan = end_of_.find(edge_key(at, after));
+    return fan != end_of_.end() && fan->second == before;
+  }
+
+  /// Adds a face between two neighbours of a point to the fans that end and begin there.
+  void widen_fan(std::uint32_t at, std::uint32_t before, std::uint32_t after) {
+    const auto taken = [&](Ends& ends, std::uint32_t neighbour) {
+      const auto found = ends.find(edge_key(at, neighbour));
+      if (found == ends.end()) return neighbour;
+      const std::uint32_t other = found->second;
+      ends.erase(found);
+      --fans_[at];
+      return other;
+    };
+    const bool is_closed = closes(at, before, after);
+    const std::uint32_t start = taken(start_of_, before);
+    if (is_closed) {
+      end_of_.erase(edge_key(at, after));
+      return;
+    }
+    const std::uint32_t end = taken(end_of_, after);
+    end_of_[edge_key(at, start)] = end;
+    start_of_[edge_key(at, end)] = start;
+    ++fans_[at];
+  }
+
   /// Edges with their direction.
   std::unordered_set<std::uint64_t> edges_;
-  /// How many of a point's edges have a face on one side only.
-  std::vector<int> open_;
+  /// By a point and the neighbour at which one of its fans begins, the neighbour at which that
+  /// ends; and the other way round. Fans that surround their point have neither.
+  Ends end_of_, start_of_;
+  /// How many fans a point has that don't surround it.
+  std::vector<int> fans_;
   std::vector<bool> is_used_;
 };
 

@@ -13,9 +13,10 @@ namespace graycube {
 ///
 /// Dropped are the faces that OpenSCAD 2021.01 passes over when it builds a solid face by face, in
 /// their order: those with an edge that a face before goes along in the same direction, or with a
-/// corner that faces before surround completely (CGAL's Polyhedron_incremental_builder_3,
-/// test_facet()). If the rest isn't closed, nor the mesh as it is, those are dropped instead that
-/// have the same corners as one before, wherever they begin and whichever way they turn.
+/// corner that faces before surround completely, or that it would surround together with some of
+/// them while others only touch it there (CGAL's Polyhedron_incremental_builder_3, test_facet()).
+/// If the rest isn't closed, nor the mesh as it is, those are dropped instead that have the same
+/// corners as one before, wherever they begin and whichever way they turn.
 ///
 /// Nothing if no two faces go along an edge in the same direction, or no rest is closed.
 std::optional<PolygonMesh> without_extra_faces(const PolygonMesh& mesh, double join_within);

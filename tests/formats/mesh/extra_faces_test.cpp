@@ -83,6 +83,17 @@ TEST_CASE("a face that is there both ways counts as its neighbours say, before t
   CHECK(enclosed_volume(std::get<TriangleMesh>(solid)) == Approx(6));
 }
 
+TEST_CASE("a face that closes a fan at a corner of other faces is dropped") {
+  // OpenSCAD takes this octahedron: the third face, which is the second turned round, would make a
+  // pillow of both, but the first touches them at point 0.
+  const std::vector<Face> faces{{5, 3, 0}, {2, 0, 4}, {4, 0, 2}, {5, 1, 3}, {2, 5, 3}, {4, 1, 2},
+                                {4, 0, 3}, {5, 0, 2}, {4, 3, 1}, {5, 2, 1}, {4, 2, 0}};
+  const auto rest = without_extra_faces(
+      mesh_of(faces, {{3, 0, 0}, {-3, 0, 0}, {0, 3, 0}, {0, -3, 0}, {0, 0, 3}, {0, 0, -3}}), 0);
+  REQUIRE(rest);
+  CHECK(rest->face_ends.size() == 8);
+}
+
 TEST_CASE("of a surface of which each face is there both ways one side counts") {
   std::vector<Face> both = faces_of(kBox);
   for (const Face& face : faces_of(kBox)) both.push_back(turned(face));
