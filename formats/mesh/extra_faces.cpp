@@ -11,11 +11,15 @@
 #include <vector>
 
 #include "mesh/join_points.hpp"
+#include "mesh/repair_mesh.hpp"
 
 namespace graycube {
 namespace {
 
 using Corners = std::vector<std::uint32_t>;
+
+/// Volumes that differ by less than this factor are equal.
+constexpr double kMoreThanRounding = 1 + 1e-9;
 
 std::uint64_t edge_key(std::uint32_t from, std::uint32_t to) {
   return std::uint64_t{from} << 32 | to;
@@ -149,6 +153,13 @@ Corners numbers_of(const PolygonMesh& mesh, double join_within) {
   return joined_points(mesh.points, used, std::max(join_within, kRoundingShare * largest));
 }
 
+/// The volume that the mesh encloses; 0 where it isn't closed, or encloses next to nothing.
+double volume_of(const PolygonMesh& mesh, double join_within) {
+  const auto closed = closed_mesh(mesh, join_within);
+  const auto* solid = std::get_if<TriangleMesh>(&closed);
+  return solid != nullptr && encloses_volume(*solid) ? enclosed_volume(*solid) : 0;
+}
+
 }  // namespace
 
 std::optional<PolygonMesh> without_extra_faces(const PolygonMesh& mesh, double join_within) {
@@ -156,21 +167,20 @@ std::optional<PolygonMesh> without_extra_faces(const PolygonMesh& mesh, double j
   if (std::holds_alternative<MeshFault>(welded_mesh(mesh))) return std::nullopt;
   const Corners numbers = numbers_of(mesh, join_within);
   if (!has_repeated_edges(mesh, numbers)) return std::nullopt;
-  const auto is_closed = [&](const PolygonMesh& m) {
-    return std::holds_alternative<TriangleMesh>(closed_mesh(m, join_within));
-  };
+  const double written = volume_of(mesh, join_within);
   Surface surface(mesh.points.size());
   PolygonMesh rest =
       filtered(mesh, numbers, [&](const Corners& cycle) { return surface.add(cycle); });
-  if (is_closed(rest)) return rest;
-  // Solids that touch along an edge have edges with more than two faces, too.
-  if (is_closed(mesh)) return std::nullopt;
+  // Solids that touch along an edge have edges with more than two faces, too; but where the two
+  // sides of a surface are faces, it encloses nothing as it is written.
+  if (volume_of(rest, join_within) > kMoreThanRounding * written) return rest;
+  if (written > 0) return std::nullopt;
   std::set<Corners> known;
   rest = filtered(mesh, numbers, [&](Corners cycle) {
     std::sort(cycle.begin(), cycle.end());
     return known.insert(std::move(cycle)).second;
   });
-  if (is_closed(rest)) return rest;
+  if (volume_of(rest, join_within) > 0) return rest;
   return std::nullopt;
 }
 

@@ -55,9 +55,32 @@ TEST_CASE("a face that is there three times counts once, wherever it begins") {
     more.back() = {face[0], face[1], face[2]};
     CHECK(left_of(more) == box);
   }
+}
+
+TEST_CASE("a mesh that is a solid as it is stays, even if faces are there twice or back to back") {
   std::vector<Face> doubled;
-  for (const Face& face : box) doubled.insert(doubled.end(), {face, face});
-  CHECK(left_of(doubled) == box);
+  for (const Face& face : faces_of(kBox)) doubled.insert(doubled.end(), {face, face});
+  CHECK(left_of(doubled).empty());
+  // Two faces without an area come first and would surround the corners that others need.
+  const std::vector<Face> faces{{0, 1, 2}, {2, 1, 0}, {2, 0, 4}, {0, 1, 4}, {0, 5, 1},
+                                {0, 2, 5}, {2, 3, 5}, {4, 3, 2}, {1, 5, 3}, {4, 1, 3}};
+  CHECK_FALSE(without_extra_faces(
+      mesh_of(faces, {{0, 2, 0}, {0, 4, 0}, {0, 0, 0}, {0, 2, -4}, {2, 2, 0}, {-2, 2, 0}}), 0));
+}
+
+TEST_CASE("of two solids one may have both sides of every face") {
+  std::vector<Face> faces = faces_of(kBox);
+  std::vector<Vec3> points = kBox.points;
+  for (const Vec3& p : kBox.points) points.push_back(p + Vec3{5, 0, 0});
+  for (const Face& face : faces_of(kBox)) {
+    Face moved;
+    for (const std::uint32_t i : face) moved.push_back(i + 8);
+    faces.push_back(moved);
+  }
+  for (std::size_t i = 6; i < 12; ++i) faces.push_back(turned(faces[i]));
+  const auto rest = without_extra_faces(mesh_of(faces, points), 0);
+  REQUIRE(rest);
+  CHECK(enclosed_volume(closed(*rest)) == Approx(12));
 }
 
 TEST_CASE("corners that follow themselves are one") {
