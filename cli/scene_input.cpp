@@ -110,7 +110,8 @@ bool is_own_format(const fs::path& path) {
 }
 
 MeshReading mesh_reading(const ModelChoice& choice) {
-  return {.repairs = choice.repairs, .foreign = [](const fs::path& file) {
+  return {.open = choice.repairs ? OpenMeshes::kRepair : OpenMeshes::kLeaveOut,
+          .foreign = [](const fs::path& file) {
             return read_foreign_meshes(file, mesh_reader_program());
           }};
 }

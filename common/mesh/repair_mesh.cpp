@@ -61,21 +61,39 @@ OpenEdges open_edges(const TriangleMesh& mesh) {
   return open;
 }
 
-/// Drops triangles with the same corners, turned the same way, as one before; returns how many.
-std::size_t drop_doubled(TriangleMesh& mesh) {
-  const auto from_lowest = [&](std::uint32_t n) {
+enum class Doubled { kSameWay, kEitherWay };
+
+/// Drops triangles with the same corners, turned the same way or either way, as one before; returns
+/// how many.
+std::size_t drop_doubled(TriangleMesh& mesh, Doubled which) {
+  const auto key_of = [&](std::uint32_t n) {
     Triangle t = mesh.triangles[n];
+    if (which == Doubled::kEitherWay) std::sort(t.begin(), t.end());
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;
   };
   std::vector<std::pair<Triangle, std::uint32_t>> sorted;
   sorted.reserve(mesh.triangles.size());
-  for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) sorted.emplace_back(from_lowest(n), n);
+  for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) sorted.emplace_back(key_of(n), n);
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first) mesh.triangles[sorted[i].second] = {0, 0, 0};
   }
   return std::erase_if(mesh.triangles, has_equal_corners);
+}
+
+/// Drops triangles that are there twice, turned the same way. Those that are there both ways are
+/// the two sides of a wall, or of all or some of the surface: one side is dropped where that leaves
+/// fewer open edges, or where both sides enclose nothing.
+void drop_doubled(TriangleMesh& mesh, MeshRepairs& repairs) {
+  repairs.dropped_faces = drop_doubled(mesh, Doubled::kSameWay);
+  TriangleMesh one_sided = mesh;
+  const std::size_t dropped = drop_doubled(one_sided, Doubled::kEitherWay);
+  if (dropped == 0) return;
+  const std::size_t before = open_edges(mesh).count, after = open_edges(one_sided).count;
+  if (after > before || (after == before && encloses_volume(mesh))) return;
+  repairs.dropped_faces += dropped;
+  mesh = std::move(one_sided);
 }
 
 /// Notes that these points got other numbers.
@@ -107,7 +125,7 @@ void try_to_join(TriangleMesh& mesh, OpenEdges& open, const std::vector<std::uin
     for (std::uint32_t& i : t) i = number[i];
   }
   std::erase_if(joined.triangles, has_equal_corners);
-  const std::size_t dropped = drop_doubled(joined);
+  const std::size_t dropped = drop_doubled(joined, Doubled::kSameWay);
   OpenEdges left = open_edges(joined);
   if (left.count > most_left) return;
   note_joined(mesh, points, number, repairs);
@@ -163,18 +181,25 @@ std::optional<MeshFault> fill_holes(TriangleMesh& mesh, double tolerance, MeshRe
 
 }  // namespace
 
+bool encloses_volume(const TriangleMesh& mesh) {
+  const double side = longest_side(mesh);
+  return std::fabs(enclosed_volume(mesh)) > kLeastVolumeShare * side * side * side;
+}
+
 std::variant<RepairedMesh, MeshFault> repaired_mesh(const PolygonMesh& polygons) {
   auto welded = welded_mesh(polygons);
   if (auto* fault = std::get_if<MeshFault>(&welded)) return std::move(*fault);
   TriangleMesh& mesh = std::get<TriangleMesh>(welded);
   auto closed = closed_mesh(mesh);
-  if (auto* as_it_is = std::get_if<TriangleMesh>(&closed))
+  auto* as_it_is = std::get_if<TriangleMesh>(&closed);
+  if (as_it_is != nullptr && encloses_volume(*as_it_is))
     return RepairedMesh{std::move(*as_it_is), {}};
-  if (!std::get<MeshFault>(closed).is_open) return std::get<MeshFault>(std::move(closed));
+  const auto* why = std::get_if<MeshFault>(&closed);
+  if (why != nullptr && !why->is_open) return *why;
   MeshRepairs repairs;
   std::erase_if(mesh.triangles, has_equal_corners);
   const double side = longest_side(mesh);
-  repairs.dropped_faces = drop_doubled(mesh);
+  drop_doubled(mesh, repairs);
   join_corners(mesh, side, repairs);
   if (const auto contradiction = agree_on_orientation(mesh.triangles)) {
     return MeshFault{
@@ -186,8 +211,7 @@ std::variant<RepairedMesh, MeshFault> repaired_mesh(const PolygonMesh& polygons)
   closed = closed_mesh(std::move(mesh));
   if (auto* fault = std::get_if<MeshFault>(&closed)) return std::move(*fault);
   auto& result = std::get<TriangleMesh>(closed);
-  if (!(enclosed_volume(result) > kLeastVolumeShare * side * side * side))
-    return MeshFault{"encloses no volume even when repaired: a sheet"};
+  if (!encloses_volume(result)) return MeshFault{"encloses no volume even when repaired: a sheet"};
   return RepairedMesh{std::move(result), repairs};
 }
 

@@ -28,11 +28,16 @@ struct RepairedMesh {
   MeshRepairs repairs;
 };
 
-/// The mesh as closed_mesh() gives it, which is tried first and then stays as it is. Otherwise
-/// triangles that are there twice are dropped, and corners joined, those of open edges first, at a
-/// distance that is no larger than needed. Then faces are turned to agree, and flat holes of up to
-/// kMaxFilledEdges edges get a face each. Faults: those of closed_mesh(), holes that are bent or
-/// larger, and surfaces that enclose next to nothing even then.
+/// Whether a closed mesh encloses more than next to nothing, beside its longest side's cube.
+bool encloses_volume(const TriangleMesh& mesh);
+
+/// The mesh as closed_mesh() gives it, which is tried first and then stays as it is, if it encloses
+/// anything. Otherwise triangles that are there twice are dropped, those that turn the other way as
+/// well where fewer edges are open then or nothing was enclosed before, and corners joined, those
+/// of open edges first, at a distance that is no larger than needed. Then faces are turned to
+/// agree, and flat holes of up to kMaxFilledEdges edges get a face each. Faults: those of
+/// closed_mesh(), holes that are bent or larger, and surfaces that enclose next to nothing even
+/// then.
 std::variant<RepairedMesh, MeshFault> repaired_mesh(const PolygonMesh& polygons);
 
 }  // namespace graycube

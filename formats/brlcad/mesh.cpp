@@ -1,12 +1,15 @@
 // BRL-CAD's solids of triangles, ars and bot.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "formats/brlcad/solids.hpp"
+#include "formats/mesh/extra_faces.hpp"
 #include "mesh/close_mesh.hpp"
+#include "mesh/repair_mesh.hpp"
 
 namespace graycube {
 namespace {
@@ -72,6 +75,27 @@ BrlcadNode left_out(const MeshFault& fault) {
   return node;
 }
 
+/// The closed surface, without faces that are one too many, which `change` tells: for rt several
+/// hits of a ray at one place are one.
+std::variant<TriangleMesh, MeshFault> closed_surface(const TriangleMesh& surface,
+                                                     std::string& change) {
+  auto closed = closed_mesh(surface);
+  const auto is_solid = [](const std::variant<TriangleMesh, MeshFault>& found) {
+    const auto* mesh = std::get_if<TriangleMesh>(&found);
+    return mesh != nullptr && encloses_volume(*mesh);
+  };
+  if (is_solid(closed)) return closed;
+  PolygonMesh polygons;
+  polygons.points = surface.points;
+  for (const Triangle& t : surface.triangles) polygons.add_face(t);
+  const auto rest = without_extra_faces(polygons, 0);
+  if (!rest) return closed;
+  auto thinned = closed_mesh(*rest);
+  if (!is_solid(thinned)) return closed;
+  change = "faces that the mesh has twice or more often count once";
+  return thinned;
+}
+
 }  // namespace
 
 BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, double grow) {
@@ -84,7 +108,8 @@ BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, doub
     }
   }
   surface.triangles = mesh.faces;
-  auto closed = closed_mesh(std::move(surface));
+  std::string change;
+  auto closed = closed_surface(surface, change);
   if (auto* fault = std::get_if<MeshFault>(&closed)) return left_out(*fault);
   auto& solid = std::get<TriangleMesh>(closed);
   if (grow != 0) {
@@ -95,7 +120,7 @@ BrlcadNode brlcad_mesh_node(const BrlcadMesh& mesh, const Affine& to_world, doub
   }
   CsgNode node;
   node.value = MeshShape{std::move(std::get<TriangleMesh>(closed))};
-  return {std::move(node), {}, false, {}, {}};
+  return {std::move(node), {}, false, std::move(change), {}};
 }
 
 }  // namespace graycube

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +38,38 @@ std::vector<std::string> top_names(const BrlcadDatabase& database) {
     if (is_used.count(o.name) == 0) names.push_back(o.name);
   }
   return names;
+}
+
+/// Notes the names that a tree holds, and that those hold.
+void note_below(const BrlcadDatabase& database, const std::string& name,
+                std::set<std::string>& seen) {
+  std::vector<std::string> ahead{name};
+  std::vector<const BrlcadTree*> trees;
+  while (!ahead.empty()) {
+    const std::string next = std::move(ahead.back());
+    ahead.pop_back();
+    const BrlcadObject* object = database.find(next);
+    if (object == nullptr || !seen.insert(next).second) continue;
+    const auto* comb = std::get_if<BrlcadComb>(&object->value);
+    if (comb != nullptr && comb->tree) trees.push_back(&*comb->tree);
+    while (!trees.empty()) {
+      const BrlcadTree* tree = trees.back();
+      trees.pop_back();
+      if (tree->op == Op::kLeaf) ahead.push_back(tree->name);
+      for (const BrlcadTree& child : tree->children) trees.push_back(&child);
+    }
+  }
+}
+
+/// Tells of the combinations that no top leads to.
+void tell_of_circles(const BrlcadDatabase& database, const std::vector<std::string>& tops,
+                     BrlcadReport& report) {
+  std::set<std::string> seen;
+  for (const std::string& name : tops) note_below(database, name, seen);
+  for (const BrlcadObject& o : database.objects) {
+    if (seen.count(o.name) == 0 && std::holds_alternative<BrlcadComb>(o.value))
+      report.left_out("combinations", "they contain themselves, or only such contain them", o.name);
+  }
 }
 
 /// How often solids occur below each name, saturating; cycles count as nothing.
@@ -182,10 +215,10 @@ BrlcadResult read_brlcad(std::string_view bytes, const BrlcadOptions& options) {
     for (const std::string& name : options.objects) {
       if (database.find(name) == nullptr) report.error(name, "is not in the database");
     }
-    for (const std::string& name :
-         options.objects.empty() ? top_names(database) : options.objects) {
-      builder.add(name);
-    }
+    const std::vector<std::string> chosen =
+        options.objects.empty() ? top_names(database) : options.objects;
+    for (const std::string& name : chosen) builder.add(name);
+    if (options.objects.empty()) tell_of_circles(database, chosen, report);
     Scene scene = builder.take();
     if (!report.has_errors() && scene.objects.empty()) {
       const std::string left_out = report.take_left_out();

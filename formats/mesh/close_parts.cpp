@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "formats/mesh/extra_faces.hpp"
 #include "formats/mesh/part_groups.hpp"
 #include "formats/mesh/repair_text.hpp"
 
@@ -16,6 +17,15 @@ constexpr std::size_t kMostKinds = 8;
 
 MeshSolid solid_of(const MeshPart& part, TriangleMesh mesh, std::uint32_t digits) {
   return {part.name, MeshShape{std::move(mesh), digits}, part.color};
+}
+
+/// closed_mesh(), with a fault where the mesh encloses nothing, as a surface does of which each
+/// face is there both ways.
+std::variant<TriangleMesh, MeshFault> solid_mesh(const PolygonMesh& polygons) {
+  auto closed = closed_mesh(polygons);
+  const auto* mesh = std::get_if<TriangleMesh>(&closed);
+  if (mesh != nullptr && !encloses_volume(*mesh)) closed = MeshFault{"it encloses no volume", true};
+  return closed;
 }
 
 /// Closes parts one by one, then groups of those that are open.
@@ -30,7 +40,7 @@ class PartCloser {
       // A part without faces, as of lines and points only, is no mesh.
       if (parts_[p].polygons.face_ends.empty()) continue;
       ++meshes_;
-      auto closed = closed_mesh(parts_[p].polygons);
+      auto closed = solid_mesh(parts_[p].polygons);
       if (auto* mesh = std::get_if<TriangleMesh>(&closed)) {
         solids_.emplace(p, solid_of(parts_[p], std::move(*mesh), parts_[p].polygons.digits));
       } else {
@@ -56,23 +66,35 @@ class PartCloser {
     const std::size_t count = members.size();
     MeshPart whole{members.front().name, {}, members.front().color};
     whole.polygons = united(std::move(members));
-    auto closed = closed_mesh(whole.polygons);
-    auto* mesh = std::get_if<TriangleMesh>(&closed);
-    if (mesh == nullptr && open_ == OpenMeshes::kRepair) {
-      auto repaired = repaired_mesh(whole.polygons);
-      if (auto* done = std::get_if<RepairedMesh>(&repaired)) {
-        add_repairs(repairs_, done->repairs);
-        closed = std::move(done->mesh);
-        mesh = std::get_if<TriangleMesh>(&closed);
-      } else {
-        closed = std::get<MeshFault>(std::move(repaired));
-      }
-    }
-    if (mesh != nullptr) {
+    auto closed = solid_mesh(whole.polygons);
+    if (std::holds_alternative<MeshFault>(closed)) mend(whole.polygons, closed);
+    if (auto* mesh = std::get_if<TriangleMesh>(&closed)) {
       solids_.emplace(place, solid_of(whole, std::move(*mesh), whole.polygons.digits));
       return;
     }
     leave_out(place, whole.name, count, std::get<MeshFault>(std::move(closed)));
+  }
+
+  /// Closes polygons that aren't, if it may and can; else `closed` says why they aren't.
+  void mend(const PolygonMesh& polygons, std::variant<TriangleMesh, MeshFault>& closed) {
+    if (open_ == OpenMeshes::kLeaveOut) return;
+    if (open_ == OpenMeshes::kRepair) {
+      auto repaired = repaired_mesh(polygons);
+      if (auto* done = std::get_if<RepairedMesh>(&repaired)) {
+        add_repairs(repairs_, done->repairs);
+        closed = std::move(done->mesh);
+        return;
+      }
+      closed = std::get<MeshFault>(std::move(repaired));
+    }
+    const auto rest = without_extra_faces(polygons, 0);
+    if (!rest) return;
+    auto thinned = solid_mesh(*rest);
+    if (std::holds_alternative<MeshFault>(thinned)) return;
+    MeshRepairs repairs;
+    repairs.dropped_faces = polygons.face_ends.size() - rest->face_ends.size();
+    add_repairs(repairs_, repairs);
+    closed = std::move(thinned);
   }
 
   void leave_out(std::uint32_t place, const std::string& name, std::size_t count, MeshFault fault) {
@@ -123,7 +145,7 @@ std::variant<MeshSolids, MeshFault> closed_body(std::vector<MeshPart> parts, Ope
   }
   MeshPart whole;
   whole.polygons = united(parts);
-  auto closed = closed_mesh(whole.polygons);
+  auto closed = solid_mesh(whole.polygons);
   if (auto* mesh = std::get_if<TriangleMesh>(&closed)) {
     MeshSolids body;
     body.solids.push_back(solid_of(whole, std::move(*mesh), whole.polygons.digits));

@@ -27,11 +27,14 @@ struct MeshSolids {
   std::vector<ImportWarning> warnings;
 };
 
-enum class OpenMeshes { kLeaveOut, kRepair };
+/// What becomes of meshes that are open, or enclose nothing: they are left out, repaired
+/// (mesh/repair_mesh.hpp), or only rid of faces that are one too many
+/// (formats/mesh/extra_faces.hpp), and left out where that doesn't close them.
+enum class OpenMeshes { kLeaveOut, kRepair, kDropExtraFaces };
 
 /// Solids of the parts, in their order, at least one. Parts that are open but share open edges, as
 /// those of different colours of one body do, are one solid if they are closed together. Otherwise
-/// they are repaired, if that is asked for and possible (mesh/repair_mesh.hpp), or left out. If all
+/// `open` says what becomes of them. If all
 /// are left out that is a fault.
 std::variant<MeshSolids, MeshFault> closed_parts(std::vector<MeshPart> parts, OpenMeshes open);
 

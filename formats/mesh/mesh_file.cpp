@@ -66,11 +66,12 @@ std::variant<MeshSolids, MeshFault> read_and_close(const fs::path& path, const M
     return MeshFault{"expected a name ending in " + mesh_endings_text()};
   Parts parts = is_own ? read_own_file(path) : read_foreign_file(path, how);
   if (auto* wrong = std::get_if<MeshFault>(&parts)) return std::move(*wrong);
-  const OpenMeshes open = how.repairs ? OpenMeshes::kRepair : OpenMeshes::kLeaveOut;
   auto& list = std::get<std::vector<MeshPart>>(parts);
-  auto solids = is_own ? closed_body(std::move(list), open) : closed_parts(std::move(list), open);
+  auto solids =
+      is_own ? closed_body(std::move(list), how.open) : closed_parts(std::move(list), how.open);
   auto* fault = std::get_if<MeshFault>(&solids);
-  if (fault != nullptr && fault->is_open && !how.repairs) fault->why += "; --repair may close it";
+  if (fault != nullptr && fault->is_open && how.open == OpenMeshes::kLeaveOut)
+    fault->why += "; --repair may close it";
   return solids;
 }
 

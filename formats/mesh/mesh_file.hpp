@@ -26,8 +26,7 @@ using ForeignMeshReader =
     std::function<std::variant<std::vector<MeshPart>, MeshFault>(const std::filesystem::path&)>;
 
 struct MeshReading {
-  /// Whether open meshes are repaired.
-  bool repairs = false;
+  OpenMeshes open = OpenMeshes::kLeaveOut;
   /// May be empty: then foreign files are refused.
   ForeignMeshReader foreign{};
 };

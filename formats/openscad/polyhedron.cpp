@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/mesh/extra_faces.hpp"
 #include "formats/openscad/hulls/mesh.hpp"
 #include "written_digits.hpp"
 
@@ -133,6 +134,29 @@ bool is_flat(const TriangleMesh& mesh) {
   return std::fabs(volume) <= kComputedPrecision * size * area;
 }
 
+std::variant<TriangleMesh, MeshFault> surface_of(const ScadMesh& mesh) {
+  PolygonMesh polygons = polygons_of(mesh);
+  // Its faces turn clockwise as seen from outside.
+  polygons.side = FaceSide::kInner;
+  return closed_mesh(polygons, kOpenscadGrid);
+}
+
+/// Drops faces that are one too many, where the others are closed, and tells so.
+void drop_extra_faces(ScadMesh& mesh, ScadArguments& arguments) {
+  const auto rest = without_extra_faces(polygons_of(mesh), kOpenscadGrid);
+  if (!rest) return;
+  const std::size_t count = mesh.faces.size();
+  mesh.faces.clear();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : rest->face_ends) {
+    mesh.faces.emplace_back(rest->corners.begin() + begin, rest->corners.begin() + end);
+    begin = end;
+  }
+  arguments.ignore("extra faces", std::to_string(count - mesh.faces.size()) + " of its " +
+                                      std::to_string(count) +
+                                      " faces are ignored: their edges have two others");
+}
+
 }  // namespace
 
 double precision_of(std::uint32_t digits) {
@@ -141,6 +165,7 @@ double precision_of(std::uint32_t digits) {
 
 std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& arguments,
                                           double precision) {
+  drop_extra_faces(mesh, arguments);
   if (mesh.faces.size() <= kMaxTestedFaces) {
     ConvexPlanes convex = convex_planes(mesh, precision);
     // What is thin for rounded numbers may have been written so.
@@ -150,10 +175,7 @@ std::optional<ScadSolid> polyhedral_solid(ScadMesh mesh, ScadArguments& argument
     if (convex.problem.empty() && convex.planes.size() <= kMaxPolyhedronFaces)
       return solid_of(std::move(convex), mesh);
   }
-  PolygonMesh polygons = polygons_of(mesh);
-  // Its faces turn clockwise as seen from outside.
-  polygons.side = FaceSide::kInner;
-  auto closed = closed_mesh(polygons, kOpenscadGrid);
+  auto closed = surface_of(mesh);
   if (const auto* fault = std::get_if<MeshFault>(&closed)) {
     arguments.leave_out("not closed", "its faces enclose no solid: " + fault->why);
     return std::nullopt;

@@ -162,6 +162,37 @@ TEST_CASE("a face that is there twice is dropped once") {
   CHECK(s.mesh == once);
 }
 
+TEST_CASE("of faces that are there both ways one side is dropped, unless they are a wall") {
+  const TriangleMesh once = closed(box_polygons({0, 0, 0}, {1, 2, 3}));
+  const auto with_turned = [&](std::size_t from, std::size_t count) {
+    PolygonMesh mesh;
+    mesh.points = once.points;
+    for (const Triangle& t : once.triangles) mesh.add_face(t);
+    for (std::size_t i = from; i < from + count; ++i) {
+      const auto& [a, b, c] = once.triangles[i];
+      mesh.add_face(std::array{c, b, a});
+    }
+    return mesh;
+  };
+  for (const std::size_t count : {std::size_t{1}, std::size_t{5}, once.triangles.size()}) {
+    const RepairedMesh r = repaired(with_turned(0, count));
+    CHECK(r.repairs.dropped_faces == count);
+    CHECK(r.repairs.filled_holes == 0);
+    CHECK(enclosed_volume(r.mesh) == Approx(6));
+  }
+  // A wall across the inside stays; what is mended is the hole.
+  PolygonMesh walled = without(with_turned(0, 0), {3});
+  walled.points.push_back({0.5, 0.5, 0.5});
+  walled.points.push_back({0.5, 1, 0.5});
+  walled.points.push_back({0.5, 0.5, 1});
+  walled.add_face(std::array{8u, 9u, 10u});
+  walled.add_face(std::array{10u, 9u, 8u});
+  const RepairedMesh w = repaired(walled);
+  CHECK(w.repairs.dropped_faces == 0);
+  CHECK(w.repairs.filled_holes == 1);
+  CHECK(enclosed_volume(w.mesh) == Approx(6));
+}
+
 TEST_CASE("a strip that goes on beyond its seam is dropped") {
   PolygonMesh drum = drum_polygons(1, 0, 2, 16);
   // Once more the side that begins at the seam, off by what 16 sums of an angle may be.

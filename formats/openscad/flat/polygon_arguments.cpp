@@ -72,10 +72,13 @@ bool read_polygon(const ScadModule& module, ScadArguments& arguments, FlatLoops&
   if (paths != nullptr && paths->list() == nullptr) {
     arguments.pass_over("paths", "must be a list of paths");
   } else if (paths != nullptr && !paths->list()->empty()) {
-    const ScadList alone{*paths};
-    // A single path may stand without a list around it.
-    const bool is_alone = paths->list()->front().number() != nullptr;
-    return read_paths(is_alone ? alone : *paths->list(), points, arguments, loops);
+    const bool has_paths =
+        std::any_of(paths->list()->begin(), paths->list()->end(),
+                    [](const ScadValue& path) { return path.list() != nullptr; });
+    if (has_paths) return read_paths(*paths->list(), points, arguments, loops);
+    // OpenSCAD makes nothing of a single path without a list around it, and doesn't say so.
+    arguments.leave_out("paths", "its paths must be lists of numbers of points, as in [[0, 1, 2]]");
+    return false;
   }
   loops.push_back(std::move(points));
   return true;

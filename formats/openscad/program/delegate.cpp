@@ -141,7 +141,7 @@ const Delegated<PolygonMesh>& OpenscadDelegate::mesh_file(const std::filesystem:
   const auto [place, is_new] = files_.try_emplace(path);
   Delegated<PolygonMesh>& part = place->second;
   if (!is_new) return part;
-  auto read = read_mesh_file(path);
+  auto read = read_mesh_file(path, {.open = OpenMeshes::kDropExtraFaces, .foreign = {}});
   if (auto* fault = std::get_if<MeshFault>(&read)) {
     // Whoever tells of it names the file as the model does.
     const std::string prefix = path.string() + ": ";

@@ -299,6 +299,22 @@ TEST_CASE("a mesh that is cut off is larger by the skin on all sides") {
   CHECK(holds(cut, 0.5, 0.1, 2));
 }
 
+TEST_CASE("faces that a bot has twice or both ways count once, as by rt") {
+  for (const char* more : {"{0 2 1} {2 1 0}", "{0 1 2}", "{0 1 2} {0 3 1} {1 3 2} {2 3 0} "}) {
+    INFO(more);
+    const BrlcadResult result = read_brlcad(
+        std::string("title t\nput s bot mode volume orient no flags {} V {{0 0 0} {4 0 0} {0 4 0} "
+                    "{0 0 4}} F {{0 2 1} {0 1 3} {1 2 3} {0 3 2} ") +
+        more + "}\nput r comb region yes tree {l s}\n");
+    REQUIRE(result.scene);
+    CHECK(holds(*result.scene, 1, 1, 1));
+    CHECK_FALSE(holds(*result.scene, 2, 2, 1));
+    REQUIRE(result.warnings.size() == 1);
+    CHECK_FALSE(result.warnings[0].leaves_out);
+    CHECK_THAT(result.warnings[0].text, Catch::Contains("count once"));
+  }
+}
+
 TEST_CASE("an open bot is left out with a word of where") {
   const BrlcadResult read = read_brlcad(
       "title t\nput s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput b bot mode volume "

@@ -26,6 +26,22 @@ std::vector<std::string> names_of(const Scene& scene) {
 
 }  // namespace
 
+TEST_CASE("combinations that contain themselves and aren't named elsewhere are told of") {
+  const std::string circles =
+      "put a comb region no tree {u {l b} {l s}}\nput b comb region no tree {l a}\n"
+      "put c comb region yes tree {l c}\n";
+  const std::string ball = "put s ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n";
+  const BrlcadResult result =
+      read_brlcad("title t\n" + ball + circles + "put r comb region yes tree {l s}\n");
+  REQUIRE(result.scene);
+  CHECK(result.scene->objects.size() == 1);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].leaves_out);
+  CHECK_THAT(result.warnings[0].text,
+             Catch::Contains("3 combinations are left out") && Catch::Contains("a, b, c"));
+  CHECK_FALSE(read_brlcad("title t\n" + ball + circles).scene);
+}
+
 TEST_CASE("a solid of a kind that isn't read leaves out its regions only, in one line a kind") {
   const BrlcadResult result = read(
       kSphere + kRegion +

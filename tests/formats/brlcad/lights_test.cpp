@@ -116,6 +116,20 @@ TEST_CASE("a lamp with an angle shines in a beam, along its first solid's -z or 
   CHECK(length(scene.settings.lights[0].direction - Vec3{-1, 0, 0}) < 1e-12);
 }
 
+TEST_CASE(
+    "lamps beyond as many as light can be counted for are drawn and don't shine, which is told") {
+  std::string text = kBall;
+  for (std::uint32_t i = 0; i < kMaxCreditLights + 2; ++i) {
+    text += lamp("lamp" + std::to_string(i), 4.0 * i, "b 1");
+  }
+  const BrlcadResult result = read_brlcad(text);
+  REQUIRE(result.scene);
+  CHECK(result.scene->settings.lights.size() == kMaxCreditLights);
+  CHECK(result.scene->objects.size() == kMaxCreditLights + 3);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0].text, Catch::Contains("they don't shine"));
+}
+
 TEST_CASE("a stack is its last member that is known") {
   CHECK(surface("stack {plastic {di 0.5}} {bump {file x}}").material.diffuse == 0.5);
   CHECK(surface("stack {{plastic {di 0.5}} {mirror {re 0.25}}}").material.reflect == 0.25);

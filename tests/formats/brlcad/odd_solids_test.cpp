@@ -32,6 +32,21 @@ TEST_CASE("a particle with a radius of 0 is a cone with one round end") {
   CHECK(holds(turned, 0, 0, 0.1));
 }
 
+TEST_CASE("the small end of a cone counts as 0 below a thousand millionth of the large one") {
+  const auto shape_of = [](const std::string& c, const std::string& d) {
+    return alone("s tgc V {0 0 0} H {0 0 16} A {9 0 0} B {0 4 0} C " + c + " D " + d)
+        .objects.at(0)
+        .csg.value;
+  };
+  // Both semi-axes end in a tip, so that the cone is a round one under a map.
+  const auto tip = shape_of("{2e-9 0 0} ", "{0 1e-9 0}");
+  REQUIRE(std::holds_alternative<ConeShape>(tip));
+  CHECK(std::get<ConeShape>(tip).top_radius == 0);
+  const auto edge = shape_of("{2e-9 0 0} ", "{0 1 0}");
+  REQUIRE(std::holds_alternative<EllipticConeShape>(edge));
+  CHECK(std::get<EllipticConeShape>(edge).top_a == 0);
+}
+
 TEST_CASE("a torus whose tube is thicker than its ring has dents, and no hole") {
   const Scene scene = alone("s tor V {0 0 0} H {0 0 1} r_a 20 r_h 25");
   CHECK(holds(scene, 0, 0, 0));

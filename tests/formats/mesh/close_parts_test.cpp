@@ -63,6 +63,41 @@ TEST_CASE("meshes that continue each other at open edges are one solid") {
   CHECK(read.warnings[0].where == "open");
 }
 
+TEST_CASE("a mesh with every face both ways encloses nothing, unless faces may be dropped") {
+  MeshPart both = box_part("both", 5);
+  const PolygonMesh once = both.polygons;
+  for (std::size_t f = 0; f < 6; ++f) {
+    const auto face = std::span(once.corners).subspan(4 * f, 4);
+    both.polygons.add_face(std::array{face[3], face[2], face[1], face[0]});
+  }
+  const auto read = solids_of(closed_parts({box_part("a", 0), both}, {}));
+  REQUIRE(read.solids.size() == 1);
+  REQUIRE(read.warnings.size() == 1);
+  CHECK(read.warnings[0].leaves_out);
+  CHECK(read.warnings[0].where == "both");
+  CHECK(read.warnings[0].text == "left out: it encloses no volume");
+  for (const OpenMeshes open : {OpenMeshes::kRepair, OpenMeshes::kDropExtraFaces}) {
+    const auto mended = solids_of(closed_parts({both}, open));
+    REQUIRE(mended.solids.size() == 1);
+    CHECK(enclosed_volume(mended.solids[0].shape.mesh) == Approx(6));
+    REQUIRE(mended.warnings.size() == 1);
+    CHECK_FALSE(mended.warnings[0].leaves_out);
+    CHECK_THAT(mended.warnings[0].text, Catch::StartsWith("repaired: dropped "));
+  }
+}
+
+TEST_CASE("faces that are one too many are dropped where that is asked for, holes aren't filled") {
+  MeshPart twice = box_part("a", 0);
+  const std::vector<std::uint32_t> corners = twice.polygons.corners;
+  twice.polygons.add_face(std::span(corners).first(4));
+  CHECK(why(closed_parts({twice}, OpenMeshes::kLeaveOut)).find("not ") == 0);
+  const auto read = solids_of(closed_parts({twice}, OpenMeshes::kDropExtraFaces));
+  REQUIRE(read.solids.size() == 1);
+  CHECK(enclosed_volume(read.solids[0].shape.mesh) == Approx(6));
+  CHECK(why(closed_parts({part_of_box("a", 0, 0, 5)}, OpenMeshes::kDropExtraFaces))
+            .find("not closed: ") == 0);
+}
+
 TEST_CASE("a file of open meshes only is refused with the first of them") {
   const auto two = closed_parts({part_of_box("a", 0, 0, 5), part_of_box("b", 5, 0, 5)}, {});
   CHECK(why(two).find("none of its 2 meshes is closed; a: not closed: the edge from") == 0);

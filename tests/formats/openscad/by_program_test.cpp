@@ -205,6 +205,21 @@ TEST_CASE("a file that is missing, or no mesh, leaves its part out and no other"
   }
 }
 
+TEST_CASE("faces that a mesh file has twice don't leave its part out, which is told") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "twice.off")
+      << "OFF 4 6 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 2 1 0\n"
+         "3 1 0 2\n";
+  Program program(square_of_svg);
+  const OpenscadResult result =
+      read("cube(1);\nimport(file = \"twice.off\");\n", &program, folder.path().string());
+  REQUIRE(result.scene);
+  CHECK(result.scene->objects.size() == 2);
+  CHECK_THAT(warnings_of(result), Catch::StartsWith("line 2: import() of twice.off: ") &&
+                                      Catch::Contains("dropped 2 faces") &&
+                                      !Catch::Contains("[left out]"));
+}
+
 TEST_CASE("extrusions that name a drawing extrude it, with its layer, origin and scale") {
   Program program(square_of_svg);
   const OpenscadResult result = read(

@@ -95,6 +95,34 @@ TEST_CASE("a polyhedron that is open is left out alone, with the place where it 
                               Catch::EndsWith("(and 1 more like it)"));
 }
 
+TEST_CASE("faces that a polyhedron has twice or three times are ignored, which is told") {
+  const std::string points = "polyhedron(points = " + kTetrahedron + "], faces = [";
+  const std::string sides = "[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]";
+  // OpenSCAD 2021.01 makes the tetrahedron of all of these.
+  for (const auto& [more, told] :
+       {std::pair{", [1, 2, 0], [2, 0, 1]", "2 of its 6 faces"},
+        std::pair{", [2, 1, 0]", "1 of its 5 faces"},
+        std::pair{", [2, 1, 0], [1, 3, 0], [2, 3, 1], [3, 2, 0]", "4 of its 8 faces"}}) {
+    INFO(more);
+    const std::string text = "cube(1);\n" + points + sides + more + "]);";
+    CHECK(volume(scene_of(text), {0, 0, 0}, {4, 4, 4}, 80) == Approx(64.0 / 6).epsilon(0.01));
+    CHECK_FALSE(is_left_out(text));
+    REQUIRE(warnings_of(text).size() == 1);
+    CHECK_THAT(warnings_of(text)[0], Catch::StartsWith("line 2: polyhedron(): ") &&
+                                         Catch::Contains(told) && Catch::Contains("are ignored"));
+  }
+  CHECK(is_left_out("cube(1);\n" + points + "[0, 1, 2], [0, 3, 1], [0, 3, 1], [1, 3, 2]]);"));
+}
+
+TEST_CASE("a path of a polygon without a list around it makes nothing, which is told") {
+  const std::string text =
+      "cube(1);\nlinear_extrude(height = 2) polygon(points = [[0, 0], [4, 0], [0, 4]], "
+      "paths = [0, 1, 2]);";
+  CHECK(scene_of(text).objects.size() == 1);
+  REQUIRE(warnings_of(text).size() == 1);
+  CHECK_THAT(warnings_of(text)[0], Catch::Contains("paths must be lists"));
+}
+
 TEST_CASE("a polyhedron without points or faces is left out alone") {
   for (const char* arguments : {"", "points = undef, faces = [[0, 1, 2]]",
                                 "points = [[0, 0, 0], [1, 1, 1]], faces = undef"}) {

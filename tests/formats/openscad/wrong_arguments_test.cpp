@@ -62,6 +62,8 @@ TEST_CASE("an argument of a wrong type counts as not given, as in OpenSCAD, and 
        "linear_extrude(height = 5) polygon(points = [[0, 0], [2, 0], [0, 2]]);"},
       {"linear_extrude(height = 5) polygon([[0, 0], [2, 0], [2, 2], [0, 2]], [\"x\", [0, 1, 2]]);",
        "linear_extrude(height = 5) polygon([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2]]);"},
+      {"linear_extrude(height = 5) polygon([[0, 0], [2, 0], [2, 2]], [1, [0, 1, 2]]);",
+       "linear_extrude(height = 5) polygon([[0, 0], [2, 0], [2, 2]], [[0, 1, 2]]);"},
       {"rotate_extrude(angle = \"x\") polygon([[3, 0], [4, 0], [4, 1]]);",
        "rotate_extrude() polygon([[3, 0], [4, 0], [4, 1]]);"},
       {"multmatrix(3) cube(2);", "cube(2);"},
