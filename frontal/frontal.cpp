@@ -1,6 +1,5 @@
 #include "frontal/frontal.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <utility>
 
@@ -28,13 +27,15 @@ void in_job(Jobs& jobs, Work&& work) {
 Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
       door_(options_.secret, options_.node_folder),
+      log_(options_.started_s),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
       nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
-      jobs_(options_, store, post_) {}
+      jobs_(options_, store, post_, log_) {}
 
 void Frontal::on_time(const Moment& now) {
   now_s_ = now.now_s;
+  log_.set_time(now.unix_s);
   jobs_.set_time(now);
   nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
   if (is_going_down_) return;
@@ -89,14 +90,13 @@ void Frontal::get_on() {
 void Frontal::on_hello(const PeerId& peer, const control::Hello& m,
                        std::span<const std::byte> shown) {
   if (const char* problem = door_.problem_of(m, shown)) {
-    // A stranger gets no answer.
-    if (++strangers_ <= kMaxStrangersTold)
-      std::fprintf(stderr, "graycube-frontal: dropped: a hello for node %u: %s\n", m.rank, problem);
-    return;
+    return log_.hello_is_refused(m.rank, problem);  // a stranger gets no answer
   }
   if (auto refusal = nodes_.hello(peer, m, now_s_)) return post_.answer(peer, *std::move(refusal));
   post_.set_node(Rank{m.rank}, peer);
+  log_.node_is_here(Rank{m.rank}, m.pid);
   if (!nodes_.all_here()) return;
+  log_.farm_is_up(options_.cube.nodes(), options_.endpoint);
   post_.to_nodes(control::Welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
                                   heartbeat_.interval_ms()});
   get_on();
@@ -214,6 +214,7 @@ control::FarmInfo Frontal::info() const {
 
 void Frontal::go_down() {
   if (is_going_down_) return;
+  log_.farm_goes_down(fatal_error_);
   jobs_.stop();
   is_going_down_ = true;
   post_.to_nodes(control::Shutdown{});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontal/jobs.hpp"
+#include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/heartbeat.hpp"
 #include "frontal/parts/node_door.hpp"
@@ -57,6 +58,10 @@ class Frontal {
   std::vector<Process> take_starts() { return nodes_.take_starts(); }
   /// Silent nodes, whose processes are to be ended.
   std::vector<Process> take_kills() { return nodes_.take_kills(); }
+  /// What has happened since it was last asked.
+  std::vector<FarmEvent> take_events() { return log_.take(); }
+  /// So many clients were turned away, since they did not show the farm's key.
+  void turned_away(std::uint64_t clients) { log_.strangers_are_refused(clients); }
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.
   bool is_going_down() const { return is_going_down_; }
   bool all_nodes_left() const { return nodes_.all_left(); }
@@ -80,7 +85,7 @@ class Frontal {
   FrontalOptions options_;
   double now_s_ = 0;
   NodeDoor door_;
-  unsigned strangers_ = 0;
+  FarmLog log_;
   Post post_;
   Heartbeat heartbeat_;
   NodeRegistry nodes_;

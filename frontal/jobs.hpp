@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontal/parts/ended_jobs.hpp"
+#include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
 #include "frontal/parts/post.hpp"
@@ -21,8 +22,8 @@ namespace graycube {
 
 class Jobs {
  public:
-  /// Options, store and post must outlive this.
-  Jobs(const FrontalOptions& farm, JobStore& store, Post& post);
+  /// All that is given must outlive this.
+  Jobs(const FrontalOptions& farm, JobStore& store, Post& post, FarmLog& log);
   void set_cpu_meter(CpuMeter meter) { cpu_ = std::move(meter); }
 
   /// Sets the time that all other calls use, until it is set again.
@@ -93,6 +94,7 @@ class Jobs {
   void stop();
 
  private:
+  Answer accept(const control::Submit& m, std::span<const std::byte> scene);
   void recover_accepted();
   void resume();
   void record_tiles(bool all);
@@ -116,6 +118,7 @@ class Jobs {
   const FrontalOptions& farm_;
   JobStore& store_;
   Post& post_;
+  FarmLog& log_;
   Moment now_;
   /// When it was last looked how far the job is, and when old jobs were cleared.
   double looked_s_ = 0, cleared_s_ = 0;
