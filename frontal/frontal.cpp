@@ -149,6 +149,7 @@ void Frontal::give_result(const RecutResult& cut) {
 void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                         std::span<const std::byte> payload) {
   if (const auto* write = std::get_if<control::Write>(&message)) return on_write(peer, *write);
+  if (const auto* fetch = std::get_if<control::Fetch>(&message)) return on_fetch(peer, *fetch);
   const auto refuse_type = [&]() -> Answer {
     return Refusal{0, FailureCode::kBadRequest, "type",
                    "'" + std::string(type_of(message)) + "' is not for a frontal"};
@@ -163,7 +164,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      [&](const control::Nodes&) -> Answer {
                        return Reply{nodes_.list(jobs_.keep_nodes_busy())};
                      },
-                     [&](const control::Fetch& m) { return jobs_.fetch(m); },
+                     [&](const control::Fetch&) { return refuse_type(); },
                      [&](const control::Write&) { return refuse_type(); },
                      [&](const control::Farm&) -> Answer { return Reply{info()}; },
                      [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
@@ -194,6 +195,35 @@ void Frontal::give_result(WritingResult result) {
   is_writing_ = false;
   post_.answer(result.peer, std::move(result.answer));
 }
+
+/// A picture that is not in memory is read elsewhere, and the answer is sent when it is.
+void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
+  if (!jobs_.must_read(m.job)) return post_.answer(peer, jobs_.fetch(m));
+  if (fetches_.size() >= kMaxWaitingFetches) {
+    return post_.answer(
+        peer, Refusal{m.job, FailureCode::kBusy, "", "too many pictures are asked for at once"});
+  }
+  fetches_.push_back({peer, m});
+}
+
+std::optional<ReadingWork> Frontal::take_reading() {
+  if (is_reading_ || fetches_.empty()) return std::nullopt;
+  is_reading_ = true;
+  return jobs_.reading(fetches_.front().request.job);
+}
+
+void Frontal::give_result(ReadingResult result) {
+  is_reading_ = false;
+  const std::uint32_t job = result.job;
+  jobs_.give_result(std::move(result));
+  std::erase_if(fetches_, [&](const WaitingFetch& f) {
+    if (f.request.job != job) return false;
+    post_.answer(f.peer, jobs_.fetch(f.request));
+    return true;
+  });
+}
+
+void Frontal::give_result(KeepingResult result) { jobs_.give_result(std::move(result)); }
 
 Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scene) {
   if (is_going_down_) return Refusal{0, FailureCode::kBusy, "", "the farm is going down"};

@@ -19,6 +19,9 @@
 
 namespace graycube {
 
+/// Requests for rows of pictures that may wait until those are read.
+inline constexpr std::size_t kMaxWaitingFetches = 256;
+
 class Frontal {
  public:
   using Outgoing = Post::Outgoing;
@@ -52,6 +55,15 @@ class Frontal {
   std::optional<WritingWork> take_writing() { return std::exchange(writing_, std::nullopt); }
   void give_result(WritingResult result);
 
+  /// The same for the picture of a job that is complete, and for one that is to be read before it
+  /// can be fetched. Nobody is kept from anything else meanwhile, but that no other job begins
+  /// until a complete one is kept.
+  std::optional<KeepingWork> take_keeping() { return jobs_.take_keeping(); }
+  void give_result(KeepingResult result);
+  bool is_keeping() const { return jobs_.is_keeping(); }
+  std::optional<ReadingWork> take_reading();
+  void give_result(ReadingResult result);
+
   std::optional<std::uint32_t> job_that_is_on() const { return jobs_.job_that_is_on(); }
 
   std::vector<Outgoing> take_outgoing() { return post_.take(); }
@@ -76,6 +88,7 @@ class Frontal {
   void on_client(const PeerId& peer, const ControlMessage& message,
                  std::span<const std::byte> payload);
   void on_write(const PeerId& peer, const control::Write& m);
+  void on_fetch(const PeerId& peer, const control::Fetch& m);
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
@@ -94,6 +107,13 @@ class Frontal {
   bool is_going_down_ = false;
   std::optional<WritingWork> writing_;
   bool is_writing_ = false;
+  struct WaitingFetch {
+    PeerId peer;
+    control::Fetch request;
+  };
+  /// Requests for pictures that are not in memory.
+  std::vector<WaitingFetch> fetches_;
+  bool is_reading_ = false;
 };
 
 }  // namespace graycube

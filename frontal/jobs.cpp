@@ -38,7 +38,7 @@ QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options
 
 void Jobs::count(control::FarmInfo& farm) const {
   farm.queued = static_cast<std::uint32_t>(queue_.all().size());
-  farm.running = running_ ? 1 : 0;
+  farm.running = running_ || keeping_ ? 1 : 0;
   farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
@@ -68,7 +68,7 @@ void Jobs::check_time() {
 // ---- its preparation
 
 std::optional<PreparationWork> Jobs::take_work() {
-  if (running_ || queue_.is_empty()) return std::nullopt;
+  if (running_ || keeping_ || queue_.is_empty()) return std::nullopt;
   QueuedJob next = queue_.take_first();
   // Its client has waited since it was submitted to an earlier frontal.
   if (next.is_recovered)
@@ -213,22 +213,11 @@ void Jobs::end_when_over() {
 }
 
 void Jobs::complete() {
-  Picture picture = running_->picture();
-  EndedJob job{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_ = EndedJob{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_->info.fraction = 1;
+  keeping_->info.message = "waits for its picture to be written";
+  film_ = std::make_shared<const Film>(running_->take_film());
   running_.reset();
-  job.info.state = JobState::kDone;
-  job.info.finished_s = now_.unix_s;
-  job.info.fraction = 1;
-  const EndedJob& kept = ended_.keep(std::move(job), std::move(picture));
-  log_.job_ends(kept.info);
-  for (const PeerId& peer : watchers_.take(kept.info.job)) {
-    if (kept.info.state == JobState::kDone) {
-      post_.to_peer(peer, control::Done{kept.info.job, {kept.stats_json}});
-    } else {
-      post_.answer(
-          peer, Refusal{kept.info.job, FailureCode::kFailed, "the job store", kept.info.message});
-    }
-  }
 }
 
 /// The nodes drop the job. A job that is deadlocked ends as deadlocked, whatever else happens while

@@ -12,6 +12,7 @@
 #include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
+#include "frontal/parts/keeping.hpp"
 #include "frontal/parts/post.hpp"
 #include "frontal/parts/progress_watch.hpp"
 #include "frontal/parts/running_job.hpp"
@@ -42,6 +43,16 @@ class Jobs {
   Answer fetch(const control::Fetch& m);
   /// The writing that is asked for, for which nobody is named yet, or why it isn't done.
   std::variant<WritingWork, Refusal> write(const control::Write& m);
+
+  /// The picture that is to be kept, once a job is complete. It counts as rendered until the result
+  /// is given, and no other job is on.
+  std::optional<KeepingWork> take_keeping();
+  void give_result(KeepingResult result);
+  bool is_keeping() const { return keeping_.has_value(); }
+  /// Whether the job's picture has to be read before it can be fetched.
+  bool must_read(std::uint32_t job) const;
+  ReadingWork reading(std::uint32_t job) { return {job, &store_}; }
+  void give_result(ReadingResult result);
 
   /// The preparation of the next job, once none is on.
   std::optional<PreparationWork> take_work();
@@ -126,6 +137,9 @@ class Jobs {
   JobQueue queue_;
   std::optional<RunningJob> running_;
   EndedJobs ended_;
+  /// The job that is complete, but not kept yet; its film, until that is taken.
+  std::optional<EndedJob> keeping_;
+  std::shared_ptr<const Film> film_;
   Watchers watchers_;
   ProgressWatch progress_watch_;
 };

@@ -65,6 +65,7 @@ Answer Jobs::accept(const control::Submit& m, std::span<const std::byte> scene) 
 
 std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
   if (running_ && running_->id() == job) return running_info();
+  if (keeping_ && keeping_->info.job == job) return keeping_->info;
   if (const auto* queued = queue_.find(job)) {
     control::JobInfo info = *queued;
     if (running_) info.message = "waits for job " + std::to_string(running_->id()) + " to end";
@@ -89,6 +90,7 @@ Answer Jobs::list() const {
   control::Jobs list;
   const auto has_room = [&] { return list.jobs.size() < kMaxJobsListed; };
   if (running_) list.jobs.push_back(running_info());
+  if (keeping_) list.jobs.push_back(keeping_->info);
   for (const QueuedJob& job : queue_.all()) {
     if (has_room()) list.jobs.push_back(job.info);
   }

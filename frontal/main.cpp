@@ -138,8 +138,8 @@ class FrontalProcess {
       take_events();
       if (frontal_.is_going_down()) {
         if (down_since_s == 0) down_since_s = now.now_s;
-        if (processes_.empty() || now.now_s - down_since_s > kGrace_s)
-          return frontal_.fatal_error();
+        const bool is_over = processes_.empty() || now.now_s - down_since_s > kGrace_s;
+        if (is_over && !frontal_.is_keeping()) return frontal_.fatal_error();
       }
       const auto sockets = doors_.sockets();
       const int descriptors[] = {wakeup_.descriptor(), signals_};
@@ -181,8 +181,7 @@ class FrontalProcess {
       frontal_.on_message(HttpDesk::peer_of(q.number), q.message);
       flush();
     }
-    if (auto written = writing_thread_.take()) frontal_.give_result(*std::move(written));
-    if (auto work = frontal_.take_writing()) writing_thread_.give(*std::move(work));
+    take_pictures();
     preparation_.work_only_for(frontal_.job_that_is_on());
     if (preparation_.is_free()) {
       if (auto work = frontal_.take_work()) {
@@ -192,6 +191,19 @@ class FrontalProcess {
       }
     }
     flush();
+  }
+
+  void take_pictures() {
+    if (auto result = writing_thread_.take())
+      std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
+    if (!writing_thread_.is_free()) return;
+    if (auto work = frontal_.take_keeping()) {
+      writing_thread_.give(*std::move(work));
+    } else if (auto writing = frontal_.take_writing()) {
+      writing_thread_.give(*std::move(writing));
+    } else if (auto reading = frontal_.take_reading()) {
+      writing_thread_.give(*reading);
+    }
   }
 
   void take_signals() {

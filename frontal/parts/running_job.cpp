@@ -301,6 +301,7 @@ control::Progress progress_of(const control::JobInfo& info) {
   p.tiles = info.tiles;
   p.tiles_whole = info.tiles_whole;
   p.rounds = info.rounds;
+  p.fraction = info.fraction;
   return p;
 }
 

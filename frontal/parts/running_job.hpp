@@ -132,7 +132,8 @@ class RunningJob {
   control::JobInfo info() const;
   control::JobInfo info_at(double now_s) const;
   control::Progress progress_at(double now_s) const;
-  Picture picture() const { return render_->film().develop(); }
+  /// The film, when the job is over.
+  Film take_film() { return render_->take_film(); }
   /// The statistics file; `failed`: why there is no picture, or empty.
   std::string statistics(double now_s, const CpuMeter& cpu, const std::string& failed) const;
 
