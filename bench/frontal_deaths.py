@@ -12,22 +12,16 @@ import os
 import random
 import re
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 
-from local_farm import LIMIT_S, Farm
+from local_farm import Farm, Job, bytes_of, serial_picture
 
 # A farm gives up after so many deaths of its frontal within a minute.
 DEATHS_PER_FARM = 3
 # Seconds of rendering before which a frontal isn't killed.
 EARLIEST_S = 1.0
-
-
-def read(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def kill_during(farm, job, fraction):
@@ -51,31 +45,26 @@ def kill_during(farm, job, fraction):
 
 def one_death(farm, options, folder, expected, numbers, chance):
     fraction = chance.uniform(0.2, 0.8)
-    stats, picture = os.path.join(folder, "a.json"), os.path.join(folder, "a.exr")
-    render = ["--size", options.size, "--algorithm", options.algorithm]
-    waiting = subprocess.Popen(
-        [farm.command, "submit", options.scene, *render, "--wait", "-q", "-o", picture, "--stats", stats,
-         "--connect", farm.endpoint], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    first = waiting.stdout.readline().strip()
+    job = Job(farm, options.scene, options.size, options.algorithm, folder)
     queued = [farm.run("submit", options.scene, "--size", "64x48").strip() for _ in range(2)]
-    for number in (first, *queued):
+    for number in (job.number, *queued):
         if number in numbers:
             raise SystemExit(f"number {number} was used twice")
         numbers.add(number)
-    whole = kill_during(farm, first, fraction)
-    error = waiting.communicate(timeout=LIMIT_S)[1]
-    is_right = waiting.returncode == 0 and read(picture) == expected[options.size]
+    whole = kill_during(farm, job.number, fraction)
+    end = job.end()
+    is_right = end["bytes"] == expected[options.size]
+    picture = os.path.join(folder, "b.exr")
     for number in queued:
         farm.run("watch", number)
         farm.run("fetch", number, "-o", picture)
-        is_right = is_right and read(picture) == expected["64x48"]
+        is_right = is_right and bytes_of(picture) == expected["64x48"]
     if whole is None:
         return None
-    with open(stats, encoding="utf-8") as file:
-        resumed = json.load(file)["resumed_tiles"]
+    resumed = end["stats"].get("resumed_tiles", 0)
     return {"at": round(fraction, 2), "whole": whole, "resumed": resumed,
             "kept": round(min(1, resumed / max(1, whole)), 4), "is_right": is_right,
-            "error": re.sub(r"\s+", " ", error).strip()}
+            "error": re.sub(r"\s+", " ", end["error"])}
 
 
 def main():
@@ -91,12 +80,8 @@ def main():
     chance = random.Random(options.seed)
     deaths, numbers = [], set()
     with tempfile.TemporaryDirectory() as folder:
-        expected = {}
-        for size in (options.size, "64x48"):
-            picture = os.path.join(folder, "serial.exr")
-            subprocess.run([options.command, "render", options.scene, "--size", size, "--algorithm",
-                            "serial", "-q", "-o", picture], check=True)
-            expected[size] = read(picture)
+        expected = {size: serial_picture(options.command, options.scene, size, folder)
+                    for size in (options.size, "64x48")}
         while len(deaths) < options.deaths:
             farm = Farm(options.command, folder, options.nodes, "--state", os.path.join(folder, "state"))
             for _ in range(min(DEATHS_PER_FARM, options.deaths - len(deaths))):

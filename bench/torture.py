@@ -1,11 +1,12 @@
 """torture.py GRAYCUBE SCENE [--faults N] [--kinds kill,stop,cont] [--nodes 8,16]
                              [--algorithms macro,roth] [--size WxH] [--seed S] [--faults-a-job K]
+                             [--usual N]
 
 Kills (kill), stops (stop), or stops for a while and lets go on (cont) random nodes of a farm at
 random moments of jobs, and looks whether every picture equals serial's. Prints, for each kind,
 algorithm and number of nodes, how many pictures were right, how long after the fault its loss was
 noticed (by another process's id in `graycube nodes`), and the CPU of jobs with one loss by that of
-jobs without. Ends with status 1 if a picture was wrong.
+jobs without, of which N come first. Ends with status 1 if a picture was wrong.
 """
 
 import argparse
@@ -15,42 +16,14 @@ import os
 import random
 import signal
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
 
-from local_farm import LIMIT_S, Farm
+from local_farm import Farm, Job, serial_picture
 
 # A fault is noticed late if at all after so long.
 NOTICE_LIMIT_S = 30
-
-
-class Job:
-    """A job that is waited for, and what becomes of it."""
-
-    def __init__(self, farm, options, algorithm, folder):
-        self.picture = os.path.join(folder, "a.exr")
-        self.stats = os.path.join(folder, "a.json")
-        self.process = subprocess.Popen(
-            [farm.command, "submit", options.scene, "--size", options.size, "--algorithm", algorithm,
-             "--wait", "-q", "-o", self.picture, "--stats", self.stats, "--connect", farm.endpoint],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.number = self.process.stdout.readline().strip()
-        self.began = time.monotonic()
-
-    def wait_until_under_way(self, farm):
-        while farm.json("status", self.number)["state"] in ("queued", "loading", "building"):
-            time.sleep(0.01)
-
-    def end(self):
-        error = self.process.communicate(timeout=LIMIT_S)[1].strip()
-        if self.process.returncode != 0:
-            return {"bytes": None, "error": error, "stats": {}}
-        with open(self.picture, "rb") as file:
-            picture = file.read()
-        with open(self.stats, encoding="utf-8") as file:
-            return {"bytes": picture, "error": error, "stats": json.load(file)}
 
 
 def strike(farm, kind, chance):
@@ -75,11 +48,11 @@ def strike(farm, kind, chance):
 
 
 def usual(farm, options, algorithm, folder):
-    """Seconds and CPU seconds of jobs without faults: medians of five."""
+    """Seconds and CPU seconds of jobs without faults: medians."""
     jobs = []
-    for _ in range(5):
+    for _ in range(options.usual):
         began = time.monotonic()
-        end = Job(farm, options, algorithm, folder).end()
+        end = Job(farm, options.scene, options.size, algorithm, folder).end()
         jobs.append((time.monotonic() - began, end["stats"]["cpu_s"]))
     return [statistics.median(column) for column in zip(*jobs)]
 
@@ -89,8 +62,8 @@ def torture(farm, options, kind, algorithm, folder, expected, chance):
     tally = collections.Counter()
     noticed, cpu = [], []
     for _ in range(options.faults):
-        job = Job(farm, options, algorithm, folder)
-        job.wait_until_under_way(farm)
+        job = Job(farm, options.scene, options.size, algorithm, folder)
+        job.wait_until_under_way()
         for _ in range(options.faults_a_job):
             time.sleep(chance.uniform(0, takes_s) / options.faults_a_job)
             seconds = strike(farm, kind, chance)
@@ -116,6 +89,7 @@ def main():
     parser.add_argument("scene")
     parser.add_argument("--faults", type=int, default=25)
     parser.add_argument("--faults-a-job", type=int, default=1)
+    parser.add_argument("--usual", type=int, default=5)
     parser.add_argument("--kinds", default="kill,stop")
     parser.add_argument("--nodes", default="8,16")
     parser.add_argument("--algorithms", default="macro,roth")
@@ -125,11 +99,7 @@ def main():
     chance = random.Random(options.seed)
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:
-        serial = os.path.join(folder, "serial.exr")
-        subprocess.run([options.command, "render", options.scene, "--size", options.size,
-                        "--algorithm", "serial", "-q", "-o", serial], check=True)
-        with open(serial, "rb") as file:
-            expected = file.read()
+        expected = serial_picture(options.command, options.scene, options.size, folder)
         for nodes in options.nodes.split(","):
             farm = Farm(options.command, folder, nodes, "--retries", "100")
             for algorithm in options.algorithms.split(","):

@@ -135,6 +135,7 @@ class Parser {
                     .value = "HOST:PORT",
                     .help = "A web page of the farm at this loopback address"},
                    [&up](const std::string& text) { up.http = text; });
+    add_log(options, up.log, up.is_quiet);
     add_losses(options, up.losses);
     add_outbox_rays(options, up.outbox_rays);
   }

@@ -41,7 +41,8 @@ struct SubmitCommand {
 };
 
 struct UpCommand {
-  std::string listen, state, http, key;
+  std::string listen, state, http, key, log;
+  bool is_quiet = false;
   /// A text of parse_keep_rule(); empty to keep everything.
   std::string keep;
   std::uint32_t nodes = 1, threads = 1;

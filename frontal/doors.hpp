@@ -47,6 +47,8 @@ class Doors {
   /// Sends to a peer that has sent something before; drops the message if it has gone, or if it is
   /// a client that doesn't read its answers.
   void send(const PeerId& peer, Message message);
+  /// Clients that were turned away for want of a key, since this was last asked.
+  std::uint64_t take_refused() { return doorkeeper_ ? doorkeeper_->take_refused() : 0; }
   std::array<Readable*, 2> sockets() { return {&nodes_, &*clients_}; }
 
  private:

@@ -1,6 +1,5 @@
 #include "frontal/frontal.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <utility>
 
@@ -28,13 +27,15 @@ void in_job(Jobs& jobs, Work&& work) {
 Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
       door_(options_.secret, options_.node_folder),
+      log_(options_.started_s),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
       nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
-      jobs_(options_, store, post_) {}
+      jobs_(options_, store, post_, log_) {}
 
 void Frontal::on_time(const Moment& now) {
   now_s_ = now.now_s;
+  log_.set_time(now.unix_s);
   jobs_.set_time(now);
   nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
   if (is_going_down_) return;
@@ -89,14 +90,13 @@ void Frontal::get_on() {
 void Frontal::on_hello(const PeerId& peer, const control::Hello& m,
                        std::span<const std::byte> shown) {
   if (const char* problem = door_.problem_of(m, shown)) {
-    // A stranger gets no answer.
-    if (++strangers_ <= kMaxStrangersTold)
-      std::fprintf(stderr, "graycube-frontal: dropped: a hello for node %u: %s\n", m.rank, problem);
-    return;
+    return log_.hello_is_refused(m.rank, problem);  // a stranger gets no answer
   }
   if (auto refusal = nodes_.hello(peer, m, now_s_)) return post_.answer(peer, *std::move(refusal));
   post_.set_node(Rank{m.rank}, peer);
+  log_.node_is_here(Rank{m.rank}, m.pid);
   if (!nodes_.all_here()) return;
+  log_.farm_is_up(options_.cube.nodes(), options_.endpoint);
   post_.to_nodes(control::Welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
                                   heartbeat_.interval_ms()});
   get_on();
@@ -149,6 +149,7 @@ void Frontal::give_result(const RecutResult& cut) {
 void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                         std::span<const std::byte> payload) {
   if (const auto* write = std::get_if<control::Write>(&message)) return on_write(peer, *write);
+  if (const auto* fetch = std::get_if<control::Fetch>(&message)) return on_fetch(peer, *fetch);
   const auto refuse_type = [&]() -> Answer {
     return Refusal{0, FailureCode::kBadRequest, "type",
                    "'" + std::string(type_of(message)) + "' is not for a frontal"};
@@ -163,7 +164,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      [&](const control::Nodes&) -> Answer {
                        return Reply{nodes_.list(jobs_.keep_nodes_busy())};
                      },
-                     [&](const control::Fetch& m) { return jobs_.fetch(m); },
+                     [&](const control::Fetch&) { return refuse_type(); },
                      [&](const control::Write&) { return refuse_type(); },
                      [&](const control::Farm&) -> Answer { return Reply{info()}; },
                      [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
@@ -195,6 +196,35 @@ void Frontal::give_result(WritingResult result) {
   post_.answer(result.peer, std::move(result.answer));
 }
 
+/// A picture that is not in memory is read elsewhere, and the answer is sent when it is.
+void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
+  if (!jobs_.must_read(m.job)) return post_.answer(peer, jobs_.fetch(m));
+  if (fetches_.size() >= kMaxWaitingFetches) {
+    return post_.answer(
+        peer, Refusal{m.job, FailureCode::kBusy, "", "too many pictures are asked for at once"});
+  }
+  fetches_.push_back({peer, m});
+}
+
+std::optional<ReadingWork> Frontal::take_reading() {
+  if (is_reading_ || fetches_.empty()) return std::nullopt;
+  is_reading_ = true;
+  return jobs_.reading(fetches_.front().request.job);
+}
+
+void Frontal::give_result(ReadingResult result) {
+  is_reading_ = false;
+  const std::uint32_t job = result.job;
+  jobs_.give_result(std::move(result));
+  std::erase_if(fetches_, [&](const WaitingFetch& f) {
+    if (f.request.job != job) return false;
+    post_.answer(f.peer, jobs_.fetch(f.request));
+    return true;
+  });
+}
+
+void Frontal::give_result(KeepingResult result) { jobs_.give_result(std::move(result)); }
+
 Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scene) {
   if (is_going_down_) return Refusal{0, FailureCode::kBusy, "", "the farm is going down"};
   return jobs_.submit(m, scene);
@@ -214,6 +244,7 @@ control::FarmInfo Frontal::info() const {
 
 void Frontal::go_down() {
   if (is_going_down_) return;
+  log_.farm_goes_down(fatal_error_);
   jobs_.stop();
   is_going_down_ = true;
   post_.to_nodes(control::Shutdown{});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontal/jobs.hpp"
+#include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/heartbeat.hpp"
 #include "frontal/parts/node_door.hpp"
@@ -17,6 +18,9 @@
 #include "transport/message.hpp"
 
 namespace graycube {
+
+/// Requests for rows of pictures that may wait until those are read.
+inline constexpr std::size_t kMaxWaitingFetches = 256;
 
 class Frontal {
  public:
@@ -51,12 +55,25 @@ class Frontal {
   std::optional<WritingWork> take_writing() { return std::exchange(writing_, std::nullopt); }
   void give_result(WritingResult result);
 
+  /// The same for the picture of a job that is complete, and for one that is to be read before it
+  /// can be fetched. Nobody is kept from anything else meanwhile, but that no other job begins
+  /// until a complete one is kept.
+  std::optional<KeepingWork> take_keeping() { return jobs_.take_keeping(); }
+  void give_result(KeepingResult result);
+  bool is_keeping() const { return jobs_.is_keeping(); }
+  std::optional<ReadingWork> take_reading();
+  void give_result(ReadingResult result);
+
   std::optional<std::uint32_t> job_that_is_on() const { return jobs_.job_that_is_on(); }
 
   std::vector<Outgoing> take_outgoing() { return post_.take(); }
   std::vector<Process> take_starts() { return nodes_.take_starts(); }
   /// Silent nodes, whose processes are to be ended.
   std::vector<Process> take_kills() { return nodes_.take_kills(); }
+  /// What has happened since it was last asked.
+  std::vector<FarmEvent> take_events() { return log_.take(); }
+  /// So many clients were turned away, since they did not show the farm's key.
+  void turned_away(std::uint64_t clients) { log_.strangers_are_refused(clients); }
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.
   bool is_going_down() const { return is_going_down_; }
   bool all_nodes_left() const { return nodes_.all_left(); }
@@ -71,6 +88,7 @@ class Frontal {
   void on_client(const PeerId& peer, const ControlMessage& message,
                  std::span<const std::byte> payload);
   void on_write(const PeerId& peer, const control::Write& m);
+  void on_fetch(const PeerId& peer, const control::Fetch& m);
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
@@ -80,7 +98,7 @@ class Frontal {
   FrontalOptions options_;
   double now_s_ = 0;
   NodeDoor door_;
-  unsigned strangers_ = 0;
+  FarmLog log_;
   Post post_;
   Heartbeat heartbeat_;
   NodeRegistry nodes_;
@@ -89,6 +107,13 @@ class Frontal {
   bool is_going_down_ = false;
   std::optional<WritingWork> writing_;
   bool is_writing_ = false;
+  struct WaitingFetch {
+    PeerId peer;
+    control::Fetch request;
+  };
+  /// Requests for pictures that are not in memory.
+  std::vector<WaitingFetch> fetches_;
+  bool is_reading_ = false;
 };
 
 }  // namespace graycube

@@ -4,9 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "frontal/parts/picture_answers.hpp"
-#include "frontal/parts/submission.hpp"
-
 namespace graycube {
 namespace {
 
@@ -18,23 +15,10 @@ constexpr double kClearInterval_s = 10;
 /// Seconds after which it is looked again how far the job has got.
 constexpr double kLookInterval_s = 0.05;
 
-Refusal unknown(std::uint32_t job) { return {job, FailureCode::kUnknownJob, "", "no such job"}; }
-
-/// The message that tells clients that a job has ended, and how.
-ControlMessage end_of(const EndedJob& job) {
-  if (job.info.state == JobState::kDone) return control::Done{job.info.job, {job.stats_json}};
-  FailureCode code = FailureCode::kFailed;
-  if (job.info.state == JobState::kCancelled) code = FailureCode::kCancelled;
-  if (job.is_deadlocked) code = FailureCode::kDeadlock;
-  control::Failed failed{job.info.job, code, {{"", job.info.message}}, {}};
-  if (job.has_stats()) failed.stats = RawObject{job.stats_json};
-  return failed;
-}
-
 }  // namespace
 
-Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post)
-    : farm_(farm), store_(store), post_(post), ended_(store) {
+Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post, FarmLog& log)
+    : farm_(farm), store_(store), post_(post), log_(log), ended_(store) {
   if (!ended_.all().empty()) queue_.number_beyond(ended_.all().back().info.job);
   queue_.number_beyond(store.last_number());
   recover_accepted();
@@ -54,7 +38,7 @@ QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options
 
 void Jobs::count(control::FarmInfo& farm) const {
   farm.queued = static_cast<std::uint32_t>(queue_.all().size());
-  farm.running = running_ ? 1 : 0;
+  farm.running = running_ || keeping_ ? 1 : 0;
   farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
@@ -68,6 +52,10 @@ void Jobs::check_time() {
   if (running_ && now_.now_s - looked_s_ >= kLookInterval_s) {
     looked_s_ = now_.now_s;
     progress_watch_.see(running_->info(), running_->stage(), now_.now_s);
+    if (progress_watch_.take_stands(now_.now_s)) {
+      log_.job_stands(running_->id(),
+                      progress_watch_.waits_for(running_->info(), running_->stage(), now_.now_s));
+    }
   }
   if (watchers_.are_due(now_.now_s)) tell_progress();
   if (running_) record_tiles(false);
@@ -77,135 +65,21 @@ void Jobs::check_time() {
   }
 }
 
-// ---- asked by clients
-
-Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) {
-  if (auto refusal = refusal_of(m, scene, farm_.is_private)) return *std::move(refusal);
-  const std::uint64_t content = content_of(m, scene);
-  try {
-    if (const auto known = m.key.empty() ? std::nullopt : store_.find_key(m.key)) {
-      if (known->content == content) return Reply{control::Accepted{known->job}};
-      return Refusal{known->job, FailureCode::kBadRequest, "key",
-                     "another scene or other options were submitted under this key"};
-    }
-    if (auto refusal = refusal_for_want_of_room(queue_)) return *std::move(refusal);
-    control::JobInfo info;
-    info.job = queue_.next_number();
-    info.scene = m.scene_name;
-    info.algorithm = m.options.algorithm;
-    info.nodes = farm_.cube.nodes();
-    info.submitted_s = now_.unix_s;
-    // The number is told only once the store has it: it must be the job's after any end of this
-    // process.
-    store_.add({info, m.options, m.key, content}, scene);
-    QueuedJob job = queued(std::move(info), m.options);
-    job.work.scene.assign(scene.begin(), scene.end());
-    job.content = content;
-    return Reply{control::Accepted{queue_.add(std::move(job))}};
-  } catch (const std::runtime_error& e) {
-    return Refusal{0, FailureCode::kFailed, "the job store", e.what()};
-  }
-}
-
-std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
-  if (running_ && running_->id() == job) return running_info();
-  if (const auto* queued = queue_.find(job)) {
-    control::JobInfo info = *queued;
-    if (running_) info.message = "waits for job " + std::to_string(running_->id()) + " to end";
-    return info;
-  }
-  if (const EndedJob* ended = ended_.find(job)) return ended->info;
-  return std::nullopt;
-}
-
-control::JobInfo Jobs::running_info() const {
-  control::JobInfo info = running_->info_at(now_.now_s);
-  info.message = "waits for " + progress_watch_.waits_for(info, running_->stage(), now_.now_s);
-  return info;
-}
-
-Answer Jobs::status(std::uint32_t job) const {
-  if (const auto info = find(job)) return Reply{*info};
-  return unknown(job);
-}
-
-Answer Jobs::list() const {
-  control::Jobs list;
-  const auto has_room = [&] { return list.jobs.size() < kMaxJobsListed; };
-  if (running_) list.jobs.push_back(running_info());
-  for (const QueuedJob& job : queue_.all()) {
-    if (has_room()) list.jobs.push_back(job.info);
-  }
-  for (auto job = ended_.all().rbegin(); job != ended_.all().rend() && has_room(); ++job)
-    list.jobs.push_back(job->info);
-  std::ranges::sort(list.jobs, {}, &control::JobInfo::job);
-  return Reply{std::move(list)};
-}
-
-Answer Jobs::watch(const PeerId& peer, std::uint32_t job) {
-  const EndedJob* ended = ended_.find(job);
-  if (ended != nullptr) return Reply{end_of(*ended)};
-  const auto info = find(job);
-  if (!info) return unknown(job);
-  watchers_.add(job, peer);
-  const bool is_on = running_ && running_->id() == job;
-  return Reply{is_on ? running_->progress_at(now_.now_s) : progress_of(*info)};
-}
-
-Answer Jobs::cancel(std::uint32_t job) {
-  const JobFailure cancelled{JobState::kCancelled, FailureCode::kCancelled, {{"", "cancelled"}}};
-  if (running_ && running_->id() == job) {
-    fail(cancelled);
-  } else if (auto queued = queue_.remove(job)) {
-    end({std::move(queued->info), "{}", false}, cancelled);
-  } else if (find(job)) {
-    return Refusal{job, FailureCode::kBadRequest, "", "the job has ended already"};
-  }
-  return status(job);
-}
-
-std::variant<const Picture*, Refusal> Jobs::picture(std::uint32_t job) {
-  const auto info = find(job);
-  if (!info) return unknown(job);
-  if (info->state != JobState::kDone) {
-    return Refusal{job, FailureCode::kNotDone, "",
-                   "the job is " + std::string(to_string(info->state))};
-  }
-  if (const Picture* picture = ended_.picture(job)) return picture;
-  return Refusal{job, FailureCode::kFailed, "", "the picture is not kept any longer"};
-}
-
-Answer Jobs::fetch(const control::Fetch& m) {
-  const auto found = picture(m.job);
-  if (const auto* refusal = std::get_if<Refusal>(&found)) return *refusal;
-  return picture_rows(*std::get<const Picture*>(found), m);
-}
-
-/// The picture need not go through sockets: the client that asks has started this frontal, and
-/// could write the files itself.
-std::variant<WritingWork, Refusal> Jobs::write(const control::Write& m) {
-  if (!farm_.is_private) {
-    return Refusal{m.job, FailureCode::kBadRequest, "type", "only a private frontal writes files"};
-  }
-  const auto found = picture(m.job);
-  if (const auto* refusal = std::get_if<Refusal>(&found)) return *refusal;
-  return WritingWork{{}, m, std::get<const Picture*>(found), {find(m.job)->scene, farm_.version}};
-}
-
 // ---- its preparation
 
 std::optional<PreparationWork> Jobs::take_work() {
-  if (running_ || queue_.is_empty()) return std::nullopt;
+  if (running_ || keeping_ || queue_.is_empty()) return std::nullopt;
   QueuedJob next = queue_.take_first();
   // Its client has waited since it was submitted to an earlier frontal.
   if (next.is_recovered)
     next.submitted_at_s = now_.now_s - std::max(0.0, now_.unix_s - next.info.submitted_s);
-  running_.emplace(farm_, next, now_, cpu_);
+  running_.emplace(farm_, next, now_, cpu_, log_);
   tell_progress();
   try {
     if (next.is_recovered) next.work.scene = store_.scene(next.info.job);
     const auto [begun, ever] = store_.begin(next.info.job);
     running_->goes_on_after(ever - 1);
+    log_.job_begins(next.info, ever - 1);
     if (begun > kMaxBegins) {
       fail({JobState::kFailed,
             FailureCode::kFailed,
@@ -339,21 +213,11 @@ void Jobs::end_when_over() {
 }
 
 void Jobs::complete() {
-  Picture picture = running_->picture();
-  EndedJob job{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_ = EndedJob{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_->info.fraction = 1;
+  keeping_->info.message = "waits for its picture to be written";
+  film_ = std::make_shared<const Film>(running_->take_film());
   running_.reset();
-  job.info.state = JobState::kDone;
-  job.info.finished_s = now_.unix_s;
-  job.info.fraction = 1;
-  const EndedJob& kept = ended_.keep(std::move(job), std::move(picture));
-  for (const PeerId& peer : watchers_.take(kept.info.job)) {
-    if (kept.info.state == JobState::kDone) {
-      post_.to_peer(peer, control::Done{kept.info.job, {kept.stats_json}});
-    } else {
-      post_.answer(
-          peer, Refusal{kept.info.job, FailureCode::kFailed, "the job store", kept.info.message});
-    }
-  }
 }
 
 /// The nodes drop the job. A job that is deadlocked ends as deadlocked, whatever else happens while
@@ -379,6 +243,7 @@ void Jobs::end(EndedJob job, JobFailure failure) {
     const control::ErrorItem& first = failure.errors.front();
     job.info.message = (first.where.empty() ? "" : first.where + ": ") + first.why;
   }
+  log_.job_ends(job.info);
   control::Failed failed{job.info.job, failure.code, std::move(failure.errors), {}};
   if (job.has_stats()) failed.stats = RawObject{job.stats_json};
   for (const PeerId& peer : watchers_.take(failed.job)) post_.to_peer(peer, failed);

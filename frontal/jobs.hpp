@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "frontal/parts/ended_jobs.hpp"
+#include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
+#include "frontal/parts/keeping.hpp"
 #include "frontal/parts/post.hpp"
 #include "frontal/parts/progress_watch.hpp"
 #include "frontal/parts/running_job.hpp"
@@ -21,8 +23,8 @@ namespace graycube {
 
 class Jobs {
  public:
-  /// Options, store and post must outlive this.
-  Jobs(const FrontalOptions& farm, JobStore& store, Post& post);
+  /// All that is given must outlive this.
+  Jobs(const FrontalOptions& farm, JobStore& store, Post& post, FarmLog& log);
   void set_cpu_meter(CpuMeter meter) { cpu_ = std::move(meter); }
 
   /// Sets the time that all other calls use, until it is set again.
@@ -41,6 +43,16 @@ class Jobs {
   Answer fetch(const control::Fetch& m);
   /// The writing that is asked for, for which nobody is named yet, or why it isn't done.
   std::variant<WritingWork, Refusal> write(const control::Write& m);
+
+  /// The picture that is to be kept, once a job is complete. It counts as rendered until the result
+  /// is given, and no other job is on.
+  std::optional<KeepingWork> take_keeping();
+  void give_result(KeepingResult result);
+  bool is_keeping() const { return keeping_.has_value(); }
+  /// Whether the job's picture has to be read before it can be fetched.
+  bool must_read(std::uint32_t job) const;
+  ReadingWork reading(std::uint32_t job) { return {job, &store_}; }
+  void give_result(ReadingResult result);
 
   /// The preparation of the next job, once none is on.
   std::optional<PreparationWork> take_work();
@@ -93,6 +105,7 @@ class Jobs {
   void stop();
 
  private:
+  Answer accept(const control::Submit& m, std::span<const std::byte> scene);
   void recover_accepted();
   void resume();
   void record_tiles(bool all);
@@ -116,6 +129,7 @@ class Jobs {
   const FrontalOptions& farm_;
   JobStore& store_;
   Post& post_;
+  FarmLog& log_;
   Moment now_;
   /// When it was last looked how far the job is, and when old jobs were cleared.
   double looked_s_ = 0, cleared_s_ = 0;
@@ -123,6 +137,9 @@ class Jobs {
   JobQueue queue_;
   std::optional<RunningJob> running_;
   EndedJobs ended_;
+  /// The job that is complete, but not kept yet; its film, until that is taken.
+  std::optional<EndedJob> keeping_;
+  std::shared_ptr<const Film> film_;
   Watchers watchers_;
   ProgressWatch progress_watch_;
 };

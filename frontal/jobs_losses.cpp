@@ -6,7 +6,7 @@
 namespace graycube {
 
 void Jobs::node_was_lost(const NodeLoss& node) {
-  if (!running_) return;
+  if (!running_) return log_.node_is_lost(node.rank, node.name, node.how, node.noticed_s);
   if (auto failure = running_->lose(node, post_)) return fail(*std::move(failure));
   if (running_->is_loaded()) finish_when_complete();
 }

@@ -11,6 +11,7 @@ void Jobs::recover_accepted() {
     control::JobInfo info = std::move(accepted.info);
     info.state = JobState::kQueued;
     info.nodes = farm_.cube.nodes();
+    log_.job_is_accepted(info, true);
     QueuedJob job = queued(std::move(info), accepted.options);
     job.is_recovered = true;
     job.content = accepted.content;

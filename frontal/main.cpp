@@ -25,6 +25,7 @@
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
 #include "process/descriptors.hpp"
+#include "process/log_thread.hpp"
 #include "process/process_state.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
@@ -39,12 +40,12 @@ namespace fs = std::filesystem;
 
 struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
-  std::string listen, state, http, key;
+  std::string listen, state, http, key, log;
   KeepRule keep;
   /// Of a private frontal: where tiles are recorded, and the digest of what decides the picture.
   std::string checkpoint;
   std::uint64_t picture_content = 0;
-  bool is_private = false, ends_jobs = false;
+  bool is_private = false, ends_jobs = false, is_quiet = false;
   /// 0 for what is usual.
   double silence_s = 0;
   std::uint32_t retries = kDefaultRetries;
@@ -84,6 +85,10 @@ class FrontalProcess {
  public:
   FrontalProcess(const FrontalArguments& a, int signals)
       : signals_(signals),
+        log_(a.log,
+             "frontal: process " + std::to_string(::getpid()) + " begins, Graycube " + kVersion),
+        shows_all_(!a.is_private && !a.is_quiet),
+        shows_trouble_(!a.is_private),
         secret_(make_secret()),
         doors_(folder_.path(), a.is_private ? "" : a.listen, a.key),
         store_(make_store(a)),
@@ -109,8 +114,7 @@ class FrontalProcess {
                   .node_folder = folder_.path().string()},
                  *store_),
         preparation_(wakeup_),
-        writing_thread_(wakeup_),
-        tells_of_long_turns_(!a.is_private) {
+        writing_thread_(wakeup_) {
     frontal_.set_cpu_meter({[this] { return process_cpu_seconds() + processes_.start_cpu_s(); },
                             [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
     if (!a.http.empty()) {
@@ -134,12 +138,13 @@ class FrontalProcess {
       take_events();
       if (frontal_.is_going_down()) {
         if (down_since_s == 0) down_since_s = now.now_s;
-        if (processes_.empty() || now.now_s - down_since_s > kGrace_s)
-          return frontal_.fatal_error();
+        const bool is_over = processes_.empty() || now.now_s - down_since_s > kGrace_s;
+        if (is_over && !frontal_.is_keeping()) return frontal_.fatal_error();
       }
       const auto sockets = doors_.sockets();
       const int descriptors[] = {wakeup_.descriptor(), signals_};
-      if (tells_of_long_turns_) loop_watch_.end(seconds_of(CLOCK_MONOTONIC));
+      const std::string held_up = loop_watch_.end(seconds_of(CLOCK_MONOTONIC));
+      if (!held_up.empty()) log_.write(seconds_of(CLOCK_REALTIME), held_up, shows_trouble_);
       wait_readable(sockets, descriptors, kTick);
       wakeup_.clear();
     }
@@ -148,9 +153,10 @@ class FrontalProcess {
  private:
   static fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-  std::unique_ptr<JobStore> make_store(const FrontalArguments& a) const {
-    const auto warn = [](const std::string& sentence) {
-      std::fprintf(stderr, "graycube-frontal: job store: %s\n", sentence.c_str());
+  std::unique_ptr<JobStore> make_store(const FrontalArguments& a) {
+    // A private farm's command has its own terminal: all that it should hear of there is this.
+    const auto warn = [this](const std::string& sentence) {
+      log_.write(seconds_of(CLOCK_REALTIME), "job store: " + sentence, true);
     };
     if (!a.checkpoint.empty()) return make_checkpoint_store(a.checkpoint, warn);
     if (a.is_private) return make_memory_store();
@@ -165,6 +171,7 @@ class FrontalProcess {
     }
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
+    if (const std::uint64_t refused = doors_.take_refused()) frontal_.turned_away(refused);
     while (auto m = doors_.receive()) {
       frontal_.on_time(this_moment());
       frontal_.on_message(m->peer, m->message);
@@ -174,8 +181,7 @@ class FrontalProcess {
       frontal_.on_message(HttpDesk::peer_of(q.number), q.message);
       flush();
     }
-    if (auto written = writing_thread_.take()) frontal_.give_result(*std::move(written));
-    if (auto work = frontal_.take_writing()) writing_thread_.give(*std::move(work));
+    take_pictures();
     preparation_.work_only_for(frontal_.job_that_is_on());
     if (preparation_.is_free()) {
       if (auto work = frontal_.take_work()) {
@@ -185,6 +191,19 @@ class FrontalProcess {
       }
     }
     flush();
+  }
+
+  void take_pictures() {
+    if (auto result = writing_thread_.take())
+      std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
+    if (!writing_thread_.is_free()) return;
+    if (auto work = frontal_.take_keeping()) {
+      writing_thread_.give(*std::move(work));
+    } else if (auto writing = frontal_.take_writing()) {
+      writing_thread_.give(*std::move(writing));
+    } else if (auto reading = frontal_.take_reading()) {
+      writing_thread_.give(*reading);
+    }
   }
 
   void take_signals() {
@@ -203,6 +222,8 @@ class FrontalProcess {
   }
 
   void flush() {
+    for (const FarmEvent& e : frontal_.take_events())
+      log_.write(e.unix_s, e.text, shows_all_ || (shows_trouble_ && e.is_trouble));
     for (Frontal::Outgoing& o : frontal_.take_outgoing()) send(o);
     for (const Frontal::Process& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
     if (frontal_.is_going_down()) return;
@@ -213,6 +234,8 @@ class FrontalProcess {
   }
 
   int signals_;
+  LogThread log_;
+  bool shows_all_, shows_trouble_;
   double own_start_cpu_s_ = 0;
   TemporaryFolder folder_;
   Secret secret_;
@@ -226,8 +249,6 @@ class FrontalProcess {
   WritingThread writing_thread_;
   std::optional<HttpServer> http_;
   LoopWatch loop_watch_;
-  /// A private farm's command has its own terminal, where such lines would be of no use.
-  bool tells_of_long_turns_;
 };
 
 /// Open files and sockets of a frontal beside those that lead to nodes; and of a node, in the
@@ -258,6 +279,8 @@ int run_main(int argc, char** argv) {
   app.add_option("--listen", a.listen, "Endpoint for clients");
   app.add_option("--key", a.key, "File of the key that clients at a TCP port must show");
   app.add_option("--state", a.state, "Folder in which pictures and jobs are kept");
+  app.add_option("--log", a.log, "File to which it is appended what happens");
+  app.add_flag("--quiet", a.is_quiet, "Show only what goes wrong on standard error");
   app.add_flag(
       "--ends-jobs", a.ends_jobs,
       "Cancel jobs that have not ended when the farm stops, instead of keeping them there");

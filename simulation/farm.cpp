@@ -71,6 +71,8 @@ template <typename Call>
 void Farm::in_frontal(PerUnit doings, Call&& call) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
   call();
+  // Pictures are kept beside the frontal's mailroom, in no simulated time.
+  while (auto w = frontal_->take_keeping()) frontal_->give_result(keep_picture(*std::move(w)));
   auto out = std::make_shared<std::vector<Frontal::Outgoing>>(frontal_->take_outgoing());
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   for (const Frontal::Process& p : frontal_->take_starts()) start(p);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -15,6 +16,7 @@
 #include "cli/farm/supervised_frontal.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/temporary_place.hpp"
+#include "process/log_file.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/farm_key.hpp"
@@ -90,6 +92,8 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::p
   for (const std::string& word : loss_arguments(command.losses)) arguments.push_back(word);
   if (!command.keep.empty()) arguments.insert(arguments.end(), {"--keep", command.keep});
   if (!command.key.empty()) arguments.insert(arguments.end(), {"--key", command.key});
+  if (!command.log.empty()) arguments.insert(arguments.end(), {"--log", command.log});
+  if (command.is_quiet) arguments.push_back("--quiet");
   if (command.outbox_rays != 0) {
     arguments.insert(arguments.end(), {"--outbox-rays", std::to_string(command.outbox_rays)});
   }
@@ -123,6 +127,17 @@ void check_folders(const UpCommand& command, const std::string& endpoint, bool i
   if (error) throw usage_failure("--state " + command.state, error.message());
 }
 
+/// The log, if one is wanted: what can't be written is refused before anything is started.
+std::unique_ptr<LogFile> open_log(const std::string& file) {
+  if (file.empty()) return nullptr;
+  try {
+    return std::make_unique<LogFile>(
+        file, "farm: 'graycube up' begins, process " + std::to_string(::getpid()));
+  } catch (const std::runtime_error& e) {
+    throw usage_failure("--log", e.what());
+  }
+}
+
 }  // namespace
 
 ExitStatus run(const UpCommand& command) {
@@ -142,13 +157,14 @@ ExitStatus run(const UpCommand& command) {
   refuse_second_farm(endpoint, command.key, is_default);
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
+  const std::unique_ptr<LogFile> log = open_log(command.log);
   std::optional<TemporaryFolder> passing;
   if (command.state.empty()) {
     check_temporary_place();
     passing.emplace();
   }
   SupervisedFrontal frontal(frontal_arguments(command, passing ? passing->path() : fs::path()),
-                            endpoint, command.http);
+                            endpoint, command.http, log.get());
   if (!frontal.page().empty()) {
     std::printf("web page at %s\nthe same with leave to cancel jobs: %s/#token=%s\n",
                 frontal.page().c_str(), frontal.page().c_str(), frontal.token().c_str());

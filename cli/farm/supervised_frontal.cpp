@@ -7,6 +7,8 @@
 
 #include "cli/farm/listener.hpp"
 #include "cli/interrupts.hpp"
+#include "process/clocks.hpp"
+#include "process/log_line.hpp"
 
 namespace graycube {
 namespace {
@@ -25,8 +27,11 @@ std::string address_of(const std::string& page) {
 }  // namespace
 
 SupervisedFrontal::SupervisedFrontal(std::vector<std::string> arguments, std::string endpoint,
-                                     std::string http)
-    : arguments_(std::move(arguments)), endpoint_(std::move(endpoint)), http_(std::move(http)) {
+                                     std::string http, LogFile* log)
+    : arguments_(std::move(arguments)),
+      endpoint_(std::move(endpoint)),
+      http_(std::move(http)),
+      log_(log) {
   start();
 }
 
@@ -39,16 +44,27 @@ void SupervisedFrontal::start() {
   if (!http_.empty()) http_ = address_of(frontal_->page());
 }
 
+void SupervisedFrontal::tell(const std::string& what) {
+  print({"farm", "graycube-frontal", what});
+  note(what);
+}
+
+/// The log's own trouble is told by the frontal.
+void SupervisedFrontal::note(const std::string& what) {
+  if (log_ != nullptr)
+    log_->append(log_line(seconds_of(CLOCK_REALTIME), "farm: graycube-frontal: " + what));
+}
+
 void SupervisedFrontal::start_again() {
   const std::string how = "killed by signal " + std::to_string(frontal_->death_signal());
   if (!restarts_.allows(std::chrono::steady_clock::now())) {
-    throw Failure(ExitStatus::kFailed,
-                  Problem{"farm", "graycube-frontal",
-                          how + "; it has been started again " + std::to_string(kMaxRestarts) +
-                              " times within " + std::to_string(kRestartSpan.count()) +
-                              " s, so the farm ends"});
+    const std::string why = how + "; it has been started again " + std::to_string(kMaxRestarts) +
+                            " times within " + std::to_string(kRestartSpan.count()) +
+                            " s, so the farm ends";
+    note(why);
+    throw Failure(ExitStatus::kFailed, Problem{"farm", "graycube-frontal", why});
   }
-  print({"farm", "graycube-frontal", how + "; it is started again"});
+  tell(how + "; it is started again");
   frontal_.reset();  // clears away what it has left: its nodes, its sockets
   remove_stale_socket(endpoint_);
   start();
@@ -62,8 +78,7 @@ void SupervisedFrontal::kill_if_stopped() {
   } else if (!stopped_since_) {
     stopped_since_ = now;
   } else if (now - *stopped_since_ > kStopPatience) {
-    print({"farm", "graycube-frontal",
-           "stopped for " + std::to_string(kStopPatience.count()) + " s; it is killed"});
+    tell("stopped for " + std::to_string(kStopPatience.count()) + " s; it is killed");
     frontal_->kill();
     stopped_since_.reset();
   }

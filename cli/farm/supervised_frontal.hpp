@@ -10,14 +10,17 @@
 #include "cli/failure.hpp"
 #include "cli/farm/frontal_process.hpp"
 #include "cli/farm/restart_limit.hpp"
+#include "process/log_file.hpp"
 
 namespace graycube {
 
 class SupervisedFrontal {
  public:
   /// Starts a frontal that is to listen at `endpoint` and, unless it is empty, have its web page at
-  /// `http`; `arguments` are all others. Returns once it listens. Throws a Failure.
-  SupervisedFrontal(std::vector<std::string> arguments, std::string endpoint, std::string http);
+  /// `http`; `arguments` are all others. Returns once it listens. `log` is told of its ends, too,
+  /// unless it is null. Throws a Failure.
+  SupervisedFrontal(std::vector<std::string> arguments, std::string endpoint, std::string http,
+                    LogFile* log);
 
   /// Where it listens, and its web page's address or nothing. Another frontal has the same, with
   /// the ports that the first one has picked.
@@ -35,11 +38,15 @@ class SupervisedFrontal {
 
  private:
   void start();
+  /// On standard error and in the log; or in the log alone.
+  void tell(const std::string& what);
+  void note(const std::string& what);
   void start_again();
   void kill_if_stopped();
 
   std::vector<std::string> arguments_;
   std::string endpoint_, http_;
+  LogFile* log_;
   RestartLimit restarts_;
   std::optional<std::chrono::steady_clock::time_point> stopped_since_;
   std::unique_ptr<FrontalProcess> frontal_;

@@ -235,6 +235,18 @@ void add_losses(Declaring& options, LossOptions& losses) {
                  });
 }
 
+void add_log(Declaring& options, std::string& log, bool& is_quiet) {
+  options.option({.names = "--log",
+                  .value = "FILE",
+                  .help = "Append there what happens: jobs, losses, refusals",
+                  .kind = ValueKind::kFile},
+                 [&log](const std::string& text) {
+                   if (text.empty()) throw usage_failure("--log", "expected a file's name");
+                   log = text;
+                 });
+  options.flag("--quiet,-q", is_quiet, "Show only what goes wrong");
+}
+
 void add_outbox_rays(Declaring& options, std::uint32_t& rays) {
   options.option({.names = "--outbox-rays",
                   .value = "N",

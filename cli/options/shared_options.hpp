@@ -49,6 +49,9 @@ void add_job_options(Declaring& options, control::JobOptions& o);
 /// Options for how a farm takes the loss of a node.
 void add_losses(Declaring& options, LossOptions& losses);
 
+/// Where it is told what happens on a farm.
+void add_log(Declaring& options, std::string& log, bool& is_quiet);
+
 /// How many rays a node may hold that are to be sent.
 void add_outbox_rays(Declaring& options, std::uint32_t& rays);
 

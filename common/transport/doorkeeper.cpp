@@ -1,6 +1,7 @@
 #include "transport/doorkeeper.hpp"
 
 #include <array>
+#include <atomic>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -67,7 +68,9 @@ struct Doorkeeper::Impl {
         zmq::poll(items.data(), items.size(), std::chrono::milliseconds(-1));
         if (items[1].revents != 0) return;
         const std::vector<zmq::message_t> question = question_at(asked);
-        answer(asked, question, opens(question));
+        const bool is_let_in = opens(question);
+        if (!is_let_in) ++refused;
+        answer(asked, question, is_let_in);
       } catch (const zmq::error_t& e) {
         if (e.num() != EINTR) return;
       }
@@ -82,6 +85,7 @@ struct Doorkeeper::Impl {
   }
 
   std::string key;
+  std::atomic<std::uint64_t> refused{0};
   zmq::socket_t asked, ending, end;
   std::thread thread;
 };
@@ -94,5 +98,7 @@ Doorkeeper::Doorkeeper(ZmqContext& context, std::string key) {
   }
 }
 Doorkeeper::~Doorkeeper() = default;
+
+std::uint64_t Doorkeeper::take_refused() { return impl_->refused.exchange(0); }
 
 }  // namespace graycube

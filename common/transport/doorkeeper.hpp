@@ -2,6 +2,7 @@
 // (ZeroMQ's PLAIN mechanism, RFC 24, and its authentication protocol, RFC 27).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -21,6 +22,9 @@ class Doorkeeper {
   ~Doorkeeper();
   Doorkeeper(const Doorkeeper&) = delete;
   Doorkeeper& operator=(const Doorkeeper&) = delete;
+
+  /// How often somebody without the key was turned away since this was last asked.
+  std::uint64_t take_refused();
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 #include "formats/graycube/read_leaf.hpp"
 #include "mesh/close_mesh.hpp"
 #include "mesh/face_limits.hpp"
+#include "stop_point.hpp"
 #include "written_digits.hpp"
 
 namespace graycube {
@@ -37,6 +38,7 @@ bool read_faces(JsonAccess& json, JsonIndex at, PolygonMesh& out) {
   std::vector<std::uint32_t> face;
   bool good = true;
   for (JsonIndex f = json.tree.first_child(at); f != json.tree.end(at); f = json.tree.next(f)) {
+    if (out.face_ends.size() % kValuesBetweenStops == 0) stop_if_asked();
     good = read_face(json, f, static_cast<std::uint32_t>(out.points.size()), face) && good;
     if (good) out.add_face(face);
   }
@@ -79,6 +81,7 @@ bool read_points(JsonAccess& json, JsonIndex at, std::vector<Vec3>& out) {
   bool good = true;
   JsonIndex child = json.tree.first_child(at);
   for (Vec3& p : out) {
+    if ((&p - out.data()) % kValuesBetweenStops == 0) stop_if_asked();
     good = json.read(child, p) && good;
     child = json.tree.next(child);
   }

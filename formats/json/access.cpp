@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spelling.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -45,6 +46,7 @@ bool JsonAccess::is_array(JsonIndex at) {
 
 bool JsonAccess::members(JsonIndex at, std::string_view owner, std::span<const KeyRule> keys,
                          std::span<JsonIndex> out) {
+  stop_if_asked();
   std::fill(out.begin(), out.end(), 0);
   if (!is_object(at)) return false;
   for (JsonIndex m = tree.first_child(at); m != tree.end(at); m = tree.next(m)) {

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "stop_point.hpp"
+
 namespace graycube {
 namespace {
 
@@ -164,6 +166,7 @@ inline bool FastCborReader::scalar_of(const Head& head, JsonKind& kind, std::uin
 inline JsonIndex FastCborReader::add(JsonKind kind, const char* at, std::uint64_t payload,
                                      const Key& key) {
   const auto self = static_cast<JsonIndex>(tree_.values_.size());
+  if (self % kValuesBetweenStops == 0) stop_if_asked();
   tree_.values_.push_back(
       {payload, offset(at), self + 1, key.begin, key.length, kind, false, false});
   return self;

@@ -11,6 +11,7 @@
 
 #include "formats/json/padded_text.hpp"
 #include "formats/json/tree.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -74,6 +75,7 @@ class FastJsonReader {
 
   JsonTree::Value& add(JsonKind kind, std::size_t begin, const Text& key) {
     const auto self = static_cast<JsonIndex>(tree_.values_.size());
+    if (self % kValuesBetweenStops == 0) stop_if_asked();
     JsonTree::Value& value = tree_.values_.emplace_back();
     value.kind = kind;
     value.begin = static_cast<std::uint32_t>(begin);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/json/tree.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 
@@ -74,6 +75,7 @@ class JsonFilling {
  private:
   JsonTree::Value& append(JsonKind kind, std::size_t begin) {
     const auto self = static_cast<JsonIndex>(tree_.values_.size());
+    if (self % kValuesBetweenStops == 0) stop_if_asked();
     if (!open_.empty()) ++tree_.values_[open_.back()].payload;
     JsonTree::Value& value = tree_.values_.emplace_back();
     value.kind = kind;

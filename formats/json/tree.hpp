@@ -42,6 +42,9 @@ struct TextPosition {
 
 class PaddedText;
 
+/// Readers ask after so many values whether they are to stop (stop_point.hpp): some milliseconds.
+inline constexpr JsonIndex kValuesBetweenStops = JsonIndex{1} << 16;
+
 class JsonTree {
  public:
   struct SyntaxError {

@@ -49,11 +49,22 @@ class JobStore {
   virtual void add(const AcceptedJob& job, std::span<const std::byte> scene) = 0;
   /// The job that was accepted under a key, if it is still known.
   virtual std::optional<KeyedJob> find_key(const std::string& key) = 0;
-  /// Keeps a job that has ended. `picture` is empty (no pixels) unless it is done.
+  /// Keeps a job that has ended. `picture` is empty (no pixels) unless it is done; then it must
+  /// have been written.
   virtual void keep(const EndedJob& job, Picture picture) = 0;
-  /// The picture of a job that is done; null when it isn't kept (any longer). Valid until the next
-  /// call.
+  /// The picture of a job that is done, if it is in memory; else null. Valid until the next call.
   virtual const Picture* picture(std::uint32_t job) = 0;
+  /// Whether there may be one that isn't in memory, so that it must be read and held.
+  virtual bool must_read(std::uint32_t) const { return false; }
+  /// Takes a picture that was read into memory, in place of another.
+  virtual void hold(std::uint32_t, Picture) {}
+
+  // Slow: another thread may call them, one at a time, while this one calls any other.
+
+  /// Writes the picture of a job that is about to be kept as done.
+  virtual void write_picture(const control::JobInfo&, const Picture&) {}
+  /// Nothing if there is none, or it can't be read.
+  virtual std::optional<Picture> read_picture(std::uint32_t) { return std::nullopt; }
 
   // What an earlier frontal left. A store in memory has nothing.
 

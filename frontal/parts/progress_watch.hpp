@@ -13,6 +13,8 @@ namespace graycube {
 
 class ProgressWatch {
  public:
+  static constexpr double kFirstTold_s = 30;
+
   /// How far the job is; to be called now and then, and when it is asked for.
   void see(const control::JobInfo& job, JobStage stage, double now_s) {
     const std::array<std::uint64_t, 4> state{job.job, static_cast<std::uint64_t>(stage),
@@ -20,6 +22,15 @@ class ProgressWatch {
     if (state == state_) return;
     state_ = state;
     since_s_ = now_s;
+    told_after_s_ = kFirstTold_s;
+  }
+
+  /// Whether the job hasn't got on for so long that it is to be told: after kFirstTold_s, and then
+  /// each time that it has lasted twice as long.
+  bool take_stands(double now_s) {
+    if (now_s - since_s_ < told_after_s_) return false;
+    told_after_s_ *= 2;
+    return true;
   }
 
   /// For people: "the nodes' parts of the scene to be subdivided, for 3.2 s".
@@ -44,7 +55,7 @@ class ProgressWatch {
   }
 
   std::array<std::uint64_t, 4> state_{};
-  double since_s_ = 0;
+  double since_s_ = 0, told_after_s_ = kFirstTold_s;
 };
 
 }  // namespace graycube

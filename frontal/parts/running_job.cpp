@@ -36,8 +36,9 @@ std::string deadlock_text(const std::vector<Rank>& cycle, std::uint32_t blocked,
 }  // namespace
 
 RunningJob::RunningJob(const FrontalOptions& farm, const QueuedJob& job, const Moment& now,
-                       const CpuMeter& cpu)
+                       const CpuMeter& cpu, FarmLog& log)
     : farm_(farm),
+      farm_log_(log),
       content_(job.content),
       info_(job.info),
       options_(job.work.options),
@@ -300,6 +301,7 @@ control::Progress progress_of(const control::JobInfo& info) {
   p.tiles = info.tiles;
   p.tiles_whole = info.tiles_whole;
   p.rounds = info.rounds;
+  p.fraction = info.fraction;
   return p;
 }
 
@@ -353,7 +355,7 @@ std::string RunningJob::statistics(double now_s, const CpuMeter& cpu,
   s.render_s = times_.render_ended_s - times_.render_began_s;
   s.slices = farm_.cube.nodes();
   s.slice_bytes = render_->slices().own_bytes();
-  s.epochs = render_->epoch() + 1 + earlier_frontals_;
+  s.epochs = epochs();
   s.losses = losses_;
   s.resumed_tiles = resumed_tiles_;
   s.token_rounds = render_->token().round;

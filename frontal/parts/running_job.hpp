@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
 #include "frontal/parts/post.hpp"
@@ -48,9 +49,9 @@ struct JobFailure {
 
 class RunningJob {
  public:
-  /// `farm` must outlive the job.
+  /// `farm` and `log` must outlive the job.
   RunningJob(const FrontalOptions& farm, const QueuedJob& job, const Moment& now,
-             const CpuMeter& cpu);
+             const CpuMeter& cpu, FarmLog& log);
 
   std::uint32_t id() const { return info_.job; }
   JobStage stage() const { return stage_; }
@@ -131,7 +132,8 @@ class RunningJob {
   control::JobInfo info() const;
   control::JobInfo info_at(double now_s) const;
   control::Progress progress_at(double now_s) const;
-  Picture picture() const { return render_->film().develop(); }
+  /// The film, when the job is over.
+  Film take_film() { return render_->take_film(); }
   /// The statistics file; `failed`: why there is no picture, or empty.
   std::string statistics(double now_s, const CpuMeter& cpu, const std::string& failed) const;
 
@@ -141,6 +143,8 @@ class RunningJob {
   std::optional<JobFailure> go_on_without(Loss loss, const std::string& name, bool is_gone,
                                           Post& post);
   Sliding* sliding() { return is_rendering() ? render_->sliding() : nullptr; }
+  /// Epochs so far, those of earlier frontals too.
+  std::uint32_t epochs() const { return render_->epoch() + 1 + earlier_frontals_; }
   void hand_out(Rank rank, Post& post);
   /// What its records are of.
   RecordedPicture recorded_picture() const;
@@ -154,6 +158,7 @@ class RunningJob {
   };
 
   const FrontalOptions& farm_;
+  FarmLog& farm_log_;
   /// Digest of what was submitted.
   std::uint64_t content_;
   control::JobInfo info_;

@@ -14,6 +14,7 @@ void RunningJob::goes_on_after(std::uint32_t frontals) {
 }
 
 std::optional<JobFailure> RunningJob::lose(const NodeLoss& node, Post& post) {
+  if (!is_on_nodes()) farm_log_.node_is_lost(node.rank, node.name, node.how, node.noticed_s);
   if (stage_ == JobStage::kReporting) {
     render_->reports().will_not_come(node.rank);
     return std::nullopt;
@@ -48,17 +49,20 @@ std::optional<JobFailure> RunningJob::go_on_without(Loss loss, const std::string
   loss.tiles = damage.tiles;
   losses_.push_back(loss);
   if (render_->film_is_complete()) {
+    farm_log_.job_loses(id(), losses_.back(), name, is_gone, epochs());
     is_cut_short_ = true;
     if (is_gone) render_->reports().will_not_come(*rank);
     return std::nullopt;
   }
   if (!damage.culprit.empty()) {
+    farm_log_.job_loses(id(), losses_.back(), name, is_gone, epochs());
     return JobFailure{JobState::kFailed,
                       FailureCode::kFailed,
                       {{name, loss.why + "; that was loss " + std::to_string(losses_.size()) +
                                   " of the job, and each time " + damage.culprit}}};
   }
   render_->begin_next_epoch();
+  farm_log_.job_loses(id(), losses_.back(), name, is_gone, epochs());
   stage_ = JobStage::kBuilding;
   late_.clear();
   are_told_dealt_ = false;

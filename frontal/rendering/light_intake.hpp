@@ -40,6 +40,8 @@ class LightIntake {
   Taken take(std::span<const std::byte> batch, std::uint32_t epoch);
 
   const Film& film() const { return film_; }
+  /// The film, once nothing more is added.
+  Film take_film() { return std::move(film_); }
   const TileLedger& tiles() const { return ledger_; }
   /// The number of the epoch's batches that have come.
   std::uint64_t batches() const;

@@ -104,6 +104,8 @@ class RenderJob {
   /// well.
   std::string contradiction() const;
   const Film& film() const { return light_.film(); }
+  /// The film, when the job is over.
+  Film take_film() { return light_.take_film(); }
 
   NodeReports& reports() { return reports_; }
   const NodeReports& reports() const { return reports_; }

@@ -70,14 +70,23 @@ class DatabaseStore : public JobStore {
   }
   std::optional<KeyedJob> find_key(const std::string& key) override { return rows_.find_key(key); }
   void keep(const EndedJob& job, Picture picture) override {
-    // The picture comes first: a job without it would be rendered again, but not one that is done.
-    if (!picture.rgb.empty()) pictures_.keep(job.info.job, std::move(picture), job.info.scene);
     Transaction transaction(*database_);
     rows_.end(job);
     transaction.commit();
+    if (!picture.rgb.empty()) pictures_.hold(job.info.job, std::move(picture));
     forget_tiles(job.info.job);
   }
-  const Picture* picture(std::uint32_t job) override { return pictures_.find(job); }
+  const Picture* picture(std::uint32_t job) override { return pictures_.held(job); }
+  bool must_read(std::uint32_t job) const override {
+    return pictures_.held(job) == nullptr && pictures_.is_there(job);
+  }
+  void hold(std::uint32_t job, Picture picture) override {
+    pictures_.hold(job, std::move(picture));
+  }
+  void write_picture(const control::JobInfo& job, const Picture& picture) override {
+    pictures_.write(job.job, picture, job.scene);
+  }
+  std::optional<Picture> read_picture(std::uint32_t job) override { return pictures_.read(job); }
 
   std::vector<EndedJob> recover() override { return rows_.newest_ended(kMaxJobsListed, warn_); }
   std::vector<AcceptedJob> recover_accepted() override { return rows_.accepted(warn_); }

@@ -17,33 +17,37 @@ PictureFolder::PictureFolder(fs::path folder, bool is_durable, Warn warn)
 
 fs::path PictureFolder::file(std::uint32_t job) const { return job_file(folder_, job, ".exr"); }
 
-void PictureFolder::keep(std::uint32_t job, Picture picture, const std::string& scene) {
+void PictureFolder::write(std::uint32_t job, const Picture& picture,
+                          const std::string& scene) const {
   const fs::path unfinished = job_file(folder_, job, ".exr.part");
   write_exr(unfinished, picture, {scene, kVersion});
   put_in_place(unfinished, file(job), is_durable_);
-  last_job_ = job;
-  last_ = std::move(picture);
 }
 
-const Picture* PictureFolder::find(std::uint32_t job) {
-  if (job == last_job_) return &last_;
+void PictureFolder::hold(std::uint32_t job, Picture picture) {
+  held_job_ = job;
+  held_ = std::move(picture);
+}
+
+bool PictureFolder::is_there(std::uint32_t job) const {
   std::error_code error;
-  if (!fs::exists(file(job), error)) return nullptr;
+  return fs::exists(file(job), error);
+}
+
+std::optional<Picture> PictureFolder::read(std::uint32_t job) const {
+  if (!is_there(job)) return std::nullopt;
   try {
-    last_ = read_exr(file(job));
-    last_job_ = job;
-    return &last_;
+    return read_exr(file(job));
   } catch (const PictureError& e) {
-    last_job_ = 0;
     set_aside(folder_, file(job), e.what(), warn_);
-    return nullptr;
+    return std::nullopt;
   }
 }
 
 void PictureFolder::remove(std::uint32_t job) noexcept {
   std::error_code ignored;
   fs::remove(file(job), ignored);
-  if (job == last_job_) last_job_ = 0;
+  if (job == held_job_) held_job_ = 0;
 }
 
 }  // namespace graycube

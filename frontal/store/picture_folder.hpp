@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "film/film.hpp"
 #include "frontal/store/set_aside.hpp"
@@ -14,11 +16,18 @@ class PictureFolder {
   /// `is_durable`: pictures are on the disk before they count as kept.
   PictureFolder(std::filesystem::path folder, bool is_durable, Warn warn);
 
-  /// Throws std::runtime_error when the picture can't be kept. `scene` is the scene's name.
-  void keep(std::uint32_t job, Picture picture, const std::string& scene);
-  /// Null if there is none. A file that can't be read is set aside. Valid until the next call.
-  const Picture* find(std::uint32_t job);
+  /// Holds a picture in memory that was written or read, instead of the last one.
+  void hold(std::uint32_t job, Picture picture);
+  /// The picture that is held; null if it is of another job. Valid until the next call.
+  const Picture* held(std::uint32_t job) const { return job == held_job_ ? &held_ : nullptr; }
+  bool is_there(std::uint32_t job) const;
   void remove(std::uint32_t job) noexcept;
+
+  // Any thread may call these.
+  /// Throws std::runtime_error when the picture can't be written. `scene` is the scene's name.
+  void write(std::uint32_t job, const Picture& picture, const std::string& scene) const;
+  /// Nothing if there is none. A file that can't be read is set aside.
+  std::optional<Picture> read(std::uint32_t job) const;
 
  private:
   std::filesystem::path file(std::uint32_t job) const;
@@ -26,9 +35,9 @@ class PictureFolder {
   std::filesystem::path folder_;
   bool is_durable_;
   Warn warn_;
-  /// The picture that was kept or found last: clients ask for one in several parts.
-  std::uint32_t last_job_ = 0;
-  Picture last_;
+  /// Clients ask for a picture in several parts.
+  std::uint32_t held_job_ = 0;
+  Picture held_;
 };
 
 }  // namespace graycube

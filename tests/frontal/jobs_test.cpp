@@ -15,7 +15,8 @@ struct Farm {
   FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
   std::unique_ptr<JobStore> store = make_memory_store();
   Post post = post_of(2);
-  Jobs jobs{options, *store, post};
+  FarmLog log;
+  Jobs jobs{options, *store, post, log};
 
   std::uint32_t submit(control::JobOptions o = {}, const std::string& text = scene()) {
     const auto bytes = std::as_bytes(std::span(text));
@@ -180,7 +181,8 @@ TEST_CASE("numbers go on where an earlier frontal stopped") {
   } store;
   const FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
   Post post = post_of(2);
-  Jobs jobs(options, store, post);
+  FarmLog log;
+  Jobs jobs(options, store, post, log);
   CHECK(granted<control::Accepted>(jobs.submit({}, {})).job == 18);
   CHECK(refused(jobs.fetch({17, 0, 1, 0})) == FailureCode::kFailed);
 }

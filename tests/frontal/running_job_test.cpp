@@ -19,11 +19,12 @@ struct OnTwo {
   FrontalOptions farm{.cube = *Hypercube::of_size(kNodes), .version = "test"};
   CpuMeter cpu{[] { return 10.0; }, [] { return 4.0; }};
   Post post = post_of(kNodes);
+  FarmLog log;
   control::JobOptions options;
   RunningJob job;
 
   explicit OnTwo(control::JobOptions o = {})
-      : options(std::move(o)), job(farm, queued(options), {100, 5000}, cpu) {}
+      : options(std::move(o)), job(farm, queued(options), {100, 5000}, cpu, log) {}
 
   static QueuedJob queued(const control::JobOptions& options) {
     QueuedJob q;
@@ -133,6 +134,29 @@ TEST_CASE(
   CHECK(stats["phases"]["build_s"] == 2);
   CHECK(stats["phases"]["render_s"] == 2);
   CHECK(stats["wall_s"] == 20);
+}
+
+TEST_CASE("the log tells of the same losses as the statistics, and of the same epoch") {
+  OnTwo on;
+  on.prepare_as(Algorithm::kRoth);
+  on.start();
+  CHECK_FALSE(on.job.lose({Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.25}, on.post));
+  CHECK_FALSE(on.job.on_error(Rank{0}, {3, 1, "a batch was lost"}, on.post));
+  const auto stats = nlohmann::json::parse(on.job.statistics(110, on.cpu, {}));
+  const auto events = on.log.take();
+  REQUIRE(events.size() == 2);
+  REQUIRE(stats["losses"].size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(events[i].kind == FarmEvent::Kind::kNodeIsLost);
+    CHECK(events[i].job == 3);
+    REQUIRE(events[i].loss);
+    CHECK(stats["losses"][i]["rank"] == *events[i].loss->rank);
+    CHECK(stats["losses"][i]["why"] == events[i].loss->why);
+    CHECK(stats["losses"][i]["noticed_s"] == events[i].loss->noticed_s);
+    CHECK(stats["losses"][i]["tiles"] == events[i].loss->tiles);
+  }
+  CHECK(events[0].loss->tiles > 0);
+  CHECK(events[1].text.ends_with(" again, epoch " + stats["epochs"].dump()));
 }
 
 TEST_CASE(

@@ -49,3 +49,25 @@ TEST_CASE("a preparation that is stopped while it cuts the scene ends without a 
   stops = false;
   CHECK(prepare(work, [] { return 0.0; }).scene);
 }
+
+TEST_CASE("a preparation that is stopped while it reads the scene's text ends without a result") {
+  const std::string text = write_scene_text(RandomModel(3).scene());
+  // Both parsers, as the careful one reads what the fast one gives up at.
+  for (const std::string& scene : {text, text + "]"}) {
+    PreparationWork work;
+    const auto* bytes = reinterpret_cast<const std::byte*>(scene.data());
+    work.scene.assign(bytes, bytes + scene.size());
+    work.cube = *Hypercube::of_size(4);
+    std::atomic<bool> stops{false};
+    const Stoppable stoppable(stops);
+    int asked = 0;
+    CHECK_THROWS_AS(prepare(work,
+                            [&] {
+                              ++asked;
+                              stops = true;
+                              return 0.0;
+                            }),
+                    WorkStopped);
+    CHECK(asked == 1);
+  }
+}

@@ -139,6 +139,12 @@ TEST_CASE("at a TCP port the user's commands find the key, and nothing goes with
   Connection stranger(context, endpoint);
   stranger.send(Message::of_text(encode(control::Down{})));
   CHECK_FALSE(stranger.receive(500ms));
+  Connection guesser(context, endpoint, "a guess");
+  guesser.send(Message::of_text(encode(control::Down{})));
+  CHECK_FALSE(guesser.receive(500ms));
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  while (farm.up().err().find("without the farm's key") == std::string::npos)
+    REQUIRE(std::chrono::steady_clock::now() < until);
   ok(sandbox, {"down", "--connect", endpoint, "--key", moved});
   CHECK(farm.up().wait(10s).status == 0);
   CHECK(sandbox.temporary_files().empty());

@@ -210,7 +210,7 @@ TEST_CASE("a frontal that is killed is missed, and cleared away") {
 TEST_CASE("Ctrl-C stops a farm in order, while it works, too") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Sandbox sandbox;
-    Farm farm(sandbox);
+    Farm farm(sandbox, {"--quiet"});
     const std::string job = submit(sandbox, {first(), "--size", kLongSize});
     wait_for_state(sandbox, job, "rendering");
     farm.up().signal(signal);

@@ -98,7 +98,9 @@ TEST_CASE("a frontal that is killed is started again, and every job ends right")
   INFO("with --state: " << has_state);
   Sandbox sandbox;
   const std::string expected = serial(sandbox, kLongSize);
-  Farm farm(sandbox, has_state ? Arguments{"--state", "state"} : Arguments{});
+  Arguments options{"--log", "farm.log"};
+  if (has_state) options.insert(options.end(), {"--state", "state"});
+  Farm farm(sandbox, options);
   Running waiting = sandbox.start(
       {"submit", first(), "--size", kLongSize, "--wait", "-o", "a.exr", "--stats", "a.json"});
   waiting.wait_for("1\n");
@@ -126,6 +128,12 @@ TEST_CASE("a frontal that is killed is started again, and every job ends right")
   CHECK((file_bytes(sandbox / (second + ".exr")) == serial(sandbox, "48x32")));
   CHECK((file_bytes(sandbox / (third + ".exr")) == serial(sandbox, "32x48")));
   CHECK(submit(sandbox, "16x16") == "4");
+  const std::string log = file_bytes(sandbox / "farm.log");
+  INFO(log);
+  for (const char* told : {" farm: graycube-frontal: killed by signal 9; it is started again\n",
+                           " job 1: taken up again, \"first.json\"\n",
+                           " job 1: begins again, after 1 frontal that had begun it ended\n"})
+    CHECK(log.find(told) != std::string::npos);
   ok(sandbox, {"down"});
   CHECK(farm.up().wait(10s).status == 0);
   CHECK(sandbox.processes().empty());

@@ -52,11 +52,32 @@ void check_loss(const nlohmann::json& stats, std::size_t rank, const std::string
   CHECK(loss.at("noticed_s").get<double>() > 0);
 }
 
+/// The log tells of the losses that are in the statistics, and no others.
+void check_log(const std::string& log, const nlohmann::json& stats, pid_t lost) {
+  INFO(log);
+  std::vector<std::string> losses;
+  for (const std::string& line : lines_of(log)) {
+    if (line.find(" lost ") != std::string::npos) losses.push_back(line);
+  }
+  REQUIRE(losses.size() == stats.at("losses").size());
+  const nlohmann::json& loss = stats.at("losses").front();
+  const std::string said = " job 1: lost node " + std::to_string(loss.at("rank").get<int>()) +
+                           " (process " + std::to_string(lost) +
+                           "): " + loss.at("why").get<std::string>() + ", noticed after ";
+  CHECK(losses.front().find(said) != std::string::npos);
+  const int tiles = loss.at("tiles").get<int>();
+  CHECK(losses.front().ends_with("; " + std::to_string(tiles) + " tile" + (tiles == 1 ? "" : "s") +
+                                 " again, epoch " + std::to_string(stats.at("epochs").get<int>())));
+  for (const char* event : {" job 1: submitted, \"first.json\"", " job 1: begins",
+                            " has taken its place", " job 1: done after "})
+    CHECK(log.find(event) != std::string::npos);
+}
+
 void check_loss_leaves_picture(const std::string& algorithm, int signal, const std::string& why) {
   INFO(algorithm << ", " << why);
   Sandbox sandbox;
   const std::string expected = serial_bytes(sandbox);
-  Running up = sandbox.start({"up", "-n", "4"});
+  Running up = sandbox.start({"up", "-n", "4", "--log", "farm.log"});
   up.wait_for("graycube down");
   Running submitted = sandbox.start({"submit", first(), "--wait", "--size", kLongSize,
                                      "--algorithm", algorithm, "-o", "a.exr", "--stats", "s.json"});
@@ -70,6 +91,7 @@ void check_loss_leaves_picture(const std::string& algorithm, int signal, const s
   CHECK(file_bytes(sandbox / "a.exr") == expected);
   check_loss(nlohmann::json::parse(file_bytes(sandbox / "s.json")), 2, why);
   CHECK(pid_of_node(sandbox, 2) != lost);
+  check_log(file_bytes(sandbox / "farm.log"), sandbox.json("s.json"), lost);
   CHECK(sandbox.run({"down"}).status == 0);
   CHECK(up.wait(10s).status == 0);
   CHECK(sandbox.processes().empty());

@@ -53,7 +53,7 @@ WORLDLY = re.compile(
     r"(chrono|condition_variable|ctime|future|mutex|poll\.h|pthread\.h|semaphore|shared_mutex|"
     r"signal\.h|spawn\.h|stop_token|sys/.*|thread|time\.h|unistd\.h)$")
 # Those of our own that lead to such.
-WORLDLY_ROOMS = ("process/clocks", "process/spawn_plan", "transport/zmq")
+WORLDLY_ROOMS = ("process/clocks", "process/log_thread", "process/spawn_plan", "transport/zmq")
 # Folders that hold nothing worldly, and those of which only a brain's sources don't.
 UNWORLDLY = ("common/", "formats/", "proto/")
 BRAINS = {"node": "graycube_node_brain", "frontal": "graycube_frontal_brain"}
@@ -64,6 +64,10 @@ WORLDLY_FILES = {
     "common/process/descriptors.cpp": "asks the system for its limits",
     "common/process/accept.cpp": "stands in for a call of the system's",
     "common/process/clocks.hpp": "reads the system's clocks",
+    "common/process/log_file.cpp": "appends to a file that only its owner can read",
+    "common/process/log_line.cpp": "knows the clock on the wall",
+    "common/process/log_thread.cpp": "is a thread",
+    "common/process/log_thread.hpp": "is a thread",
     "common/process/spawn_plan.cpp": "starts processes",
     "common/process/spawn_plan.hpp": "starts processes",
     "common/trace/render_serial.cpp": "is a program's whole render, with threads and their clock",

@@ -48,6 +48,12 @@ Picture small_picture(float red) {
   return picture;
 }
 
+/// Keeps a job that is done, as a frontal does.
+void keep(JobStore& store, const EndedJob& job, const Picture& picture) {
+  store.write_picture(job.info, picture);
+  store.keep(job, picture);
+}
+
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
@@ -101,7 +107,7 @@ TEST_CASE("jobs that have not ended are there again, in order, with all that was
 TEST_CASE("a job that was submitted under a key is found by it, after it has ended, too") {
   Place place;
   place.open()->add(accepted(3, "abc"), bytes_of("text"));
-  place.open()->keep(ended(3), small_picture(1));
+  keep(*place.open(), ended(3), small_picture(1));
   const auto store = place.open();
   const auto found = store->find_key("abc");
   REQUIRE(found);
@@ -117,16 +123,22 @@ TEST_CASE("a done job is there again with its picture and statistics") {
     store->add(accepted(1), bytes_of("text"));
     EndedJob job = ended(1);
     job.stats_json = R"({"nodes":4})";
-    store->keep(job, small_picture(7));
+    keep(*store, job, small_picture(7));
   }
   const auto store = place.open();
   const auto jobs = store->recover();
   REQUIRE(jobs.size() == 1);
   CHECK(jobs[0].info == ended(1).info);
   CHECK(jobs[0].stats_json == R"({"nodes":4})");
+  REQUIRE(store->must_read(1));
+  CHECK(store->picture(1) == nullptr);
+  CHECK(store->read_picture(1) == small_picture(7));
+  store->hold(1, small_picture(7));
+  CHECK_FALSE(store->must_read(1));
   REQUIRE(store->picture(1) != nullptr);
   CHECK(*store->picture(1) == small_picture(7));
-  CHECK(store->picture(2) == nullptr);
+  CHECK_FALSE(store->must_read(2));
+  CHECK_FALSE(store->read_picture(2));
   CHECK(store->recover_accepted().empty());
 }
 
@@ -160,13 +172,13 @@ TEST_CASE("of ended jobs only the newest are kept if so wished, and no number is
   Place place;
   {
     const auto store = place.open({.jobs = 2});
-    for (std::uint32_t job = 1; job <= 4; ++job) store->keep(ended(job), small_picture(1));
+    for (std::uint32_t job = 1; job <= 4; ++job) keep(*store, ended(job), small_picture(1));
     store->add(accepted(5), {});
     CHECK(store->clear_old(kNow_s) == std::vector<std::uint32_t>{2, 1});
     CHECK(store->clear_old(kNow_s).empty());
     CHECK_FALSE(place.has("job-2.exr"));
     CHECK(place.has("job-3.exr"));
-    CHECK(store->picture(2) == nullptr);
+    CHECK_FALSE(store->must_read(2));
     CHECK(store->recover_accepted().size() == 1);
     store->keep(ended(5), {});
   }
@@ -252,10 +264,10 @@ TEST_CASE("records of tiles are there for the next frontal, in order, until thei
 
 TEST_CASE("a damaged picture is named and set aside") {
   Place place;
-  place.open()->keep(ended(1), small_picture(1));
+  keep(*place.open(), ended(1), small_picture(1));
   fs::resize_file(place.folder / "job-1.exr", 40);
   const auto store = place.open();
-  CHECK(store->picture(1) == nullptr);
+  CHECK_FALSE(store->read_picture(1));
   REQUIRE(place.said.size() == 1);
   CHECK(place.said[0].find("job-1.exr is damaged") != std::string::npos);
   CHECK(place.has("damaged/job-1.exr"));
@@ -285,7 +297,7 @@ TEST_CASE("a damaged database is set aside as a whole, and numbers go on beyond 
   Place place;
   {
     const auto store = place.open();
-    store->keep(ended(7), small_picture(1));
+    keep(*store, ended(7), small_picture(1));
     store->keep(ended(8), {});
   }
   const auto ruin =

@@ -28,7 +28,8 @@ struct Farm {
   FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test", .keeps_jobs = true};
   std::unique_ptr<JobStore> store;
   Post post = post_of(2);
-  Jobs jobs{options, *store, post};
+  FarmLog log;
+  Jobs jobs{options, *store, post, log};
 
   Answer try_submit(const std::string& key, std::uint32_t samples = 1,
                     const std::string& text = "{}") {
@@ -119,7 +120,8 @@ TEST_CASE("a store in memory knows keys, too") {
   const FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
   const auto store = make_memory_store();
   Post post = post_of(2);
-  Jobs jobs(options, *store, post);
+  FarmLog log;
+  Jobs jobs(options, *store, post, log);
   CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
   CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
   CHECK(granted<control::Accepted>(jobs.submit(request("b"), {})).job == 2);

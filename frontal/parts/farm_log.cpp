@@ -1,0 +1,165 @@
+#include "frontal/parts/farm_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+using Kind = FarmEvent::Kind;
+
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f s", seconds);
+  return text.data();
+}
+
+std::string count_text(std::uint64_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string cut(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // UTF-8
+  return text.substr(0, end) + "…";
+}
+
+/// Whatever a client calls its scene, the quotes tell where the name ends.
+std::string named(const std::string& scene) {
+  std::string name = cut(scene, kMaxNameLogged);
+  std::ranges::replace(name, '"', '\'');
+  return "\"" + name + "\"";
+}
+
+std::string shortened(const std::string& reason) { return cut(reason, kMaxReasonLogged); }
+
+std::string job_text(std::uint32_t job) { return "job " + std::to_string(job) + ": "; }
+
+}  // namespace
+
+void FarmLog::set_time(double unix_s) {
+  now_s_ = unix_s;
+  if (now_s_ - span_began_s_ < kRefusalSpan_s) return;
+  tell_untold();
+  span_began_s_ = now_s_;
+  refusals_ = 0;
+}
+
+void FarmLog::tell_untold() {
+  if (untold_ == 0) return;
+  const std::uint64_t count = std::exchange(untold_, 0);
+  note(Kind::kRefusal, 0, count_text(count, "more refusal") + " like the last ones").is_trouble =
+      true;
+}
+
+FarmEvent& FarmLog::note(Kind kind, std::uint32_t job, std::string text) {
+  if (events_.size() >= kMaxUntakenEvents) events_.pop_front();
+  FarmEvent event;
+  event.kind = kind;
+  event.unix_s = now_s_;
+  event.job = job;
+  event.text = std::move(text);
+  events_.push_back(std::move(event));
+  return events_.back();
+}
+
+std::vector<FarmEvent> FarmLog::take() {
+  std::vector<FarmEvent> events(std::make_move_iterator(events_.begin()),
+                                std::make_move_iterator(events_.end()));
+  events_.clear();
+  return events;
+}
+
+// ---- the farm and its nodes
+
+void FarmLog::farm_is_up(std::uint32_t nodes, const std::string& endpoint) {
+  if (std::exchange(is_up_, true)) return;
+  note(Kind::kFarmIsUp, 0, "farm: up with " + count_text(nodes, "node") + " at " + endpoint);
+}
+
+void FarmLog::farm_goes_down(const std::string& why) {
+  note(Kind::kFarmGoesDown, 0, "farm: goes down" + (why.empty() ? "" : ": " + shortened(why)))
+      .is_trouble = !why.empty();
+}
+
+void FarmLog::node_is_lost(Rank rank, const std::string& name, const std::string& how,
+                           double noticed_s) {
+  lost_ranks_.insert(rank.value);
+  note(Kind::kNodeIsLost, 0,
+       "lost " + name + ": " + shortened(how) + ", noticed after " + seconds_text(noticed_s))
+      .is_trouble = true;
+}
+
+void FarmLog::job_loses(std::uint32_t job, const Loss& loss, const std::string& name, bool is_gone,
+                        std::uint32_t epochs) {
+  if (loss.rank && is_gone) lost_ranks_.insert(*loss.rank);
+  std::string text = job_text(job) + (is_gone ? "lost " : "") + name + ": " + shortened(loss.why);
+  if (is_gone) text += ", noticed after " + seconds_text(loss.noticed_s);
+  text += "; " + count_text(loss.tiles, "tile") + " again, epoch " + std::to_string(epochs);
+  FarmEvent& event = note(Kind::kNodeIsLost, job, std::move(text));
+  event.is_trouble = true;
+  event.loss = loss;
+}
+
+void FarmLog::node_is_here(Rank rank, std::uint64_t pid) {
+  if (lost_ranks_.erase(rank.value) == 0) return;
+  note(Kind::kNodeIsBack, 0,
+       "node " + std::to_string(rank.value) + ": process " + std::to_string(pid) +
+           " has taken its place");
+}
+
+// ---- jobs
+
+void FarmLog::job_is_accepted(const control::JobInfo& job, bool is_recovered) {
+  note(Kind::kJobAccepted, job.job,
+       job_text(job.job) + (is_recovered ? "taken up again, " : "submitted, ") + named(job.scene));
+}
+
+void FarmLog::job_begins(const control::JobInfo& job, std::uint32_t frontals) {
+  note(Kind::kJobBegins, job.job,
+       job_text(job.job) + "begins" +
+           (frontals == 0
+                ? ""
+                : " again, after " + count_text(frontals, "frontal") + " that had begun it ended"));
+}
+
+void FarmLog::job_stands(std::uint32_t job, const std::string& waits_for) {
+  note(Kind::kJobStands, job, job_text(job) + "doesn't get on: waits for " + waits_for).is_trouble =
+      true;
+}
+
+void FarmLog::job_ends(const control::JobInfo& job) {
+  std::string text = job_text(job.job) + std::string(to_string(job.state));
+  if (job.started_s && job.finished_s)
+    text += " after " + seconds_text(*job.finished_s - *job.started_s);
+  if (job.state != JobState::kDone && !job.message.empty()) text += ": " + shortened(job.message);
+  note(Kind::kJobEnds, job.job, std::move(text)).is_trouble = job.state == JobState::kFailed;
+}
+
+// ---- refusals
+
+void FarmLog::refuse(std::string text) {
+  if (++refusals_ > kMaxRefusalsTold) {
+    ++untold_;
+    return;
+  }
+  note(Kind::kRefusal, 0, std::move(text)).is_trouble = true;
+}
+
+void FarmLog::submission_is_refused(const std::string& scene, const std::string& why) {
+  refuse("refused: a submission of " + named(scene) + ": " + shortened(why));
+}
+
+void FarmLog::hello_is_refused(std::uint32_t rank, const std::string& why) {
+  refuse("refused: a hello for node " + std::to_string(rank) + ": " + why);
+}
+
+void FarmLog::strangers_are_refused(std::uint64_t clients) {
+  refuse("refused: " + count_text(clients, "connection") + " without the farm's key");
+}
+
+}  // namespace graycube

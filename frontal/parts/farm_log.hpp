@@ -1,0 +1,97 @@
+// What happens on a farm, for those who run it: nodes, jobs, losses and refusals, each as an event
+// with a time and a text. The process writes them out; a brain has no file.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "proto/messages.hpp"
+#include "proto/statistics.hpp"
+#include "topology/rank.hpp"
+
+namespace graycube {
+
+struct FarmEvent {
+  enum class Kind : std::uint8_t {
+    kFarmIsUp,  ///< the first time that all nodes are here
+    kFarmGoesDown,
+    kNodeIsLost,
+    kNodeIsBack,  ///< another process has taken a lost node's place
+    kJobAccepted,
+    kJobBegins,
+    kJobStands,  ///< a job hasn't got on for a while
+    kJobEnds,
+    kRefusal,  ///< of a submission, or of somebody who doesn't belong here
+  };
+  Kind kind{};
+  /// Something that went wrong.
+  bool is_trouble = false;
+  double unix_s = 0;
+  /// 0 where it is about none.
+  std::uint32_t job = 0;
+  /// For people. It may quote what clients and nodes have sent: whoever prints it must escape it.
+  std::string text;
+  /// Of a node's loss in a job: what the job's statistics tell of it.
+  std::optional<Loss> loss;
+};
+
+/// Events that nobody takes: the oldest are dropped beyond so many.
+inline constexpr std::size_t kMaxUntakenEvents = 1000;
+/// Refusals that are told in a span of so many seconds; of further ones only the number is.
+inline constexpr unsigned kMaxRefusalsTold = 20;
+inline constexpr double kRefusalSpan_s = 60;
+/// The most bytes of a scene's name, and of a reason, in a text.
+inline constexpr std::size_t kMaxNameLogged = 200, kMaxReasonLogged = 600;
+
+class FarmLog {
+ public:
+  explicit FarmLog(double now_s = 0) : now_s_(now_s) {}
+  /// Sets the time of what is told next (Unix time).
+  void set_time(double unix_s);
+
+  void farm_is_up(std::uint32_t nodes, const std::string& endpoint);
+  void farm_goes_down(const std::string& why);
+  /// A node that no job misses is lost.
+  void node_is_lost(Rank rank, const std::string& name, const std::string& how, double noticed_s);
+  /// A job loses a node that is gone, or messages. `name` tells who is gone, or who has missed
+  /// them; `epochs` counts those of the job.
+  void job_loses(std::uint32_t job, const Loss& loss, const std::string& name, bool is_gone,
+                 std::uint32_t epochs);
+  /// A node's process has said hello. It is told if it takes the place of a lost one.
+  void node_is_here(Rank rank, std::uint64_t pid);
+
+  /// `is_recovered`: an earlier frontal had accepted it.
+  void job_is_accepted(const control::JobInfo& job, bool is_recovered);
+  /// `frontals` have begun it before, and have ended.
+  void job_begins(const control::JobInfo& job, std::uint32_t frontals);
+  void job_stands(std::uint32_t job, const std::string& waits_for);
+  void job_ends(const control::JobInfo& job);
+
+  void submission_is_refused(const std::string& scene, const std::string& why);
+  /// A process that said it was a node.
+  void hello_is_refused(std::uint32_t rank, const std::string& why);
+  /// Clients that did not show the farm's key.
+  void strangers_are_refused(std::uint64_t clients);
+
+  std::vector<FarmEvent> take();
+
+ private:
+  FarmEvent& note(FarmEvent::Kind kind, std::uint32_t job, std::string text);
+  void refuse(std::string text);
+  void tell_untold();
+
+  double now_s_;
+  std::deque<FarmEvent> events_;
+  std::set<std::uint32_t> lost_ranks_;
+  bool is_up_ = false;
+  /// Since when refusals are counted, how many came since, and how many of them weren't told.
+  double span_began_s_ = 0;
+  unsigned refusals_ = 0;
+  std::uint64_t untold_ = 0;
+};
+
+}  // namespace graycube

@@ -1,0 +1,121 @@
+// What a farm tells of what happens on it.
+#include "frontal/parts/farm_log.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "formats/graycube/write_scene.hpp"
+#include "frontal/jobs.hpp"
+#include "frontal/sent_post.hpp"
+#include "trace/corner_scene.hpp"
+
+using namespace graycube;
+using namespace graycube::testing;
+
+namespace {
+
+using Kind = FarmEvent::Kind;
+
+struct Farm {
+  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
+  std::unique_ptr<JobStore> store = make_memory_store();
+  Post post = post_of(2);
+  FarmLog log;
+  Jobs jobs{options, *store, post, log};
+
+  Answer submit(const std::string& name = "a scene", control::JobOptions o = {}) {
+    const std::string text = write_scene_text(corner_scene());
+    return jobs.submit({name, o}, std::as_bytes(std::span(text)));
+  }
+  void load_next() {
+    auto work = jobs.take_work();
+    REQUIRE(work);
+    jobs.give_result(prepare(*work, [] { return 0.0; }));
+    if (jobs.waits_to_be_loaded()) jobs.load();
+  }
+  std::vector<std::string> told() {
+    std::vector<std::string> texts;
+    for (const FarmEvent& e : log.take()) texts.push_back(e.text);
+    return texts;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a job's way is told: accepted, begun, what it lost, and how it ended") {
+  Farm farm;
+  farm.jobs.set_time({10, 1000});
+  farm.submit();
+  farm.load_next();
+  farm.jobs.node_was_lost({Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.14});
+  farm.jobs.set_time({12.5, 1002.5});
+  farm.jobs.cancel(1);
+  CHECK(farm.told() == std::vector<std::string>{
+                           "job 1: submitted, \"a scene\"", "job 1: begins",
+                           "job 1: lost node 1 (process 77): killed by signal 9, noticed after "
+                           "0.1 s; 0 tiles again, epoch 2",
+                           "job 1: cancelled after 2.5 s: cancelled"});
+  // A node that no job misses is told of, too, and so is the process that takes its place.
+  farm.jobs.node_was_lost({Rank{0}, "node 0", "ended with status 1", 0});
+  for (const std::uint32_t rank : {0u, 1u, 0u}) farm.log.node_is_here(Rank{rank}, 90 + rank);
+  CHECK(farm.told() ==
+        std::vector<std::string>{"lost node 0: ended with status 1, noticed after 0.0 s",
+                                 "node 0: process 90 has taken its place",
+                                 "node 1: process 91 has taken its place"});
+}
+
+TEST_CASE("submissions that are refused are told of with the reason") {
+  Farm farm;
+  control::JobOptions serial;
+  serial.algorithm = Algorithm::kSerial;
+  CHECK(refused(farm.submit("a \"scene\"", serial)) == FailureCode::kBadRequest);
+  CHECK(farm.told() == std::vector<std::string>{
+                           "refused: a submission of \"a 'scene'\": --algorithm: serial runs in "
+                           "the command itself, without a farm"});
+}
+
+TEST_CASE("of refusals that come fast only the number is told") {
+  FarmLog log;
+  log.set_time(1000);
+  for (unsigned i = 0; i < kMaxRefusalsTold + 5; ++i) log.hello_is_refused(3, "no secret");
+  CHECK(log.take().size() == kMaxRefusalsTold);
+  log.set_time(1000 + kRefusalSpan_s);
+  const auto later = log.take();
+  REQUIRE(later.size() == 1);
+  CHECK(later.front().text == "5 more refusals like the last ones");
+  log.strangers_are_refused(2);
+  CHECK(log.take().front().text == "refused: 2 connections without the farm's key");
+}
+
+TEST_CASE("events that nobody takes are dropped, the oldest first, and long names are cut") {
+  FarmLog log;
+  control::JobInfo job;
+  job.scene = std::string(kMaxNameLogged - 1, 'x') + "äy";
+  for (job.job = 1; job.job <= kMaxUntakenEvents + 7; ++job.job) log.job_is_accepted(job, false);
+  const auto events = log.take();
+  REQUIRE(events.size() == kMaxUntakenEvents);
+  CHECK(events.front().job == 8);
+  CHECK(events.front().text ==
+        "job 8: submitted, \"" + job.scene.substr(0, kMaxNameLogged - 1) + "…\"");
+}
+
+TEST_CASE("a job that doesn't get on is told of now and then, with what it waits for") {
+  Farm farm;
+  farm.jobs.set_time({100, 1000});
+  farm.submit();
+  farm.jobs.take_work();
+  farm.jobs.check_time();
+  farm.told();
+  std::vector<double> told_at_s;
+  for (double now_s = 100; now_s <= 400; now_s += 1) {
+    farm.jobs.set_time({now_s, 900 + now_s});
+    farm.jobs.check_time();
+    for (const FarmEvent& e : farm.log.take()) {
+      CHECK(e.kind == Kind::kJobStands);
+      CHECK(e.text.starts_with("job 1: doesn't get on: waits for its scene to be read and cut"));
+      told_at_s.push_back(now_s - 100);
+    }
+  }
+  CHECK(told_at_s == std::vector<double>{30, 60, 120, 240});
+}
