@@ -38,7 +38,7 @@ int fail(const std::string& what, const std::string& where, const std::string& w
 }
 
 /// An error of a node ends the whole process, whichever of its nodes it is.
-void end_process(Rank rank, const std::string& why) {
+[[noreturn]] void end_process(Rank rank, const std::string& why) {
   ::_exit(fail("node " + std::to_string(rank.value), "transport", why, 1));
 }
 
