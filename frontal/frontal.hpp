@@ -23,6 +23,8 @@ class Frontal {
   using Outgoing = Post::Outgoing;
   /// A process that is to be started or ended.
   using Process = NodeRegistry::Process;
+  /// A process that becomes another node, too.
+  using Hosting = NodeRegistry::Hosting;
 
   /// The store must outlive the frontal.
   Frontal(FrontalOptions options, JobStore& store);
@@ -37,6 +39,8 @@ class Frontal {
   void on_message(const PeerId& peer, const MessageView& message);
   /// A node's process has ended; `how` for people ("killed by signal 9").
   void on_node_exit(const Process& process, const std::string& how);
+  /// A process that was to be started can't be; `why` for people.
+  void on_start_failure(const Process& process, const std::string& why);
 
   /// Preparing the next job, if there is one to prepare.
   std::optional<PreparationWork> take_work() {
@@ -57,6 +61,8 @@ class Frontal {
   std::vector<Process> take_starts() { return nodes_.take_starts(); }
   /// Silent nodes, whose processes are to be ended.
   std::vector<Process> take_kills() { return nodes_.take_kills(); }
+  /// Nodes that end when their hosts' processes do, which have been told of them.
+  std::vector<Hosting> take_hostings() { return nodes_.take_hostings(); }
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.
   bool is_going_down() const { return is_going_down_; }
   bool all_nodes_left() const { return nodes_.all_left(); }
@@ -74,6 +80,7 @@ class Frontal {
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
+  bool finds_host(Rank rank, const std::string& why);
   void look_for_standstills();
   void get_on();
 

@@ -5,10 +5,14 @@
 
 namespace graycube {
 
-void Jobs::node_was_lost(const NodeLoss& node) {
+void Jobs::nodes_were_lost(const std::vector<NodeLoss>& nodes) {
   if (!running_) return;
-  if (auto failure = running_->lose(node, post_)) return fail(*std::move(failure));
+  if (auto failure = running_->lose(nodes, post_)) return fail(*std::move(failure));
   if (running_->is_loaded()) finish_when_complete();
+}
+
+void Jobs::node_has_host(const NodeLoss& node) {
+  if (running_) running_->note_guest(node);
 }
 
 void Jobs::look_for_lost_messages() {

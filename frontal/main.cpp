@@ -71,6 +71,15 @@ bool can_run(std::uint64_t pid) {
   return state == 'R' || state == 'S' || state == 'D';
 }
 
+/// Tells the daemon's terminal. A private farm's command has its own, where such lines would be of
+/// no use.
+std::function<void(const std::string&)> teller(const FrontalArguments& a) {
+  if (a.is_private) return [](const std::string&) {};
+  return [](const std::string& sentence) {
+    std::fprintf(stderr, "graycube-frontal: %s\n", sentence.c_str());
+  };
+}
+
 /// A descriptor of the signals that ask for the end, and of SIGCHLD, which wakes the loop.
 int signal_descriptor() {
   sigset_t set;
@@ -95,6 +104,7 @@ class FrontalProcess {
                   .start_patience_s = start_patience_s(a.nodes),
                   .is_only_slow = can_run,
                   .standstill_s = standstill_s(silence_of(a)),
+                  .tell = teller(a),
                   .retries = a.retries,
                   .version = kVersion,
                   .limits = a.limits,
@@ -161,7 +171,9 @@ class FrontalProcess {
   void take_events() {
     take_signals();
     for (const NodeExit& e : processes_.reap()) {
-      frontal_.on_node_exit({e.rank, e.incarnation}, e.how);
+      const Frontal::Process process{e.node.rank, e.node.incarnation};
+      e.was_started ? frontal_.on_node_exit(process, e.how)
+                    : frontal_.on_start_failure(process, e.how);
     }
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
@@ -204,12 +216,14 @@ class FrontalProcess {
 
   void flush() {
     for (Frontal::Outgoing& o : frontal_.take_outgoing()) send(o);
-    for (const Frontal::Process& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
+    for (const Frontal::Process& k : frontal_.take_kills()) processes_.end({k.rank, k.incarnation});
     if (frontal_.is_going_down()) return;
     std::vector<NodeStart> starts;
     for (const Frontal::Process& s : frontal_.take_starts())
       starts.push_back({s.rank, s.incarnation});
     processes_.start(starts, doors_.for_nodes(), this_moment().now_s);
+    for (const auto& [guest, host] : frontal_.take_hostings())
+      processes_.host({guest.rank, guest.incarnation}, {host.rank, host.incarnation});
   }
 
   int signals_;

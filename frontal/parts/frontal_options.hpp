@@ -28,6 +28,8 @@ struct FrontalOptions {
   /// A node that answers, but has been at the same pieces of work for so many seconds, is taken for
   /// dead.
   double standstill_s = 300;
+  /// Called with what whoever runs the farm should know, a sentence without its end.
+  std::function<void(const std::string&)> tell = [](const std::string&) {};
   /// Losses at which a tile may be under way before the job fails.
   std::uint32_t retries = kDefaultRetries;
   std::string version;
