@@ -122,17 +122,48 @@ void Frontal::on_node_exit(const Process& process, const std::string& how) {
   if (!is_going_down_) lose(process.rank, how);
 }
 
-/// A new process takes the node's place, and the running job goes on in another epoch.
+void Frontal::on_start_failure(const Process& process, const std::string& why) {
+  if (!nodes_.is_current(process)) return;
+  if (is_going_down_) return nodes_.has_left(process.rank);
+  if (!finds_host(process.rank, why)) lose(process.rank, "can't be started: " + why);
+}
+
+/// New processes take the places of all nodes of a process that is lost, and the running job goes
+/// on in another epoch.
 void Frontal::lose(Rank rank, const std::string& how) {
-  const NodeRegistry::Lost lost = nodes_.lose(rank, now_s_);
-  if (lost.is_hopeless) {
-    fatal_error_ = lost.name + ": can't be started: " + how;
+  std::vector<NodeLoss> losses;
+  bool is_hopeless = false;
+  for (const Rank r : nodes_.in_process_of(rank)) {
+    const NodeRegistry::Lost lost = nodes_.lose(r, now_s_);
+    losses.push_back({r, lost.name, how, lost.silent_s});
+    post_.set_node(r, {});
+    is_hopeless = is_hopeless || lost.is_hopeless;
+  }
+  // Such a node is alone: a guest's loss isn't hopeless.
+  if (is_hopeless && !finds_host(rank, how)) {
+    fatal_error_ = losses.front().name + ": " + how + "; its process couldn't be started " +
+                   std::to_string(kMaxFailedStarts) + " times in a row";
     return go_down();
   }
-  post_.set_node(rank, {});
-  nodes_.start(rank, now_s_);
-  in_job(jobs_, [&] { jobs_.node_was_lost({rank, lost.name, how, lost.silent_s}); });
+  for (const NodeLoss& loss : losses) {
+    if (!is_hopeless) nodes_.start(loss.rank, now_s_);
+  }
+  in_job(jobs_, [&] { jobs_.nodes_were_lost(losses); });
   get_on();
+}
+
+/// Gives the node, for which no process can be started, a place in another's, if there is one.
+bool Frontal::finds_host(Rank rank, const std::string& why) {
+  const auto hosting = nodes_.host(rank, now_s_);
+  if (!hosting) return false;
+  const auto& [guest, host] = *hosting;
+  post_.to_node(host.rank, control::Host{rank.value, guest.incarnation});
+  const std::string name = "node " + std::to_string(rank.value);
+  const std::string what = "can't be started (" + why + "): it runs in node " +
+                           std::to_string(host.rank.value) + "'s process";
+  log_.node_has_host(name, what);
+  in_job(jobs_, [&] { jobs_.node_has_host({rank, name, what, 0}); });
+  return true;
 }
 
 void Frontal::give_result(PreparationResult result) {

@@ -27,6 +27,8 @@ class Frontal {
   using Outgoing = Post::Outgoing;
   /// A process that is to be started or ended.
   using Process = NodeRegistry::Process;
+  /// A process that becomes another node, too.
+  using Hosting = NodeRegistry::Hosting;
 
   /// The store must outlive the frontal.
   Frontal(FrontalOptions options, JobStore& store);
@@ -41,6 +43,8 @@ class Frontal {
   void on_message(const PeerId& peer, const MessageView& message);
   /// A node's process has ended; `how` for people ("killed by signal 9").
   void on_node_exit(const Process& process, const std::string& how);
+  /// A process that was to be started can't be; `why` for people.
+  void on_start_failure(const Process& process, const std::string& why);
 
   /// Preparing the next job, if there is one to prepare.
   std::optional<PreparationWork> take_work() {
@@ -74,6 +78,8 @@ class Frontal {
   std::vector<FarmEvent> take_events() { return log_.take(); }
   /// So many clients were turned away, since they did not show the farm's key.
   void turned_away(std::uint64_t clients) { log_.strangers_are_refused(clients); }
+  /// Nodes that end when their hosts' processes do, which have been told of them.
+  std::vector<Hosting> take_hostings() { return nodes_.take_hostings(); }
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.
   bool is_going_down() const { return is_going_down_; }
   bool all_nodes_left() const { return nodes_.all_left(); }
@@ -92,6 +98,7 @@ class Frontal {
   Answer submit(const control::Submit& m, std::span<const std::byte> scene);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
+  bool finds_host(Rank rank, const std::string& why);
   void look_for_standstills();
   void get_on();
 

@@ -99,8 +99,10 @@ class Jobs {
   }
   /// The job that is on begins another epoch if its nodes wait for what never comes.
   void look_for_lost_messages();
-  /// Tells that a node is lost: a job that it had goes on in another epoch.
-  void node_was_lost(const NodeLoss& node);
+  /// Tells that the nodes of a process are lost: a job that they had goes on in another epoch.
+  void nodes_were_lost(const std::vector<NodeLoss>& nodes);
+  /// Tells that a lost node has got a place in another one's process.
+  void node_has_host(const NodeLoss& node);
   /// Stops every job, as the farm stops: cancels them, or leaves them to the next frontal.
   void stop();
 

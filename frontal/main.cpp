@@ -167,7 +167,9 @@ class FrontalProcess {
   void take_events() {
     take_signals();
     for (const NodeExit& e : processes_.reap()) {
-      frontal_.on_node_exit({e.rank, e.incarnation}, e.how);
+      const Frontal::Process process{e.node.rank, e.node.incarnation};
+      e.was_started ? frontal_.on_node_exit(process, e.how)
+                    : frontal_.on_start_failure(process, e.how);
     }
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
@@ -225,12 +227,14 @@ class FrontalProcess {
     for (const FarmEvent& e : frontal_.take_events())
       log_.write(e.unix_s, e.text, shows_all_ || (shows_trouble_ && e.is_trouble));
     for (Frontal::Outgoing& o : frontal_.take_outgoing()) send(o);
-    for (const Frontal::Process& k : frontal_.take_kills()) processes_.end(k.rank, k.incarnation);
+    for (const Frontal::Process& k : frontal_.take_kills()) processes_.end({k.rank, k.incarnation});
     if (frontal_.is_going_down()) return;
     std::vector<NodeStart> starts;
     for (const Frontal::Process& s : frontal_.take_starts())
       starts.push_back({s.rank, s.incarnation});
     processes_.start(starts, doors_.for_nodes(), this_moment().now_s);
+    for (const auto& [guest, host] : frontal_.take_hostings())
+      processes_.host({guest.rank, guest.incarnation}, {host.rank, host.incarnation});
   }
 
   int signals_;

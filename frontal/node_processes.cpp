@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <sstream>
@@ -135,7 +136,7 @@ void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& f
   }
   for (Waiting& w : waiting_) {
     if (++w.tries < kStartTries) continue;
-    not_started_.push_back({w.node.rank, w.node.incarnation, "can't be started: " + why});
+    without_process_.push_back({w.node, why, false});
   }
   std::erase_if(waiting_, [](const Waiting& w) { return w.tries >= kStartTries; });
 }
@@ -153,21 +154,31 @@ void NodeProcesses::start_waiting(const std::string& frontal, std::string& why) 
   std::istringstream pids(output_of(command, secret_, start_cpu_s_));
   std::size_t started = 0;
   for (pid_t pid = 0; started < waiting_.size() && pids >> pid; ++started)
-    running_[pid] = waiting_[started].node;
+    running_[pid] = {waiting_[started].node};
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(started));
   pids.clear();
   std::getline(pids >> std::ws, why);
   if (why.empty()) why = program_.string() + " ended";
 }
 
-void NodeProcesses::end(Rank rank, std::uint32_t incarnation) {
-  for (const auto& [pid, child] : running_) {
-    if (child.rank == rank && child.incarnation == incarnation) ::kill(pid, SIGKILL);
-  }
+std::map<pid_t, NodeProcesses::Nodes>::iterator NodeProcesses::process_of(const NodeStart& node) {
+  return std::ranges::find_if(
+      running_, [&](const auto& process) { return std::ranges::count(process.second, node) > 0; });
+}
+
+void NodeProcesses::host(const NodeStart& guest, const NodeStart& host) {
+  const auto process = process_of(host);
+  if (process != running_.end()) return process->second.push_back(guest);
+  without_process_.push_back({guest, "its host has ended"});
+}
+
+void NodeProcesses::end(const NodeStart& node) {
+  const auto process = process_of(node);
+  if (process != running_.end()) ::kill(process->first, SIGKILL);
 }
 
 std::vector<NodeExit> NodeProcesses::reap() {
-  std::vector<NodeExit> exits = std::exchange(not_started_, {});
+  std::vector<NodeExit> exits = std::exchange(without_process_, {});
   for (;;) {
     // Nodes are the only children here. If each were asked for by its id, every message would cost
     // as many calls as there are nodes.
@@ -176,7 +187,7 @@ std::vector<NodeExit> NodeProcesses::reap() {
     if (pid <= 0) return exits;
     const auto child = running_.find(pid);
     if (child == running_.end()) continue;
-    exits.push_back({child->second.rank, child->second.incarnation, how_it_ended(status)});
+    for (const NodeStart& node : child->second) exits.push_back({node, how_it_ended(status)});
     running_.erase(child);
   }
 }

@@ -15,16 +15,18 @@
 
 namespace graycube {
 
+/// A node, with the number of its start.
 struct NodeStart {
   Rank rank;
   std::uint32_t incarnation;
+  friend bool operator==(const NodeStart&, const NodeStart&) = default;
 };
 
 struct NodeExit {
-  Rank rank;
-  std::uint32_t incarnation;
-  /// For people: "killed by signal 9", "exited with status 1".
+  NodeStart node;
+  /// For people: "killed by signal 9", "exited with status 1"; or why it can't be started.
   std::string how;
+  bool was_started = true;
 };
 
 class NodeProcesses {
@@ -39,30 +41,37 @@ class NodeProcesses {
 
   /// All of them are forked from one process, which has been loaded and linked once and then ends.
   /// Those that the system has no descriptors, processes or memory for are tried again by later
-  /// calls, which may have no new nodes; those that it never has any for count as exits.
+  /// calls, which may have no new nodes; reap() tells of those that it never has any for.
   void start(std::span<const NodeStart> nodes, const std::string& frontal, double now_s);
-  void end(Rank rank, std::uint32_t incarnation);
-  /// The children that have ended, or couldn't be started, since the last call.
+  /// The process of `host` is `guest`, too, from now on.
+  void host(const NodeStart& guest, const NodeStart& host);
+  /// Kills the node's process.
+  void end(const NodeStart& node);
+  /// The nodes whose processes have ended, or couldn't be started, since the last call.
   std::vector<NodeExit> reap();
   bool empty() const { return running_.empty(); }
   /// CPU time that starting took in processes that are no nodes.
   double start_cpu_s() const { return start_cpu_s_; }
 
  private:
+  using Nodes = std::vector<NodeStart>;
+  std::map<pid_t, Nodes>::iterator process_of(const NodeStart& node);
   void start_waiting(const std::string& frontal, std::string& why);
 
   std::filesystem::path program_, folder_;
   Secret secret_;
   std::uint32_t threads_;
   double start_cpu_s_ = 0;
-  std::map<pid_t, NodeStart> running_;
+  /// The nodes of each process: one, and those that it hosts.
+  std::map<pid_t, Nodes> running_;
   struct Waiting {
     NodeStart node;
     unsigned tries = 0;
   };
   std::vector<Waiting> waiting_;
   double next_try_s_ = 0;
-  std::vector<NodeExit> not_started_;
+  /// What the next reap() tells of nodes that have no process.
+  std::vector<NodeExit> without_process_;
 };
 
 }  // namespace graycube

@@ -15,7 +15,8 @@ constexpr std::size_t kHeapOfRendering = std::size_t{1} << 20;
 
 }  // namespace
 
-EvaluatorPool::EvaluatorPool(Node& node, Wakeup& mailroom) : node_(node), mailroom_(mailroom) {
+EvaluatorPool::EvaluatorPool(Node& node, Wakeup& mailroom, bool is_guest)
+    : node_(node), mailroom_(mailroom), is_guest_(is_guest) {
   node_.measure = [this](control::NodeStats& stats) { measure(stats); };
 }
 
@@ -89,10 +90,7 @@ void EvaluatorPool::work(unsigned index) {
 /// Fills in the times since the last report, so that each job of a daemon has its own.
 void EvaluatorPool::measure(control::NodeStats& stats) {
   clock_.update(WaitClock::Time::clock::now(), node_.wait_reason(), waiting_, false);
-  const double cpu_s = process_cpu_seconds();
-  stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
-  stats.start_cpu_s = start_cpu_s_.value_or(0);
-  start_cpu_s_ = 0;
+  if (!is_guest_) measure_process(stats);
   stats.busy_s = std::exchange(busy_s_, 0);
   if (last_primary_) {
     const auto since = WaitClock::Time::clock::now() - *last_primary_;
@@ -104,6 +102,14 @@ void EvaluatorPool::measure(control::NodeStats& stats) {
   stats.window_s = clock_.seconds(WaitReason::kWindow);
   stats.fifo_wait_s = clock_.seconds(WaitReason::kFetching);
   clock_.reset();
+}
+
+/// What the process has used, with all nodes that it hosts.
+void EvaluatorPool::measure_process(control::NodeStats& stats) {
+  const double cpu_s = process_cpu_seconds();
+  stats.cpu_s = cpu_s - std::exchange(cpu_reported_s_, cpu_s);
+  stats.start_cpu_s = start_cpu_s_.value_or(0);
+  start_cpu_s_ = 0;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   stats.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;

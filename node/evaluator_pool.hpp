@@ -17,7 +17,9 @@ namespace graycube {
 
 class EvaluatorPool {
  public:
-  EvaluatorPool(Node& node, Wakeup& mailroom);
+  /// `is_guest`: the process was started for another node, whose pool reports what CPU time and
+  /// memory the whole process takes, so that nothing is counted twice.
+  EvaluatorPool(Node& node, Wakeup& mailroom, bool is_guest);
   /// Ends all threads; work under way is finished first.
   ~EvaluatorPool();
 
@@ -38,9 +40,11 @@ class EvaluatorPool {
   void after_change();
   void grow(unsigned threads);
   void measure(control::NodeStats& stats);
+  void measure_process(control::NodeStats& stats);
 
   Node& node_;
   Wakeup& mailroom_;
+  bool is_guest_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::thread> threads_;

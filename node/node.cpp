@@ -64,6 +64,7 @@ void Node::on_control(const Message& message) {
                    to_rendering(m, [&](Rendering& r) { r.on_all_whole(mail_); });
                  },
                  [&](const control::Ping& m) { on_ping(m); },
+                 [&](const control::Host& m) { on_host(m); },
                  [&](const control::Shutdown&) {
                    mail_.to_frontal(control::Goodbye{});
                    is_shut_down_ = true;
@@ -169,6 +170,12 @@ void Node::on_ping(const control::Ping& m) {
   if (rendering_) rendering_->tell_moves(pong);
   mail_.to_frontal(pong);
   if (rendering_) rendering_->on_ping(m.sequence, mail_);
+}
+
+/// The node may be new itself, and not know the farm yet.
+void Node::on_host(const control::Host& m) {
+  if (Rank{m.rank} == membership_.id().rank) return mail_.drop("host", "it names this node");
+  guests_.push_back(m);
 }
 
 void Node::on_assignment(std::span<const std::byte> batch) {

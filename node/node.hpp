@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "node/parts/distribution/slice_relay.hpp"
@@ -61,6 +62,8 @@ class Node {
   /// now: the caller starts and ends it.
   std::vector<Bytes> take_for_fifo() { return mail_.take_for_fifo(); }
   std::optional<FifoOrder> fifo_order() const;
+  /// Nodes that this one's process is to be from now on, too; the caller sees to that.
+  std::vector<control::Host> take_guests() { return std::exchange(guests_, {}); }
   bool has_outgoing() const { return !mail_.is_empty(); }
   bool is_shut_down() const { return is_shut_down_; }
   /// Endpoints of all nodes' inboxes, indexed by rank; empty strings until the frontal has told.
@@ -80,6 +83,7 @@ class Node {
   void on_start(control::Start m);
   void on_finish(const control::Finish& m);
   void on_ping(const control::Ping& m);
+  void on_host(const control::Host& m);
   void greet();
   void on_assignment(std::span<const std::byte> batch);
   void on_signal(std::uint32_t bit, BatchType type);
@@ -97,6 +101,7 @@ class Node {
   Membership membership_;
   Mail mail_;
   bool is_shut_down_ = false;
+  std::vector<control::Host> guests_;
   bool has_job_ = false;
   /// The current job's parameters, or the last job's.
   control::Load load_;

@@ -24,6 +24,6 @@ using ControlMessage = std::variant<
     control::Down, control::Farm, control::Accepted, control::JobInfo, control::Jobs,
     control::Progress, control::NodeList, control::FarmInfo, control::Done, control::Picture,
     control::Written, control::Failed, control::Bye, control::Slide, control::Slid, control::Turn,
-    control::Dealt, control::Worked>;
+    control::Dealt, control::Worked, control::Host>;
 
 }  // namespace graycube

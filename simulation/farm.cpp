@@ -59,11 +59,6 @@ double Farm::take(Place place, const PerUnit& doings) {
   return seconds;
 }
 
-bool Farm::is_alive(Rank rank, std::uint32_t incarnation) const {
-  const Process& p = processes_[rank.value];
-  return p.node && p.incarnation == incarnation;
-}
-
 // ---- the frontal
 
 /// Calls the frontal's brain and sends its messages, which takes a core as long as it should.
@@ -75,7 +70,9 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
   while (auto w = frontal_->take_keeping()) frontal_->give_result(keep_picture(*std::move(w)));
   auto out = std::make_shared<std::vector<Frontal::Outgoing>>(frontal_->take_outgoing());
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
+  for (const Frontal::Process& k : frontal_->take_kills()) kill(k);
   for (const Frontal::Process& p : frontal_->take_starts()) start(p);
+  frontal_->take_hostings();  // hosts know of them by messages
   if (auto work = frontal_->take_work()) prepare(*work);
   if (auto work = frontal_->take_recut()) recut(*work);
   for (const Frontal::Outgoing& o : *out) {
@@ -88,20 +85,22 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
 }
 
 void Farm::start(const Frontal::Process& started) {
+  if (!can_start_) return fail_to_start(started);
+  run_node(started, 1000 + started.incarnation);
+}
+
+void Farm::run_node(const Frontal::Process& started, std::uint64_t pid) {
   Process& p = processes_[started.rank.value];
-  NodeIdentity id{started.rank,
-                  started.incarnation,
-                  1000 + started.incarnation,
-                  "ipc:///simulated/" + std::to_string(started.rank.value),
-                  options_.threads,
-                  "simulated"};
   p = {};
   cut_until_s_.erase({started.rank, {}});
-  p.node = std::make_unique<Node>(std::move(id));
+  p.node = std::make_unique<Node>(NodeIdentity{
+      started.rank, started.incarnation, pid,
+      "ipc:///simulated/" + std::to_string(started.rank.value), options_.threads, "simulated"});
   p.node->measure = [this, rank = started.rank](control::NodeStats& stats) {
     fill_in(processes_[rank.value], stats);
   };
   p.incarnation = started.incarnation;
+  p.pid = pid;
   p.unreturned.assign(cube_.dimension(), 0);
   p.places_out.assign(cube_.dimension(), {});
   machine_.on_start(started.rank);
@@ -213,6 +212,8 @@ void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   call(*p.node);
   auto out = std::make_shared<std::vector<Node::Outgoing>>(p.node->take_outgoing());
   auto for_fifo = std::make_shared<std::vector<Bytes>>(p.node->take_for_fifo());
+  for (const control::Host& guest : p.node->take_guests())
+    run_node({Rank{guest.rank}, guest.incarnation}, p.pid);
   serve_fifo(p);
   doings[Unit::kNodeCall] = 1;
   add_sending(*out, doings);
@@ -368,10 +369,11 @@ void Farm::end(Turn& turn) {
   ask_for_turn(turn.rank, false);
 }
 
-void Farm::tell_of_death(Rank rank) {
+void Farm::tell_of_end(const Frontal::Process& process, bool was_started) {
   in_frontal({}, [&] {
     frontal_->on_time({timeline_.now_s(), timeline_.now_s()});
-    frontal_->on_node_exit({rank, processes_[rank.value].incarnation}, "killed by signal 9");
+    was_started ? frontal_->on_node_exit(process, "killed by signal 9")
+                : frontal_->on_start_failure(process, "no more processes");
   });
 }
 

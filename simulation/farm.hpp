@@ -40,9 +40,10 @@ struct FarmOptions {
 /// Something that goes wrong while a job is rendered.
 struct Fault {
   enum class Kind : std::uint8_t {
-    kDeath,  ///< the node's process ends
-    kStop,   ///< the node does nothing any more, and nobody is told
-    kCut,    ///< for `lasts_s` seconds nothing gets from `rank` to `to`
+    kDeath,         ///< the node's process ends
+    kStop,          ///< the node does nothing any more, and nobody is told
+    kCut,           ///< for `lasts_s` seconds nothing gets from `rank` to `to`
+    kNoMoreStarts,  ///< from then on no process can be started; `rank` means nothing
   };
   Kind kind = Kind::kDeath;
   Rank rank;
@@ -82,6 +83,10 @@ class Farm {
   /// Renders a scene; the picture is then in store().
   Outcome render(const std::string& scene_text, const control::JobOptions& options);
   JobStore& store() { return *store_; }
+  /// How many nodes each process is; in no order.
+  std::vector<std::size_t> nodes_by_process() const;
+  /// Why the farm gave up; empty when it did not.
+  const std::string& fatal_error() const { return frontal_->fatal_error(); }
   /// Will happen in the next render.
   void will_happen(const Fault& fault) { faults_.push_back(fault); }
 
@@ -96,6 +101,9 @@ class Farm {
     std::unique_ptr<Node> node;
     std::unique_ptr<Workbench> bench = std::make_unique<Workbench>();
     std::uint32_t incarnation = 0;
+    /// Nodes with the same number share a process, and end together. Each has cores of its own all
+    /// the same.
+    std::uint64_t pid = 0;
     /// Evaluators that wait for a core or work, and pieces of work that are under way.
     unsigned active = 0, working = 0;
     double cpu_s = 0, busy_s = 0, last_primary_s = 0;
@@ -120,6 +128,7 @@ class Farm {
 
   // The frontal
   void start(const Frontal::Process& started);
+  void run_node(const Frontal::Process& started, std::uint64_t pid);
   void tick(unsigned render);
   template <typename Call>
   void in_frontal(PerUnit doings, Call&& call);
@@ -151,7 +160,10 @@ class Farm {
   double begin(Turn& turn);
   void end(Turn& turn);
   void happen(const Fault& fault);
-  void tell_of_death(Rank rank);
+  void kill(const Frontal::Process& process);
+  std::vector<Frontal::Process> end_process(std::uint64_t pid);
+  void fail_to_start(const Frontal::Process& process);
+  void tell_of_end(const Frontal::Process& process, bool was_started);
   bool is_cut(Rank from, Place to) const;
   void collect_reports();
 
@@ -183,6 +195,7 @@ class Farm {
   /// Whether the token has found the end; and whether nodes were told to report without that.
   bool is_over_ = false, has_failed_ = false;
   std::vector<Fault> faults_;
+  bool can_start_ = true;
   /// Until when links are cut.
   std::map<std::pair<Rank, Place>, double> cut_until_s_;
   double render_began_s_ = 0, last_change_s_ = 0;

@@ -1,6 +1,7 @@
 #include "cli/display/job_text.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "cli/display/local_time.hpp"
 #include "cli/display/progress.hpp"
@@ -16,6 +17,31 @@ std::string percent(double fraction) {
 std::string time_taken(const control::JobInfo& job) {
   if (!job.started_s || !job.finished_s) return "-";
   return duration_text(*job.finished_s - *job.started_s);
+}
+
+/// "nodes 1, 2 and 3"
+std::string names_of(const std::vector<std::uint32_t>& ranks) {
+  std::string text = "nodes ";
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    if (i > 0) text += i + 1 < ranks.size() ? ", " : " and ";
+    text += std::to_string(ranks[i]);
+  }
+  return text;
+}
+
+/// A line for each process that is several nodes.
+std::string shared_processes_text(const std::vector<control::NodeInfo>& nodes) {
+  std::map<std::uint64_t, std::vector<std::uint32_t>> ranks;  // by process
+  for (const control::NodeInfo& node : nodes) {
+    if (node.pid != 0) ranks[node.pid].push_back(node.rank);
+  }
+  std::string text;
+  for (const auto& [pid, of_process] : ranks) {
+    if (of_process.size() < 2) continue;
+    text += "Process " + std::to_string(pid) + " is " + names_of(of_process) +
+            ", as none could be started for a node that was lost.\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -64,7 +90,7 @@ std::string nodes_text(const std::vector<control::NodeInfo>& nodes) {
                     std::string(to_string(node.state)), std::to_string(node.threads),
                     node.endpoint.empty() ? "-" : node.endpoint});
   }
-  return table_text(rows);
+  return table_text(rows) + shared_processes_text(nodes);
 }
 
 }  // namespace graycube

@@ -37,7 +37,7 @@ struct PeerLimits {
   int handshake_ms = 30'000;
 };
 
-/// One per process; sockets must not outlive it.
+/// Sockets must not outlive it.
 class ZmqContext {
  public:
   ZmqContext();

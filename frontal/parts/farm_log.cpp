@@ -105,6 +105,10 @@ void FarmLog::job_loses(std::uint32_t job, const Loss& loss, const std::string& 
   event.loss = loss;
 }
 
+void FarmLog::node_has_host(const std::string& name, const std::string& what) {
+  note(Kind::kNodeHasHost, 0, name + " " + shortened(what)).is_trouble = true;
+}
+
 void FarmLog::node_is_here(Rank rank, std::uint64_t pid) {
   if (lost_ranks_.erase(rank.value) == 0) return;
   note(Kind::kNodeIsBack, 0,

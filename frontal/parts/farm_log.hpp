@@ -20,7 +20,8 @@ struct FarmEvent {
     kFarmIsUp,  ///< the first time that all nodes are here
     kFarmGoesDown,
     kNodeIsLost,
-    kNodeIsBack,  ///< another process has taken a lost node's place
+    kNodeHasHost,  ///< another node's process is to be a lost node, too
+    kNodeIsBack,   ///< a process has taken a lost node's place
     kJobAccepted,
     kJobBegins,
     kJobStands,  ///< a job hasn't got on for a while
@@ -61,6 +62,8 @@ class FarmLog {
   /// them; `epochs` counts those of the job.
   void job_loses(std::uint32_t job, const Loss& loss, const std::string& name, bool is_gone,
                  std::uint32_t epochs);
+  /// No process can be started for the node; `what` tells why, and whose is to be it, too.
+  void node_has_host(const std::string& name, const std::string& what);
   /// A node's process has said hello. It is told if it takes the place of a lost one.
   void node_is_here(Rank rank, std::uint64_t pid);
 

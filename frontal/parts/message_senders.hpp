@@ -26,9 +26,9 @@ template <typename M>
 concept FromFrontal =
     OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::HandOn,
           control::Relieved, control::AllWhole, control::Slide, control::Turn, control::Dealt,
-          control::Prepare, control::Start, control::Finish, control::Ping, control::Shutdown,
-          control::Accepted, control::JobInfo, control::Jobs, control::Progress, control::NodeList,
-          control::FarmInfo, control::Done, control::Picture, control::Written, control::Failed,
-          control::Bye>;
+          control::Prepare, control::Start, control::Finish, control::Ping, control::Host,
+          control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
+          control::NodeList, control::FarmInfo, control::Done, control::Picture, control::Written,
+          control::Failed, control::Bye>;
 
 }  // namespace graycube

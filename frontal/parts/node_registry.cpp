@@ -1,6 +1,7 @@
 #include "frontal/parts/node_registry.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace graycube {
 
@@ -15,6 +16,43 @@ void NodeRegistry::start(Rank rank, double now_s) {
   node.incarnation = next_incarnation_++;
   node.last_heard_s = now_s;
   starts_.push_back({rank, node.incarnation});
+}
+
+std::optional<NodeRegistry::Hosting> NodeRegistry::host(Rank rank, double now_s) {
+  const auto host = host_for(rank);
+  if (!host) return std::nullopt;
+  Record& node = nodes_[rank.value];
+  node = {};
+  node.incarnation = next_incarnation_++;
+  node.pid = nodes_[host->value].pid;
+  node.is_guest = true;
+  node.last_heard_s = now_s;
+  hostings_.push_back({{rank, node.incarnation}, {*host, nodes_[host->value].incarnation}});
+  return hostings_.back();
+}
+
+/// The process that has the fewest nodes so far; of several a neighbour's, as then one link less
+/// leaves the process.
+std::optional<Rank> NodeRegistry::host_for(Rank rank) const {
+  if (!was_whole_ || failed_guests_ >= kMaxFailedStarts) return std::nullopt;
+  using Merit = std::tuple<std::size_t, bool, Rank>;
+  std::optional<Merit> best;
+  for (std::uint32_t r = 0; r < nodes_.size(); ++r) {
+    if (!nodes_[r].is_here || Rank{r} == rank) continue;
+    const Merit merit{in_process_of(Rank{r}).size(), !cube_.link_between(rank, Rank{r}), Rank{r}};
+    if (!best || merit < *best) best = merit;
+  }
+  if (!best) return std::nullopt;
+  return std::get<Rank>(*best);
+}
+
+std::vector<Rank> NodeRegistry::in_process_of(Rank rank) const {
+  std::vector<Rank> ranks{rank};
+  const std::uint64_t pid = nodes_[rank.value].pid;
+  for (std::uint32_t r = 0; pid != 0 && r < nodes_.size(); ++r) {
+    if (nodes_[r].pid == pid && Rank{r} != rank) ranks.push_back(Rank{r});
+  }
+  return ranks;
 }
 
 std::optional<Refusal> NodeRegistry::hello(const PeerId& peer, const control::Hello& hello,
@@ -33,6 +71,8 @@ std::optional<Refusal> NodeRegistry::hello(const PeerId& peer, const control::He
   node.last_heard_s = now_s;
   peers_[peer] = Rank{hello.rank};
   failed_starts_ = 0;
+  if (node.is_guest) failed_guests_ = 0;
+  was_whole_ = was_whole_ || all_here();
   return std::nullopt;
 }
 
@@ -58,6 +98,10 @@ std::vector<Rank> NodeRegistry::take_silent(
     if (silent_s < patience_s) continue;
     if (node.is_here && silent_s < kPatienceWithSlow * patience_s && is_only_slow(node.pid))
       continue;
+    const auto ends_already = [&](Rank r) {
+      return node.pid != 0 && nodes_[r.value].pid == node.pid;
+    };
+    if (std::ranges::any_of(silent, ends_already)) continue;
     silent.push_back(Rank{rank});
     kill(Rank{rank});
   }
@@ -69,9 +113,9 @@ NodeRegistry::Lost NodeRegistry::lose(Rank rank, double now_s) {
   std::erase_if(peers_, [rank](const auto& peer) { return peer.second == rank; });
   std::string name = "node " + std::to_string(rank.value);
   if (node.pid != 0) name += " (process " + std::to_string(node.pid) + ")";
-  if (!node.is_here) ++failed_starts_;
+  if (!node.is_here) ++(node.is_guest ? failed_guests_ : failed_starts_);
   return {std::move(name), now_s - node.last_heard_s,
-          !node.is_here && failed_starts_ >= kMaxFailedStarts};
+          !node.is_here && !node.is_guest && failed_starts_ >= kMaxFailedStarts};
 }
 
 bool NodeRegistry::all_here() const { return std::ranges::all_of(nodes_, &Record::is_here); }

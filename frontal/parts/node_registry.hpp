@@ -15,7 +15,9 @@
 
 namespace graycube {
 
-/// The farm gives up when so many node processes in a row end before their hello.
+/// The farm gives up when so many node processes in a row end before their hello, and no other node
+/// can be their host. After so many hosts in a row that ended before their guests' hello, none is
+/// asked any more.
 inline constexpr unsigned kMaxFailedStarts = 8;
 /// A silent node whose process is there and could run may be silent for so many times as long as
 /// another: on a busy machine it may only wait for its turn.
@@ -27,6 +29,10 @@ class NodeRegistry {
   struct Process {
     Rank rank;
     std::uint32_t incarnation = 0;
+  };
+  /// A node that is to run in another one's process.
+  struct Hosting {
+    Process guest, host;
   };
   /// A node that was lost.
   struct Lost {
@@ -49,6 +55,10 @@ class NodeRegistry {
 
   /// A new process is to be started for the rank, which must have none.
   void start(Rank rank, double now_s);
+  /// No process can be started for the rank: chooses a node that is here, whose process is to be
+  /// that node, too. There may be none; and while the farm has never been whole nobody gets a host,
+  /// since then the farm itself is at fault.
+  std::optional<Hosting> host(Rank rank, double now_s);
   /// A process says which node it is. Returns a refusal if that can't be.
   [[nodiscard]] std::optional<Refusal> hello(const PeerId& peer, const control::Hello& hello,
                                              double now_s);
@@ -56,7 +66,7 @@ class NodeRegistry {
   void heard(Rank rank, double now_s) { nodes_[rank.value].last_heard_s = now_s; }
   /// Tells that the frontal heard nobody for so long, so that it doesn't count as silence.
   void was_held_up(double seconds);
-  /// Takes the nodes that were silent for too long; their processes are to be ended.
+  /// Takes the nodes that were silent for too long, one of each process; these are to be ended.
   /// `is_only_slow(pid)`: the process is given more time.
   std::vector<Rank> take_silent(double now_s,
                                 const std::function<bool(std::uint64_t)>& is_only_slow);
@@ -64,6 +74,8 @@ class NodeRegistry {
   void kill(Rank rank) { kills_.push_back({rank, nodes_[rank.value].incarnation}); }
   /// Forgets a node's process: its messages no longer count, and the rank must be started again.
   Lost lose(Rank rank, double now_s);
+  /// The node, and those that share its process and end with it.
+  std::vector<Rank> in_process_of(Rank rank) const;
   bool is_current(const Process& process) const {
     return nodes_[process.rank.value].incarnation == process.incarnation;
   }
@@ -81,18 +93,23 @@ class NodeRegistry {
 
   std::vector<Process> take_starts() { return std::exchange(starts_, {}); }
   std::vector<Process> take_kills() { return std::exchange(kills_, {}); }
+  std::vector<Hosting> take_hostings() { return std::exchange(hostings_, {}); }
 
  private:
   struct Record {
     std::uint32_t incarnation = 0;
     /// Whether it has said hello; the members below are known since then.
     bool is_here = false;
+    /// That of its host's process, if it is a guest, also before it has said hello.
     std::uint64_t pid = 0;
+    bool is_guest = false;
     std::string endpoint;
     std::uint32_t threads = 1;
     double last_heard_s = 0;
     bool has_left = false;
   };
+
+  std::optional<Rank> host_for(Rank rank) const;
 
   Hypercube cube_;
   Patience patience_;
@@ -100,8 +117,11 @@ class NodeRegistry {
   std::map<PeerId, Rank> peers_;
   std::uint32_t next_incarnation_ = 1;
   std::vector<Process> starts_, kills_;
-  /// Processes in a row that ended before their hello.
-  unsigned failed_starts_ = 0;
+  std::vector<Hosting> hostings_;
+  bool was_whole_ = false;
+  /// Processes in a row that ended before their hello, and guests in a row that were lost before
+  /// theirs.
+  unsigned failed_starts_ = 0, failed_guests_ = 0;
 };
 
 }  // namespace graycube

@@ -148,7 +148,8 @@ std::optional<JobFailure> RunningJob::on_light(Rank from, std::span<const std::b
   std::vector<Rank> opened;
   LightIntake::Taken taken = render_->add_contributions(batch, opened);
   if (taken.is_lost)
-    return go_on_without({from.value, std::move(taken.wrong), 0, 0}, "the frontal", false, post);
+    return go_on_without({{"the frontal", {from.value, std::move(taken.wrong), 0, 0}}}, false,
+                         post);
   if (!taken.wrong.empty()) return own_failure(std::move(taken.wrong));
   if (farm_.records_tiles) log_.note(taken.whole);
   std::sort(opened.begin(), opened.end());

@@ -81,8 +81,10 @@ class RunningJob {
   void goes_on_after(std::uint32_t frontals);
 
   // Losses. The job goes on in another epoch, unless a failure is returned.
-  /// A node is lost; another process takes its place.
-  [[nodiscard]] std::optional<JobFailure> lose(const NodeLoss& node, Post& post);
+  /// The nodes of a process are lost; other processes take their places.
+  [[nodiscard]] std::optional<JobFailure> lose(const std::vector<NodeLoss>& nodes, Post& post);
+  /// A node whose loss is known has got a place in another one's process; `how` tells that.
+  void note_guest(const NodeLoss& node);
   [[nodiscard]] std::optional<JobFailure> on_error(Rank rank, const control::NodeError& m,
                                                    Post& post);
   void on_pong(Rank rank, const control::Pong& m, double now_s) {
@@ -140,8 +142,12 @@ class RunningJob {
  private:
   bool is_rendering() const { return stage_ == JobStage::kRendering; }
   bool is_on_nodes() const { return stage_ == JobStage::kBuilding || is_rendering(); }
-  std::optional<JobFailure> go_on_without(Loss loss, const std::string& name, bool is_gone,
-                                          Post& post);
+  struct NamedLoss {
+    /// For people: who is lost, or has missed something.
+    std::string name;
+    Loss loss;
+  };
+  std::optional<JobFailure> go_on_without(std::vector<NamedLoss> losses, bool are_gone, Post& post);
   Sliding* sliding() { return is_rendering() ? render_->sliding() : nullptr; }
   /// Epochs so far, those of earlier frontals too.
   std::uint32_t epochs() const { return render_->epoch() + 1 + earlier_frontals_; }

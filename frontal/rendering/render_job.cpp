@@ -32,20 +32,25 @@ TileHandout::Way RenderJob::way() const {
   return scene_.has_replicas ? TileHandout::Way::kHelp : TileHandout::Way::kOwn;
 }
 
-RenderJob::Damage RenderJob::note_loss(std::optional<Rank> rank, bool is_gone) {
+RenderJob::Damage RenderJob::note_loss(std::span<const Rank> nodes, bool are_gone) {
   const std::vector<std::uint32_t> under_way = tiles_.under_way();
   Damage damage{static_cast<std::uint32_t>(under_way.size()), {}};
-  const bool was_building = rank && barrier_.is_building(*rank);
-  if (is_gone) {
-    barrier_.lose(*rank);
-    slices_.lose(*rank);
-  }
-  if (was_building && retries_.note_loss_before_it_could_trace(*rank))
-    damage.culprit = "its part of the scene was being subdivided";
   // In `roth` a tile's rays stay with the node that has it, so that only its tiles can be at fault.
-  const auto all = static_cast<std::uint32_t>(tiles());
-  const auto tile = is_roth() ? retries_.note_loss(tiles_.under_way(rank), all)
-                              : retries_.note_loss(under_way, all);
+  const bool are_theirs_alone = is_roth() && !nodes.empty();
+  std::vector<std::uint32_t> suspects;
+  for (const Rank rank : nodes) {
+    const bool was_building = barrier_.is_building(rank);
+    if (are_gone) {
+      barrier_.lose(rank);
+      slices_.lose(rank);
+    }
+    if (was_building && retries_.note_loss_before_it_could_trace(rank))
+      damage.culprit = "its part of the scene was being subdivided";
+    const std::vector<std::uint32_t> own = tiles_.under_way(rank);
+    suspects.insert(suspects.end(), own.begin(), own.end());
+  }
+  const auto tile = retries_.note_loss(are_theirs_alone ? suspects : under_way,
+                                       static_cast<std::uint32_t>(tiles()));
   if (tile) damage.culprit = culprit(*tile);
   return damage;
 }

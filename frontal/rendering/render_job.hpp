@@ -66,8 +66,9 @@ class RenderJob {
     /// For people, if it has happened too often: what may be to blame.
     std::string culprit;
   };
-  /// The node has told of a loss or, if it `is_gone`, is itself lost.
-  [[nodiscard]] Damage note_loss(std::optional<Rank> rank, bool is_gone);
+  /// The nodes, which share a process, are lost; or, if they aren't gone, have told of a loss.
+  /// Without nodes, nobody knows where something was lost.
+  [[nodiscard]] Damage note_loss(std::span<const Rank> nodes, bool are_gone);
   /// Begins the next epoch: tiles that are not whole are to be traced again.
   void begin_next_epoch();
   /// Whether all nodes are loaded anew in a later epoch, since slices go from node to node, or

@@ -3,6 +3,7 @@
 
 #include "proto/messages/clients.hpp"
 #include "proto/messages/field_limits.hpp"
+#include "proto/messages/to_nodes.hpp"
 
 namespace graycube::control {
 
@@ -19,6 +20,11 @@ void each_field(auto& visit, Is<FarmInfo> auto& m) {
   visit("queued", m.queued);
   visit("running", m.running);
   visit("ended", m.ended);
+}
+
+void each_field(auto& visit, Is<Host> auto& m) {
+  visit("rank", m.rank, kRankRange);
+  visit("incarnation", m.incarnation);
 }
 
 }  // namespace graycube::control

@@ -136,6 +136,14 @@ struct Ping {
   friend bool operator==(const Ping&, const Ping&) = default;
 };
 
+/// No process can be started for another node: this node's process is to be that node, too, under
+/// this start number.
+struct Host {
+  static constexpr std::string_view kType = "host";
+  std::uint32_t rank = 0, incarnation = 0;
+  friend bool operator==(const Host&, const Host&) = default;
+};
+
 struct Shutdown {
   static constexpr std::string_view kType = "shutdown";
   friend bool operator==(const Shutdown&, const Shutdown&) = default;

@@ -98,5 +98,16 @@ TEST_CASE("jobs and nodes are tables with a header") {
         "NODE  GRAY  PID  STATE     THREADS  ENDPOINT\n1     1     -    starting  1        -\n");
 }
 
+TEST_CASE("a process that is several nodes is told of below the table, others are not") {
+  std::vector<control::NodeInfo> nodes(5);
+  for (std::uint32_t rank = 0; rank < 5; ++rank) nodes[rank].rank = rank;
+  nodes[1].pid = 71;
+  nodes[0].pid = nodes[2].pid = nodes[3].pid = 40;
+  const std::string text = nodes_text(nodes);
+  const std::string below = text.substr(text.find("Process"));
+  CHECK(below ==
+        "Process 40 is nodes 0, 2 and 3, as none could be started for a node that was lost.\n");
+}
+
 }  // namespace
 }  // namespace graycube

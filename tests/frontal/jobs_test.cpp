@@ -106,13 +106,13 @@ TEST_CASE("a lost node sends a job that is loaded into its next epoch, and leave
   const std::uint32_t job = farm.submit();
   const auto work = farm.jobs.take_work();
   const NodeLoss loss{Rank{1}, "node 1", "died", 0.1};
-  farm.jobs.node_was_lost(loss);
+  farm.jobs.nodes_were_lost({loss});
   CHECK(farm.state_of(job) == JobState::kLoading);
   farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
   REQUIRE(farm.jobs.waits_to_be_loaded());
   farm.jobs.load();
   SentPost(farm.post);
-  farm.jobs.node_was_lost(loss);
+  farm.jobs.nodes_were_lost({loss});
   CHECK(SentPost(farm.post).names() ==
         std::vector<std::string>{"node 0: prepare", "node 1: prepare"});
   // Only the process that takes the node's place needs its slice.
@@ -121,13 +121,28 @@ TEST_CASE("a lost node sends a job that is loaded into its next epoch, and leave
   CHECK(SentPost(farm.post).names() == std::vector<std::string>{"node 1: load"});
 }
 
+TEST_CASE("nodes that are lost with one process cost one epoch, and a place for one costs none") {
+  Farm farm;
+  const std::uint32_t job = farm.submit();
+  farm.load_next();
+  SentPost(farm.post);
+  farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "died", 0.1}, {Rank{1}, "node 1", "died", 0.1}});
+  CHECK(SentPost(farm.post).names() ==
+        std::vector<std::string>{"node 0: prepare", "node 1: prepare"});
+  farm.jobs.node_has_host({Rank{1}, "node 1", "can't be started", 0});
+  CHECK(SentPost(farm.post).all.empty());
+  farm.jobs.load();
+  CHECK(SentPost(farm.post).names() == std::vector<std::string>{"node 0: load", "node 1: load"});
+  CHECK(farm.state_of(job) == JobState::kBuilding);
+}
+
 TEST_CASE("a slice that brings one process after another down fails its job") {
   Farm farm;
   const std::uint32_t job = farm.submit();
   farm.load_next();
   for (std::uint32_t loss = 1; loss <= kDefaultRetries + 1; ++loss) {
     CHECK(farm.state_of(job) == JobState::kBuilding);
-    farm.jobs.node_was_lost({Rank{1}, "node 1", "died", 0.1});
+    farm.jobs.nodes_were_lost({{Rank{1}, "node 1", "died", 0.1}});
     if (farm.jobs.waits_to_be_loaded()) farm.jobs.load();
   }
   CHECK(farm.state_of(job) == JobState::kFailed);

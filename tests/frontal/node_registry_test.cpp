@@ -159,3 +159,65 @@ TEST_CASE("a silent node whose process could run is given more time, but not for
   CHECK(four.nodes.take_silent(end_s - 1, is_slow).empty());
   CHECK(four.nodes.take_silent(end_s, is_slow) == std::vector{Rank{2}});
 }
+
+TEST_CASE("a node that can't be started gets a place in a process that has few, a neighbour's") {
+  Four four;
+  four.all_say_hello(1);
+  // On this cube's grid of two columns nodes 1 and 2 are the neighbours of node 3.
+  const Hypercube cube = *Hypercube::of_size(4);
+  REQUIRE_FALSE(cube.link_between(Rank{3}, Rank{0}));
+  four.nodes.lose(Rank{3}, 2);
+  const auto first = four.nodes.host(Rank{3}, 2);
+  REQUIRE(first);
+  CHECK(first->host.rank == Rank{1});
+  CHECK(first->host.incarnation == 2);
+  CHECK(first->guest.incarnation == 5);
+  CHECK(four.nodes.list(false).nodes[3].pid == 4002);
+  CHECK(four.nodes.in_process_of(Rank{1}) == std::vector{Rank{1}, Rank{3}});
+  CHECK(four.nodes.in_process_of(Rank{3}) == std::vector{Rank{3}, Rank{1}});
+  CHECK(four.nodes.in_process_of(Rank{0}) == std::vector{Rank{0}});
+  // Node 2 is no neighbour of node 1, but node 1's process has two nodes already.
+  four.nodes.lose(Rank{0}, 3);
+  const auto second = four.nodes.host(Rank{0}, 3);
+  REQUIRE(second);
+  CHECK(second->host.rank == Rank{2});
+  CHECK(four.nodes.take_hostings().size() == 2);
+}
+
+TEST_CASE("without a farm that was whole, or anybody who is here, there is no host") {
+  Four four;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    REQUIRE_FALSE(four.nodes.hello(peer_of(i), hello(four.processes[i]), 1));
+  CHECK_FALSE(four.nodes.host(Rank{3}, 2));
+  REQUIRE_FALSE(four.nodes.hello(peer_of(3), hello(four.processes[3]), 1));
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    four.nodes.lose(Rank{i}, 2);
+    four.nodes.start(Rank{i}, 2);
+  }
+  CHECK_FALSE(four.nodes.host(Rank{3}, 2));
+}
+
+TEST_CASE("after many guests in a row that never said hello nobody is asked to be a host") {
+  Four four;
+  four.all_say_hello(1);
+  for (unsigned i = 0; i < kMaxFailedStarts; ++i) {
+    CHECK_FALSE(four.nodes.lose(Rank{3}, 2).is_hopeless);
+    REQUIRE(four.nodes.host(Rank{3}, 2));
+  }
+  four.nodes.lose(Rank{3}, 2);
+  CHECK_FALSE(four.nodes.host(Rank{3}, 2));
+}
+
+TEST_CASE("a silent process that is several nodes is ended once") {
+  Four four;
+  four.all_say_hello(100);
+  four.nodes.lose(Rank{3}, 100);
+  const auto hosting = four.nodes.host(Rank{3}, 100);
+  REQUIRE(hosting);
+  control::Hello as_guest = hello(hosting->guest);
+  as_guest.pid = 4000 + hosting->host.incarnation;
+  REQUIRE_FALSE(four.nodes.hello("guest", as_guest, 100));
+  for (const std::uint32_t rank : {0u, 2u}) four.nodes.heard(Rank{rank}, 100 + kSilence_s);
+  CHECK(four.nodes.take_silent(100 + kSilence_s, is_not_slow) == std::vector{Rank{1}});
+  CHECK(four.nodes.take_kills().size() == 1);
+}

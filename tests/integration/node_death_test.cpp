@@ -1,6 +1,10 @@
 // Nodes die, or stop, while they render: the picture is the serial one all the same.
 #include <signal.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
 #include <thread>
 
 #include "catch.hpp"
@@ -30,6 +34,21 @@ std::string serial_bytes(Sandbox& sandbox) {
       {"render", first(), "--size", kLongSize, "--algorithm", "serial", "-o", "serial.exr", "-q"});
   REQUIRE(o.status == 0);
   return file_bytes(sandbox / "serial.exr");
+}
+
+std::string output_of(Sandbox& sandbox, const Arguments& arguments) {
+  const Outcome o = sandbox.run(arguments);
+  REQUIRE(o.status == 0);
+  return o.out;
+}
+
+/// Of the nodes that share a process one reports its memory.
+void check_process_figures(const nlohmann::json& stats) {
+  std::map<std::uint64_t, int> reporters;  // by process
+  for (const nlohmann::json& node : stats.at("per_node"))
+    reporters[node.at("pid")] += node.at("peak_rss_bytes") > 0 ? 1 : 0;
+  CHECK(reporters.size() == 2);
+  for (const auto& [pid, count] : reporters) CHECK(count == 1);
 }
 
 /// Waits until some of the job's tiles are whole, so that there is something to lose.
@@ -97,6 +116,83 @@ void check_loss_leaves_picture(const std::string& algorithm, int signal, const s
   CHECK(sandbox.processes().empty());
 }
 
+/// The farm's programs, in a folder from which one can be taken away.
+std::string copy_of_programs(const Sandbox& sandbox) {
+  const std::filesystem::path from = std::filesystem::path(GRAYCUBE_COMMAND).parent_path();
+  std::filesystem::create_directory(sandbox / "bin");
+  for (const char* name : {"graycube", "graycube-frontal", "graycube-node", "graycube-fifo"}) {
+    std::filesystem::copy_file(from / name, sandbox / "bin" / name);
+  }
+  return (sandbox / "bin" / "graycube").string();
+}
+
+/// Waits until all four nodes are here; returns the ids of their processes, by rank.
+std::vector<pid_t> pids_of_whole_farm(Sandbox& sandbox) {
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  for (;;) {
+    std::vector<pid_t> pids;
+    for (const nlohmann::json& node : json_of(sandbox, {"nodes", "--json"})) {
+      if (node.at("state") != "starting") pids.push_back(node.at("pid").get<pid_t>());
+    }
+    if (pids.size() == 4) return pids;
+    REQUIRE(std::chrono::steady_clock::now() < until);
+    std::this_thread::sleep_for(20ms);
+  }
+}
+
+/// Kills a process; returns the processes once all nodes are here again.
+std::vector<pid_t> kill_and_wait(Sandbox& sandbox, pid_t process) {
+  ::kill(process, SIGKILL);
+  for (;;) {
+    const std::vector<pid_t> pids = pids_of_whole_farm(sandbox);
+    if (std::ranges::count(pids, process) == 0) return pids;
+    std::this_thread::sleep_for(20ms);
+  }
+}
+
+std::size_t distinct(const std::vector<pid_t>& pids) {
+  return std::set<pid_t>(pids.begin(), pids.end()).size();
+}
+
+std::vector<std::string> reasons(const nlohmann::json& stats) {
+  std::vector<std::string> whys;
+  for (const nlohmann::json& loss : stats.at("losses")) whys.push_back(loss.at("why"));
+  return whys;
+}
+
+/// Renders a job while graycube-node is taken away, and node 3 and then the process that has taken
+/// it in are killed. Returns the job's statistics.
+nlohmann::json stats_of_job_with_guests(const std::string& algorithm) {
+  INFO(algorithm);
+  Sandbox sandbox;
+  const std::string expected = serial_bytes(sandbox);
+  Running up = sandbox.start_program(copy_of_programs(sandbox), {"up", "-n", "4"});
+  up.wait_for("graycube down");
+  Running submitted = sandbox.start({"submit", first(), "--wait", "--size", kLongSize,
+                                     "--algorithm", algorithm, "-o", "a.exr", "--stats", "s.json"});
+  submitted.wait_for("1\n");
+  wait_until_under_way(sandbox, "1");
+  const std::vector<pid_t> before = pids_of_whole_farm(sandbox);
+  CHECK(distinct(before) == 4);
+  std::filesystem::remove(sandbox / "bin" / "graycube-node");
+  const std::vector<pid_t> with_one_less = kill_and_wait(sandbox, before[3]);
+  CHECK(distinct(with_one_less) == 3);
+  const pid_t host = with_one_less[3];
+  CHECK(std::ranges::count(before, host) == 1);
+  CHECK(output_of(sandbox, {"nodes"}).find("Process " + std::to_string(host) + " is nodes ") !=
+        std::string::npos);
+  CHECK(distinct(kill_and_wait(sandbox, host)) == 2);
+  const Outcome o = submitted.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK(file_bytes(sandbox / "a.exr") == expected);
+  CHECK(up.err().find("node 3 can't be started (") != std::string::npos);
+  CHECK(sandbox.run({"down"}).status == 0);
+  CHECK(up.wait(10s).status == 0);
+  CHECK(sandbox.processes().empty());
+  return sandbox.json("s.json");
+}
+
 }  // namespace
 
 TEST_CASE("a killed node costs its job an epoch, and the picture is the serial one") {
@@ -107,6 +203,25 @@ TEST_CASE("a killed node costs its job an epoch, and the picture is the serial o
 TEST_CASE("a node that is stopped is missed, and another takes its place") {
   for (const char* algorithm : {"macro", "roth"})
     check_loss_leaves_picture(algorithm, SIGSTOP, "fell silent");
+}
+
+TEST_CASE("a node that can't be started runs in another's process, and so does the next") {
+  // Nobody traces before all are here again, so that both losses are the job's.
+  const nlohmann::json stats = stats_of_job_with_guests("macro");
+  CHECK(stats.at("epochs") == 3);
+  const std::vector<std::string> whys = reasons(stats);
+  CHECK(std::ranges::count(whys, "killed by signal 9") == 3);
+  const auto is_of_guest = [](const std::string& why) {
+    return why.starts_with("can't be started (") && why.ends_with("'s process");
+  };
+  CHECK(std::ranges::count_if(whys, is_of_guest) == 3);
+  check_process_figures(stats);
+}
+
+TEST_CASE("so it does where the others go on without it") {
+  const nlohmann::json stats = stats_of_job_with_guests("roth");
+  CHECK(stats.at("epochs") >= 2);
+  CHECK(reasons(stats).front() == "killed by signal 9");
 }
 
 TEST_CASE("a render whose nodes are killed one after another goes on") {

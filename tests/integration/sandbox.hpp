@@ -84,6 +84,8 @@ class Sandbox {
 
   /// Starts `graycube` with these arguments.
   Running start(const Arguments& arguments);
+  /// Starts any other program, by its path.
+  Running start_program(const std::string& path, const Arguments& arguments);
   /// Runs `graycube` to its end.
   Outcome run(const Arguments& arguments, std::chrono::milliseconds limit = 60s);
   /// Runs any other program, by its path.
@@ -98,8 +100,6 @@ class Sandbox {
   std::vector<std::string> files() const;
 
  private:
-  Running start_program(const std::string& path, const Arguments& arguments);
-
   TemporaryFolder root_{"gc-"};
   std::filesystem::path work_, temporary_, runtime_, logs_;
   int started_ = 0;

@@ -1,6 +1,8 @@
 #include "node/parts/membership.hpp"
 
 #include "catch.hpp"
+#include "node/node.hpp"
+#include "proto/control.hpp"
 
 using namespace graycube;
 
@@ -14,6 +16,10 @@ Membership second_of_four() {
   Membership m({Rank{1}, 7, 100, "ipc://here", 1, "test"});
   REQUIRE(m.join(welcome(4, {"a", "b", "c", "d"})));
   return m;
+}
+
+void tell(Node& node, const ControlMessage& message) {
+  node.on_frontal(Message::of_text(encode(message)));
 }
 
 }  // namespace
@@ -73,4 +79,17 @@ TEST_CASE("greetings that come before the welcome are kept, no more than there c
   REQUIRE(kept.size() == kMaxDimension);
   CHECK(kept.front().size() == 1);
   CHECK(m.take_early().empty());
+}
+
+TEST_CASE("a node hands out whom its process is to be once, also before it knows the farm") {
+  Node node({Rank{2}, 7, 1, "ipc://here", 1, "test"});
+  tell(node, control::Host{3, 11});
+  CHECK(node.take_guests() == std::vector{control::Host{3, 11}});
+  CHECK(node.take_guests().empty());
+}
+
+TEST_CASE("a node is not its own guest") {
+  Node node({Rank{2}, 7, 1, "ipc://here", 1, "test"});
+  tell(node, control::Host{2, 11});
+  CHECK(node.take_guests().empty());
 }

@@ -183,6 +183,7 @@ inline std::vector<ControlMessage> example_messages() {
       Turn{9, 1, 3, 2},
       Dealt{9, 1},
       Worked{9, 1, 1ull << 40, 77},
+      Host{3, 4294967295u},
   };
 }
 

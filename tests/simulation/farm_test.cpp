@@ -102,6 +102,25 @@ TEST_CASE("a farm whose nodes can't be started gives up, and says why") {
   CHECK(started <= kMaxFailedStarts + 2);
 }
 
+TEST_CASE("a farm that has never been whole gives nobody a host, and says why it gives up") {
+  const auto store = make_memory_store();
+  Frontal frontal({.cube = *Hypercube::of_size(2), .version = "simulated"}, *store);
+  const Frontal::Process here = frontal.take_starts().front();
+  frontal.on_message("a", Message::of_text(encode(control::Hello{
+                              here.rank.value, 1, here.incarnation, "ipc://a", 1, "simulated"})));
+  Frontal::Process other{Rank{1}, here.incarnation + 1};
+  for (unsigned i = 0; i < kMaxFailedStarts; ++i) {
+    REQUIRE_FALSE(frontal.is_going_down());
+    frontal.on_start_failure(other, "too many processes");
+    for (const Frontal::Process& p : frontal.take_starts()) other = p;
+  }
+  CHECK(frontal.is_going_down());
+  CHECK(frontal.take_hostings().empty());
+  CHECK(frontal.fatal_error() ==
+        "node 1: can't be started: too many processes; its process couldn't be started 8 times in "
+        "a row");
+}
+
 TEST_CASE("a scene with mistakes fails with all of them") {
   RandomFarm farm({.nodes = 2, .seed = 9});
   const Outcome outcome = farm.render(R"({"graycube": 1, "objects": 3})", with(Algorithm::kMacro));

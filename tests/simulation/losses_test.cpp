@@ -1,4 +1,5 @@
 // Whatever is lost while a picture is rendered, by seed: the picture is the serial one.
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -63,12 +64,35 @@ Fault cut(std::mt19937_64& random, const Trial& t) {
   return fault;
 }
 
+enum class Starts : std::uint8_t {
+  kAlways,
+  kUntilSomeMoment,  ///< then no process can be started any more
+};
+
+Fault no_more_starts(std::mt19937_64& random, double takes_s) {
+  Fault fault;
+  fault.kind = Fault::Kind::kNoMoreStarts;
+  fault.after_s = std::uniform_real_distribution<double>(0, takes_s / 2)(random);
+  return fault;
+}
+
+/// Whether nobody was left to go on, which the farm has said.
+bool has_given_up(const RandomFarm& farm, const Outcome& outcome) {
+  return outcome.failed && farm.nodes_by_process().empty() &&
+         farm.fatal_error().find("no more processes") != std::string::npos;
+}
+
+bool has_shared_process(const RandomFarm& farm) {
+  return std::ranges::any_of(farm.nodes_by_process(), [](std::size_t nodes) { return nodes > 1; });
+}
+
 /// Renders seed by seed, with one to three faults each, and compares with the serial picture.
-void check_seeds(std::uint64_t seeds, bool rarer_ways, const Draw& draw) {
+void check_seeds(std::uint64_t seeds, bool rarer_ways, const Draw& draw,
+                 Starts starts = Starts::kAlways) {
   const std::uint64_t first = number_in_environment("GRAYCUBE_FIRST_SEED", 1);
   seeds = number_in_environment("GRAYCUBE_SEEDS", seeds);
   std::map<bool, Picture> expected;
-  std::uint64_t epochs = 0;
+  std::uint64_t epochs = 0, shared = 0;
   for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
     Trial t = trial_with_faults(seed);
     std::mt19937_64 random(seed + 1'000'000);
@@ -81,7 +105,11 @@ void check_seeds(std::uint64_t seeds, bool rarer_ways, const Draw& draw) {
     const Outcome without = whole.render(text, t.job);
     if (without.failed) continue;  // ways that don't go together
     const double takes_s = std::max(without.render_s, t.farm.link_delay_s);
-    RandomFarm farm(t.farm);
+    // A farm that has never been whole gives up when processes can't be started.
+    RandomFarm fresh(t.farm);
+    RandomFarm& farm = starts == Starts::kAlways ? fresh : whole;
+    const std::uint32_t job = starts == Starts::kAlways ? 1 : 2;
+    if (starts == Starts::kUntilSomeMoment) farm.will_happen(no_more_starts(random, takes_s));
     for (std::uint64_t i = 0; i <= seed % 3; ++i) {
       Fault fault = draw(random, t);
       fault.after_s = std::uniform_real_distribution<double>(0, 1.5 * takes_s)(random);
@@ -90,10 +118,14 @@ void check_seeds(std::uint64_t seeds, bool rarer_ways, const Draw& draw) {
     const Outcome outcome = farm.render(text, t.job);
     // As in 1987 the blocking flow may deadlock, with faults or without.
     if (outcome.failed && outcome.failed->code == FailureCode::kDeadlock) continue;
-    check_same_picture(farm, outcome, 1, expected.at(t.is_square));
+    if (starts == Starts::kUntilSomeMoment && has_given_up(farm, outcome)) continue;
+    INFO("the farm: " << farm.fatal_error());
+    check_same_picture(farm, outcome, job, expected.at(t.is_square));
     epochs += outcome.epochs;
+    shared += has_shared_process(farm) ? 1 : 0;
   }
-  CHECK(epochs > seeds);
+  CHECK(epochs > seeds / (starts == Starts::kAlways ? 1 : 2));
+  if (starts == Starts::kUntilSomeMoment) CHECK(shared > seeds / 8);
 }
 
 }  // namespace
@@ -107,3 +139,11 @@ TEST_CASE("so they do in every mesh, with light that returns, and boundaries tha
 }
 
 TEST_CASE("what a link loses is traced again") { check_seeds(1000, false, cut); }
+
+TEST_CASE("where no process can be started any more, nodes that are left take others in") {
+  check_seeds(500, true, death_or_stop, Starts::kUntilSomeMoment);
+}
+
+TEST_CASE("so they do when links are cut") {
+  check_seeds(300, false, cut, Starts::kUntilSomeMoment);
+}
