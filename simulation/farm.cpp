@@ -96,9 +96,7 @@ void Farm::run_node(const Frontal::Process& started, std::uint64_t pid) {
   p.node = std::make_unique<Node>(NodeIdentity{
       started.rank, started.incarnation, pid,
       "ipc:///simulated/" + std::to_string(started.rank.value), options_.threads, "simulated"});
-  p.node->measure = [this, rank = started.rank](control::NodeStats& stats) {
-    fill_in(processes_[rank.value], stats);
-  };
+  p.node->measure = [this, &p](control::NodeStats& stats) { fill_in(p, stats); };
   p.incarnation = started.incarnation;
   p.pid = pid;
   p.unreturned.assign(cube_.dimension(), 0);
