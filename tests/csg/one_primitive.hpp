@@ -9,10 +9,10 @@
 
 namespace graycube::testing {
 
-inline const std::array<const char*, kAllLeafKinds> kLeafNames{
+inline const std::array<const char*, kLeafKinds> kLeafNames{
     "sphere",    "box",        "cylinder",      "cone",           "torus",
     "ellipsoid", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",
-    "mesh",      "half_space", "lathe",         "sweep"};
+    "mesh",      "lathe",      "sweep",         "bezier",         "half_space"};
 
 struct OnePrimitive {
   Model model;

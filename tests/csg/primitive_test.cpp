@@ -21,7 +21,7 @@ constexpr std::uint64_t kSeeds = 600;
 /// fails.
 template <typename Check>
 void for_random_primitives(const Check& check, const RandomOptions& options = {}) {
-  for (std::size_t kind = 0; kind < kAllLeafKinds; ++kind) {
+  for (std::size_t kind = 0; kind < kLeafKinds; ++kind) {
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       INFO(kLeafNames[kind] << ", seed " << seed);
       const OnePrimitive one = random_primitive(seed, kind, options);
@@ -100,7 +100,7 @@ TEST_CASE("a point of a ray is inside exactly when its parameter is in an interv
       }
     }
   });
-  CHECK(compared > kSeeds * kAllLeafKinds * 400);
+  CHECK(compared > kSeeds * kLeafKinds * 400);
   CHECK(inside > compared / 20);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("bounds enclose every point of the surface") {
       }
     }
   });
-  CHECK(ends > kSeeds * kAllLeafKinds * 30);
+  CHECK(ends > kSeeds * kLeafKinds * 30);
 }
 
 TEST_CASE("bounds enclose every point inside, however far") {
@@ -245,12 +245,12 @@ TEST_CASE("outward normals are unit and point outwards") {
     }
   });
   INFO(doubtful << " of " << ends);
-  CHECK(ends > kSeeds * kAllLeafKinds * 30);
+  CHECK(ends > kSeeds * kLeafKinds * 30);
   CHECK(doubtful * 1000 < ends);
 }
 
 TEST_CASE("a cell that counts as outside or inside is so with every point") {
-  for (std::size_t kind = 0; kind < kAllLeafKinds; ++kind) {
+  for (std::size_t kind = 0; kind < kLeafKinds; ++kind) {
     std::size_t outside = 0, inside = 0, crosses = 0;
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       INFO(kLeafNames[kind] << ", seed " << seed);
