@@ -153,13 +153,18 @@ std::size_t encoded_model_bytes(const Model& model) {
 
 std::size_t encoded_object_bytes(const Model& model, const Object& object) {
   std::size_t bytes = kObjectBytes + object.node_count * kNodeBytes;
+  std::vector<std::uint32_t> outlines;
   for (const TreeNode& n : model.tree(object)) {
     if (is_inner(n.kind)) continue;
     const Primitive& p = model.primitives[n.primitive];
     bytes += primitive_bytes(flags_of(p)) + p.plane_count * kPlaneBytes;
     if (p.kind == PrimitiveKind::kMesh) bytes += mesh_bytes(model.meshes[p.mesh].surface());
-    if (csg::has_outline(p.kind)) bytes += outline_bytes(model.outlines[p.outline]);
+    if (csg::has_outline(p.kind)) outlines.push_back(p.outline);
   }
+  // Primitives may share an outline, which is sent once.
+  std::sort(outlines.begin(), outlines.end());
+  outlines.erase(std::unique(outlines.begin(), outlines.end()), outlines.end());
+  for (const std::uint32_t outline : outlines) bytes += outline_bytes(model.outlines[outline]);
   return bytes;
 }
 

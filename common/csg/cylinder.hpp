@@ -126,12 +126,24 @@ inline bool cone_contains(const Primitive& p, const Vec3& q) {
   const double w = 1 + cone_slope(p) * l.z;
   return w >= 0 && l.x * l.x + l.y * l.y <= w * w && is_between_caps(p, q);
 }
+/// Whether a point found on a cone is its tip, to within rounding: there its distance from the axis
+/// has nothing to do with the radius of the cone at its height.
+inline bool is_at_tip(double distance, double radius) {
+  constexpr double kShare = 1.0 / 64;
+  return !(radius > 0 && std::fabs(distance - radius) <= kShare * radius);
+}
+/// The normal of a tip or a ridge: between those of the sides around it.
+inline Vec3 tip_normal(const Primitive& p) {
+  return normalized(p.to_local.transposed_vector({0, 0, 1}));
+}
 inline Vec3 cone_normal(const Primitive& p, const Ray& ray, double t) {
   const Vec3 cap = cap_at(p, ray, t);
   if (cap != Vec3{}) return cap;
   const Vec3 l = p.to_local.point(ray.at(t));
   const double k = cone_slope(p);
-  return normalized(p.to_local.transposed_vector({l.x, l.y, -k * (1 + k * l.z)}));
+  const double radius = 1 + k * l.z;
+  if (is_at_tip(std::sqrt(l.x * l.x + l.y * l.y), radius)) return tip_normal(p);
+  return normalized(p.to_local.transposed_vector({l.x, l.y, -k * radius}));
 }
 inline CellSide classify_cone(const Primitive& p, const Aabb& cell) {
   if (misses_caps(p, cell)) return CellSide::kOutside;

@@ -74,6 +74,8 @@ Vec3 elliptic_cone_normal(const Primitive& p, const Ray& ray, double t) {
   const double k = second_slope(p);
   const Vec3 l = p.to_local.point(ray.at(t));
   const double a = 1 - l.z, b = 1 - k * l.z;
+  const double x = l.x * b, y = l.y * a;
+  if (is_at_tip(std::sqrt(x * x + y * y), a * b)) return tip_normal(p);
   return normalized(p.to_local.transposed_vector(
       {l.x * b * b, l.y * a * a, a * b * (b + k * a) - k * l.x * l.x * b - l.y * l.y * a}));
 }

@@ -1,6 +1,7 @@
 #include "csg/elliptic_torus.hpp"
 
 #include "csg/quartic.hpp"
+#include "csg/torus.hpp"
 
 namespace graycube::csg {
 namespace {
@@ -58,9 +59,13 @@ Vec3 elliptic_torus_normal(const Primitive& p, const Vec3& q) {
   }
   // Negative on the opposite side, where away from the axis is towards the ring.
   const double rho = 1 + outwards;
-  const double slope = rho != 0 ? (p.v[0] * outwards + p.v[1] * l.z) / rho : 0;
-  return normalized(
-      p.to_local.transposed_vector({l.x * slope, l.y * slope, p.v[1] * outwards + p.v[2] * l.z}));
+  const double away = p.v[0] * outwards + p.v[1] * l.z;
+  const double up = p.v[1] * outwards + p.v[2] * l.z;
+  if (is_on_axis(std::fabs(rho), ellipse(p, outwards, l.z) - 1, 2 * away)) {
+    return normal_on_axis(p, up);
+  }
+  const double slope = away / rho;
+  return normalized(p.to_local.transposed_vector({l.x * slope, l.y * slope, up}));
 }
 
 CellSide classify_elliptic_torus(const Primitive& p, const Aabb& cell) {

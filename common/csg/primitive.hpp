@@ -85,7 +85,9 @@ Spans spans_along(const Primitive& primitive, const PrimitiveData& data, const R
 bool contains(const Primitive& primitive, const PrimitiveData& data, const Vec3& point);
 
 /// The unit normal pointing out of the primitive at parameter `t` of `ray`, where t is one of the
-/// ends that spans_along gave for the same ray: the face is the one whose root is t.
+/// ends that spans_along gave for the same ray: the face is the one whose root is t. A tip or a
+/// ridge has a normal between those of its sides. Where the ray only touches the surface, in an
+/// interval of length zero, the normal is a unit vector still, but may point to either side.
 Vec3 outward_normal(const Primitive& primitive, const PrimitiveData& data, const Ray& ray,
                     double t);
 

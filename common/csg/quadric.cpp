@@ -96,7 +96,10 @@ Vec3 quadric_normal(const Primitive& p, std::span<const Plane> faces, const Ray&
   const Vec3 flat = polyhedron_normal(faces, ray, t);
   if (flat != Vec3{}) return flat;
   const Vec3 l = p.to_local.point(ray.at(t));
-  return normalized(p.to_local.transposed_vector({l.x, p.v[0] * l.y, p.v[1] * l.z + 0.5 * p.v[2]}));
+  const Vec3 n =
+      normalized(p.to_local.transposed_vector({l.x, p.v[0] * l.y, p.v[1] * l.z + 0.5 * p.v[2]}));
+  // Where two nappes meet no direction is outwards; the tip faces whoever touches it.
+  return n != Vec3{} ? n : -normalized(ray.direction);
 }
 
 CellSide classify_quadric(const Primitive& p, std::span<const Plane> faces, const Aabb& cell) {

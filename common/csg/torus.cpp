@@ -94,7 +94,10 @@ bool torus_contains(const Primitive& p, const Vec3& q) {
 Vec3 torus_normal(const Primitive& p, const Vec3& q) {
   const Vec3 l = p.to_local.point(q);
   const double rho = std::sqrt(l.x * l.x + l.y * l.y);
-  const double shrink = rho > 0 ? 1 - 1 / rho : 0;
+  const double from_ring = rho - 1;
+  const double off = from_ring * from_ring + l.z * l.z - torus_minor(p) * torus_minor(p);
+  if (is_on_axis(rho, off, 2 * from_ring)) return normal_on_axis(p, l.z);
+  const double shrink = 1 - 1 / rho;
   return normalized(p.to_local.transposed_vector({l.x * shrink, l.y * shrink, l.z}));
 }
 

@@ -34,25 +34,42 @@ struct Branches {
   }
 };
 
+/// Bounds of the objects held in part of which the whole tree has no item, as they are empty: their
+/// parts may show surfaces all the same, beyond the region for which they are right.
+Aabb bounds_of_empty_parts(const SurfaceTree& tree, const ModelContents& contents) {
+  std::vector<bool> has_items(tree.model().objects.size());
+  for (const SurfaceItem& item : tree.items()) has_items[item.object] = true;
+  Aabb all = Aabb::nothing();
+  for (const ModelContents::Part& part : contents.parts) {
+    const Aabb& box = tree.model().objects[part.object].bounds;
+    if (has_items[part.object] || box.is_empty()) continue;
+    all.include(box.lo);
+    all.include(box.hi);
+  }
+  return all;
+}
+
 /// Copies a tree without the objects that are held, from the leaves up.
 class Pruning {
  public:
   /// `items` holds the number of items below each node. Up to `most_together` share one box.
+  /// `empty_parts` are foreign beside what is in the tree.
   Pruning(const SurfaceTree& tree, std::span<const std::uint32_t> items,
-          const ModelContents& contents, std::size_t most_together)
+          const ModelContents& contents, const Aabb& empty_parts, std::size_t most_together)
       : tree_(tree),
         items_(items),
         contents_(contents),
+        empty_parts_(empty_parts),
         most_together_(most_together),
         is_part_(tree.model().objects.size()) {
     for (const ModelContents::Part& part : contents.parts) is_part_[part.object] = true;
   }
 
   std::vector<WideNode> run() {
-    if (!tree_.nodes().empty()) {
-      const Branches root = branches_of(tree_.nodes().front());
-      if (root.count > 0) add_node(root);
-    }
+    Branches root;
+    if (!tree_.nodes().empty()) root = branches_of(tree_.nodes().front());
+    if (!empty_parts_.is_empty()) add_empty_parts(root);
+    if (root.count > 0) add_node(root);
     // Children were made first, so the order of all nodes is reversed.
     std::reverse(nodes_.begin(), nodes_.end());
     for (WideNode& node : nodes_) {
@@ -65,6 +82,17 @@ class Pruning {
   }
 
  private:
+  /// A root without room becomes one box around everything.
+  void add_empty_parts(Branches& root) {
+    Branch all{float_box_around(empty_parts_.grown(tree_.model().delta)), WideNode::kItemFlag};
+    if (root.count == WideNode::kWidth) {
+      all.box.include(root.box());
+      root.count = 0;
+      nodes_.clear();
+    }
+    root.add(all);
+  }
+
   Branches branches_of(const WideNode& node) {
     std::array<Branches, WideNode::kWidth> below;
     std::size_t count = 0;
@@ -153,6 +181,7 @@ class Pruning {
   const SurfaceTree& tree_;
   std::span<const std::uint32_t> items_;
   const ModelContents& contents_;
+  const Aabb& empty_parts_;
   std::size_t most_together_;
   std::vector<bool> is_part_;
   std::vector<WideNode> nodes_;
@@ -177,6 +206,8 @@ std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& con
   for (const std::uint32_t item : tree_.unbounded_items()) {
     if (!contents.is_whole[tree_.items()[item].object]) return std::nullopt;
   }
+  const Aabb empty_parts = bounds_of_empty_parts(tree_, contents);
+  if (!empty_parts.is_empty() && !empty_parts.is_finite()) return std::nullopt;
   const std::size_t most_nodes = std::max<std::size_t>(1, most_bytes / sizeof(WideNode));
   const auto foreign = static_cast<std::size_t>(
       std::count_if(tree_.items().begin(), tree_.items().end(),
@@ -184,7 +215,7 @@ std::optional<ForeignBounds> ForeignBoundsMaker::bounds(const ModelContents& con
   for (std::size_t together = std::bit_ceil(foreign / (kBoxesPerNode * most_nodes) + 1);;
        together *= 2) {
     stop_if_asked();
-    std::vector<WideNode> nodes = Pruning(tree_, items_, contents, together).run();
+    std::vector<WideNode> nodes = Pruning(tree_, items_, contents, empty_parts, together).run();
     if (nodes.size() <= most_nodes) return ForeignBounds(std::move(nodes));
   }
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "proto/records/tile_records.hpp"
+#include "regions/pixels_of.hpp"
 
 namespace graycube {
 namespace {
@@ -14,13 +15,6 @@ std::vector<std::uint32_t> rays_per_tile(const TilePlan& plan) {
     rays[i] = static_cast<std::uint32_t>(plan.primary_rays(i));
   }
   return rays;
-}
-
-template <typename Do>
-void each_pixel_of(const PixelRect& rect, std::uint32_t width, Do&& act) {
-  for (std::uint32_t y = rect.y0; y < rect.y1; ++y) {
-    for (std::uint32_t x = rect.x0; x < rect.x1; ++x) act(y * width + x);
-  }
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ void LightIntake::reopen(const TilePlan& plan) {
   const std::uint32_t width = film_.width();
   for (const std::uint32_t tile : ledger_.open_tiles()) {
     ledger_.clear(tile);
-    each_pixel_of(plan.rect(tile), width, [this](std::uint32_t p) { film_.clear(p); });
+    each_pixel_of(plan.rect(tile), width, [this](std::uint32_t p, std::size_t) { film_.clear(p); });
   }
 }
 
@@ -54,7 +48,8 @@ std::uint32_t LightIntake::restore(std::span<const std::byte> records, const Til
     if (ledger_.is_whole(tile)) continue;
     const bool is_last_open = ledger_.whole_count() + 1 == ledger_.tile_count();
     std::vector<std::uint32_t> pixels;
-    each_pixel_of(plan.rect(tile), film_.width(), [&](std::uint32_t p) { pixels.push_back(p); });
+    each_pixel_of(plan.rect(tile), film_.width(),
+                  [&](std::uint32_t p, std::size_t) { pixels.push_back(p); });
     if (!is_last_open && std::ranges::all_of(pixels, [&](std::uint32_t p) { return known[p]; })) {
       const auto rays = plan.primary_rays(tile);
       ledger_.add(tile, Credit::from_words({rays, 0, 0, 0, 0}));

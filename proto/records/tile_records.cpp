@@ -5,6 +5,7 @@
 
 #include "content_digest.hpp"
 #include "proto/bytes.hpp"
+#include "regions/pixels_of.hpp"
 
 namespace graycube {
 namespace {
@@ -108,27 +109,19 @@ bool decode_pixels(const Record& record, std::size_t planes, Pixels& pixels) {
   return true;
 }
 
-template <typename Do>
-void each_pixel(const PixelRect& tile, std::uint32_t width, Do&& act) {
-  std::size_t i = 0;
-  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-    for (std::uint32_t x = tile.x0; x < tile.x1; ++x) act(y * width + x, i++);
-  }
-}
-
 void add_pixels(const PixelRect& tile, const Pixels& pixels, Film& film, std::vector<bool>& known) {
   bool is_known = false;
-  each_pixel(tile, film.width(),
-             [&](std::uint32_t pixel, std::size_t) { is_known = is_known || known[pixel]; });
+  each_pixel_of(tile, film.width(),
+                [&](std::uint32_t pixel, std::size_t) { is_known = is_known || known[pixel]; });
   if (is_known) return;
-  each_pixel(tile, film.width(), [&](std::uint32_t pixel, std::size_t i) {
+  each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t i) {
     known[pixel] = true;
     film.add(pixel, pixels.sums[i]);
   });
   std::size_t first = 0;
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (!film.has_plane_of_aovs(p)) continue;
-    each_pixel(tile, film.width(), [&](std::uint32_t pixel, std::size_t i) {
+    each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t i) {
       film.set_aov_words(p, pixel, pixels.aovs[first + i]);
     });
     first += pixels.sums.size();
@@ -170,7 +163,7 @@ void append_tile_record(std::vector<std::byte>& records, const Film& film, const
   append(records, std::uint32_t{0});
   bool fits = true;
   FixedRgb before;
-  each_pixel(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
+  each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
     const std::optional<FixedRgb> sum = film.short_sum(pixel);
     fits = fits && sum.has_value();
     if (!fits) return;
@@ -182,7 +175,7 @@ void append_tile_record(std::vector<std::byte>& records, const Film& film, const
   if (!fits) return records.resize(begin);
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (!film.has_plane_of_aovs(p)) continue;
-    each_pixel(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
+    each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
       for (const std::uint32_t word : film.aov_words(p, pixel)) append(records, word);
     });
   }

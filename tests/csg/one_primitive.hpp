@@ -9,10 +9,10 @@
 
 namespace graycube::testing {
 
-inline const std::array<const char*, kAllLeafKinds> kLeafNames{
+inline const std::array<const char*, kLeafKinds> kLeafNames{
     "sphere",    "box",        "cylinder",      "cone",           "torus",
     "ellipsoid", "polyhedron", "elliptic_cone", "elliptic_torus", "quadric",
-    "mesh",      "half_space", "lathe",         "sweep"};
+    "mesh",      "lathe",      "sweep",         "bezier",         "half_space"};
 
 struct OnePrimitive {
   Model model;
@@ -66,6 +66,21 @@ inline bool is_inside(const Spans& spans, double t) {
     if (t >= s.enter && t <= s.leave) return true;
   }
   return false;
+}
+/// End number k: where an interval begins, then where it ends.
+inline double end_of(const Spans& spans, int k) {
+  const auto& s = spans.interval[static_cast<std::size_t>(k / 2)];
+  return k % 2 == 0 ? s.enter : s.leave;
+}
+/// Whether the line is at end k for an instant only, in the solid or outside of it: it touches the
+/// surface there, and no direction is outwards.
+inline bool is_touched(const Spans& spans, int k, double tolerance) {
+  const double t = end_of(spans, k);
+  const auto is_near = [&](int other) {
+    return other >= 0 && other < 2 * spans.count &&
+           std::fabs(end_of(spans, other) - t) <= tolerance;
+  };
+  return is_near(k - 1) || is_near(k + 1);
 }
 /// The distance of t from the nearest end.
 inline double distance_to_ends(const Spans& spans, double t) {

@@ -15,13 +15,13 @@ using namespace graycube::testing;
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 150;
+constexpr std::uint64_t kSeeds = 600;
 
 /// Calls `check(one, dice)` for random primitives of every kind; the seed is shown when something
 /// fails.
 template <typename Check>
 void for_random_primitives(const Check& check, const RandomOptions& options = {}) {
-  for (std::size_t kind = 0; kind < kAllLeafKinds; ++kind) {
+  for (std::size_t kind = 0; kind < kLeafKinds; ++kind) {
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       INFO(kLeafNames[kind] << ", seed " << seed);
       const OnePrimitive one = random_primitive(seed, kind, options);
@@ -100,7 +100,7 @@ TEST_CASE("a point of a ray is inside exactly when its parameter is in an interv
       }
     }
   });
-  CHECK(compared > kSeeds * kAllLeafKinds * 400);
+  CHECK(compared > kSeeds * kLeafKinds * 400);
   CHECK(inside > compared / 20);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("bounds enclose every point of the surface") {
       }
     }
   });
-  CHECK(ends > kSeeds * kAllLeafKinds * 30);
+  CHECK(ends > kSeeds * kLeafKinds * 30);
 }
 
 TEST_CASE("bounds enclose every point inside, however far") {
@@ -222,12 +222,12 @@ TEST_CASE("outward normals are unit and point outwards") {
       const Ray ray = ray_towards(one, dice);
       const Spans spans = one.spans(ray);
       for (int k = 0; k < 2 * spans.count; ++k) {
-        const auto& s = spans.interval[static_cast<std::size_t>(k / 2)];
-        const double t = k % 2 == 0 ? s.enter : s.leave;
+        const double t = end_of(spans, k);
         if (!std::isfinite(t) || std::fabs(t) > 100) continue;
         ++ends;
         const Vec3 n = one.normal(ray, t);
         if (!(std::fabs(length(n) - 1) < 1e-12)) FAIL(text_of(ray, t) << " length " << length(n));
+        if (is_touched(spans, k, 1e-7)) continue;
         // Entering, the ray runs against the normal, but for rounding in grazing.
         const double along = dot(n, ray.direction);
         if (k % 2 == 0 ? along > 1e-5 : along < -1e-5) FAIL(text_of(ray, t));
@@ -245,12 +245,12 @@ TEST_CASE("outward normals are unit and point outwards") {
     }
   });
   INFO(doubtful << " of " << ends);
-  CHECK(ends > kSeeds * kAllLeafKinds * 30);
+  CHECK(ends > kSeeds * kLeafKinds * 30);
   CHECK(doubtful * 1000 < ends);
 }
 
 TEST_CASE("a cell that counts as outside or inside is so with every point") {
-  for (std::size_t kind = 0; kind < kAllLeafKinds; ++kind) {
+  for (std::size_t kind = 0; kind < kLeafKinds; ++kind) {
     std::size_t outside = 0, inside = 0, crosses = 0;
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       INFO(kLeafNames[kind] << ", seed " << seed);

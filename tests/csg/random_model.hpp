@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bezier/samples.hpp"
 #include "csg/dice.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/portable_math.hpp"
@@ -17,9 +18,8 @@
 
 namespace graycube::testing {
 
-/// Kinds of leaves of random scenes; with those whose intervals have no bound, the last ones.
-inline constexpr std::size_t kLeafKinds = 12;
-inline constexpr std::size_t kAllLeafKinds = 14;
+/// Kinds of leaves of random scenes; half-spaces, which alone are never bounded, are the last.
+inline constexpr std::size_t kLeafKinds = 15;
 
 struct RandomOptions {
   /// Half of all coordinates are multiples of 1/2, and some leaves repeat others: faces coincide.
@@ -66,7 +66,7 @@ class RandomModel {
     return s;
   }
 
-  /// A leaf of kind number 0 … kAllLeafKinds − 1, in its own coordinates near the origin.
+  /// A leaf of kind number 0 … kLeafKinds − 1, in its own coordinates near the origin.
   CsgNode leaf(std::size_t kind) {
     switch (kind) {
       case 0: return node_of(SphereShape{place(), size()});
@@ -80,8 +80,10 @@ class RandomModel {
       case 8: return node_of(elliptic_torus());
       case 9: return node_of(quadric());
       case 10: return node_of(mesh());
-      case 12: return node_of(LatheShape{outline(0)});
-      case 13: return node_of(SweepShape{outline(-1), size(), is_on_grid() ? -0.5 : 0.0});
+      case 11: return node_of(LatheShape{outline(0)});
+      case 12: return node_of(SweepShape{outline(-1), size(), is_on_grid() ? -0.5 : 0.0});
+      case 13:
+        return node_of(BezierShape{cube_net(dice_.between(0, 0.2), dice_.below(1000)), 0.05});
       default: return node_of(half_space());
     }
   }
@@ -189,6 +191,8 @@ class RandomModel {
       node = some_leaf();
     } else if (shapes_ > 0 && dice_.one_in(8)) {
       node = node_of(ReferenceNode{0});
+    } else if (dice_.one_in(10)) {
+      node = node_of(repeat(depth));
     } else {
       node = some_operation(depth);
     }
@@ -204,6 +208,13 @@ class RandomModel {
     CsgNode node = leaf(dice_.below(options_.unbounded ? kLeafKinds : kLeafKinds - 1));
     earlier_.push_back(node);
     return node;
+  }
+
+  RepeatNode repeat(int depth) {
+    RepeatNode r{{tree(depth - 1)}, {map()}, static_cast<std::uint32_t>(dice_.below(3)), {}};
+    if (dice_.one_in(2)) r.maps.push_back(map());
+    if (dice_.one_in(3)) r.kept = KeptCopies::kLast;
+    return r;
   }
 
   CsgNode some_operation(int depth) {

@@ -59,11 +59,28 @@ inline SolidTree solid_of(const Model& model, const Object& object) {
   return solid_of(std::span(model.nodes).subspan(object.first_node, object.node_count));
 }
 
+inline SolidTree solid_of(const Scene& scene, const CsgNode& node, std::uint32_t& next);
+/// A repeat's copies under products of up to `depth` maps.
+inline SolidTree copies_of(const Scene& scene, const RepeatNode& repeat, std::uint32_t depth,
+                           std::uint32_t& next) {
+  SolidTree tree;
+  tree.kind = SolidTree::Kind::kUnion;
+  if (depth == 0 || repeat.kept == KeptCopies::kAll) {
+    tree.children.push_back(solid_of(scene, repeat.child.front(), next));
+  }
+  for (std::size_t map = 0; depth > 0 && map < repeat.maps.size(); ++map) {
+    tree.children.push_back(copies_of(scene, repeat, depth - 1, next));
+  }
+  return tree;
+}
 /// A tree as written in the scene. The compiled model numbers leaves in the order of the file,
-/// references expanded; `next` is the number of the first.
+/// references and repeats expanded; `next` is the number of the first.
 inline SolidTree solid_of(const Scene& scene, const CsgNode& node, std::uint32_t& next) {
   if (const auto* ref = std::get_if<ReferenceNode>(&node.value)) {
     return solid_of(scene, scene.shapes[ref->shape].node, next);
+  }
+  if (const auto* repeat = std::get_if<RepeatNode>(&node.value)) {
+    return copies_of(scene, *repeat, repeat->depth, next);
   }
   SolidTree tree;
   if (const auto* o = std::get_if<OperationNode>(&node.value)) {

@@ -2,6 +2,8 @@
 #include "frontal/preparation/slices.hpp"
 
 #include <optional>
+#include <set>
+#include <utility>
 #include <variant>
 
 #include "catch.hpp"
@@ -214,7 +216,8 @@ TEST_CASE("a slice is the bytes of what is extracted") {
   CHECK(parts > 100);
 }
 
-TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
+TEST_CASE("objects add up to their model's bytes, but for outlines that they share") {
+  std::size_t with_outlines = 0, shared = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     INFO("seed " << seed);
     const Model model = compile_scene(RandomModel(seed).scene());
@@ -222,12 +225,29 @@ TEST_CASE("objects add up to their model's bytes, with planes and meshes") {
     empty.primitives.clear();
     empty.planes.clear();
     empty.meshes.clear();
+    empty.outlines.clear();
     empty.nodes.clear();
     empty.objects.clear();
     std::size_t bytes = encoded_model_bytes(empty);
     for (const Object& object : model.objects) bytes += encoded_object_bytes(model, object);
-    CHECK(bytes == encoded_model_bytes(model));
+    std::set<std::pair<std::uint32_t, std::uint32_t>> of_objects;
+    for (const Object& object : model.objects) {
+      for (const TreeNode& n : model.tree(object)) {
+        if (n.size != 1) continue;
+        const Primitive& p = model.primitives[n.primitive];
+        if (csg::has_outline(p.kind)) of_objects.insert({object.id, p.outline});
+      }
+    }
+    with_outlines += model.outlines.empty() ? 0 : 1;
+    if (of_objects.size() > model.outlines.size()) {
+      ++shared;
+      CHECK(bytes > encoded_model_bytes(model));
+    } else {
+      CHECK(bytes == encoded_model_bytes(model));
+    }
   }
+  CHECK(with_outlines > 10);
+  CHECK(shared < with_outlines);
 }
 
 TEST_CASE("room for slices is twice an equal share, or a little for small scenes") {
