@@ -22,6 +22,16 @@ def serial_picture(command, scene, size, folder):
     return bytes_of(picture)
 
 
+def ticks_of(process, with_ended_children):
+    """CPU time of a process in clock ticks (proc(5)); 0 if it is gone."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="utf-8") as file:
+            fields = file.read().rpartition(")")[2].split()
+    except OSError:
+        return 0
+    return sum(int(field) for field in fields[11:15 if with_ended_children else 13])
+
+
 class Farm:
     def __init__(self, command, folder, nodes, *options, port=None):
         """At a socket in the folder, or at a TCP port, with its key there."""
@@ -51,6 +61,12 @@ class Farm:
 
     def json(self, *arguments):
         return json.loads(self.run(*arguments, "--json"))
+
+    def cpu_s(self):
+        """CPU seconds that the frontal and all nodes have taken so far, those that are dead, too."""
+        frontal = ticks_of(self.json("status", "--farm")["pid"], True)
+        nodes = {node["pid"] for node in self.json("nodes")} - {0}
+        return (frontal + sum(ticks_of(node, True) for node in nodes)) / os.sysconf("SC_CLK_TCK")
 
     def down(self):
         self.run("down")

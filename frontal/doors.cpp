@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "process/accept.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/farm_key.hpp"
 
@@ -18,8 +19,10 @@ constexpr PeerLimits kClientLimits{kMaxClientFrameBytes, kMaxUnsentAnswers, kMax
 
 }  // namespace
 
-Doors::Doors(const std::filesystem::path& folder, const std::string& listen, std::string key_file)
+Doors::Doors(const std::filesystem::path& folder, const std::string& listen, std::string key_file,
+             int others)
     : nodes_(context_, "ipc://" + (folder / "nodes").string()), key_file_(std::move(key_file)) {
+  refuse_connections_above(others + kMaxClientConnections, (folder / "nodes").string());
   const std::string endpoint = listen.empty() ? "ipc://" + (folder / "frontal").string() : listen;
   if (!needs_key(endpoint)) {
     key_file_.clear();
@@ -37,6 +40,8 @@ Doors::~Doors() {
   ::unlink(key_file_.c_str());
   ::rmdir(run_folder().c_str());
 }
+
+std::uint64_t Doors::take_crowded_out() { return take_refused_connections(); }
 
 std::optional<Doors::Received> Doors::receive() {
   if (const auto m = nodes_.receive()) return Received{kNode + m->peer, m->message};

@@ -23,11 +23,16 @@ inline constexpr std::size_t kMaxClientFrameBytes = kMaxSubmitBytes;
 /// disconnected.
 inline constexpr int kClientHandshake_ms = 5000;
 
+/// At least so many connections of clients are open when further ones are closed at once.
+inline constexpr int kMaxClientConnections = 1024;
+
 class Doors {
  public:
   /// `listen`: the clients' endpoint, empty for a socket in `folder`. `key_file`: where the key of
-  /// a farm at a TCP port is kept; empty for the usual place. Throws TransportError and KeyError.
-  Doors(const std::filesystem::path& folder, const std::string& listen, std::string key_file);
+  /// a farm at a TCP port is kept; empty for the usual place. `others`: the most files and sockets
+  /// that the process has open beside clients' connections. Throws TransportError and KeyError.
+  Doors(const std::filesystem::path& folder, const std::string& listen, std::string key_file,
+        int others);
   /// Removes the key file, and the run folder if nothing else is in it.
   ~Doors();
   Doors(const Doors&) = delete;
@@ -49,6 +54,8 @@ class Doors {
   void send(const PeerId& peer, Message message);
   /// Clients that were turned away for want of a key, since this was last asked.
   std::uint64_t take_refused() { return doorkeeper_ ? doorkeeper_->take_refused() : 0; }
+  /// Connections beyond kMaxClientConnections that were closed, since this was last asked.
+  static std::uint64_t take_crowded_out();
   std::array<Readable*, 2> sockets() { return {&nodes_, &*clients_}; }
 
  private:

@@ -78,6 +78,10 @@ class Frontal {
   std::vector<FarmEvent> take_events() { return log_.take(); }
   /// So many clients were turned away, since they did not show the farm's key.
   void turned_away(std::uint64_t clients) { log_.strangers_are_refused(clients); }
+  /// So many connections were closed at once, as clients had `most` already.
+  void crowded_out(std::uint64_t connections, int most) {
+    log_.crowd_is_refused(connections, most);
+  }
   /// Nodes that end when their hosts' processes do, which have been told of them.
   std::vector<Hosting> take_hostings() { return nodes_.take_hostings(); }
   /// After `down`: nodes have been told to stop, and so should the process, once all have left.

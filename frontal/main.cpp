@@ -58,6 +58,9 @@ constexpr std::size_t kLargeHeap = std::size_t{256} << 20;
 /// Nodes that don't leave within so many seconds after `shutdown` are killed.
 constexpr double kGrace_s = 2;
 constexpr auto kTick = std::chrono::milliseconds(50);
+/// Open files and sockets of a frontal beside those that lead to nodes, clients and browsers; and
+/// of a node, in the largest hypercube.
+constexpr std::uint32_t kOwnDescriptors = 64, kNodeDescriptors = 64;
 
 Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
 
@@ -90,7 +93,8 @@ class FrontalProcess {
         shows_all_(!a.is_private && !a.is_quiet),
         shows_trouble_(!a.is_private),
         secret_(make_secret()),
-        doors_(folder_.path(), a.is_private ? "" : a.listen, a.key),
+        doors_(folder_.path(), a.is_private ? "" : a.listen, a.key,
+               static_cast<int>(kOwnDescriptors + a.nodes + kMaxHttpConnections)),
         store_(make_store(a)),
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads, secret_),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
@@ -174,6 +178,8 @@ class FrontalProcess {
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
     if (const std::uint64_t refused = doors_.take_refused()) frontal_.turned_away(refused);
+    if (const std::uint64_t refused = Doors::take_crowded_out())
+      frontal_.crowded_out(refused, kMaxClientConnections);
     while (auto m = doors_.receive()) {
       frontal_.on_time(this_moment());
       frontal_.on_message(m->peer, m->message);
@@ -255,13 +261,9 @@ class FrontalProcess {
   LoopWatch loop_watch_;
 };
 
-/// Open files and sockets of a frontal beside those that lead to nodes; and of a node, in the
-/// largest hypercube.
-constexpr std::uint64_t kOwnDescriptors = 64, kNodeDescriptors = 64;
-
 /// Why a farm of so many nodes can't run with so many open files for each process.
 std::optional<std::string> descriptor_problem(std::uint32_t nodes, std::uint64_t limit) {
-  const std::uint64_t needed = std::max(kOwnDescriptors + nodes, kNodeDescriptors);
+  const std::uint32_t needed = std::max(kOwnDescriptors + nodes, kNodeDescriptors);
   if (limit >= needed) return std::nullopt;
   return std::to_string(nodes) + " nodes need " + std::to_string(needed) +
          " open files and sockets, and the system lets a process have " + std::to_string(limit) +

@@ -1,12 +1,48 @@
 // Stands in for the system's accept4() in programs that link this file. libzmq 4.3.4 ends the
 // process when there is no descriptor for a connection to a local socket (EMFILE in
 // ipc_listener.cpp), but goes on when the whole system has none (ENFILE), so that is what it is
-// told.
+// told. It also goes on when a connection has been given up meanwhile (ECONNABORTED), which is what
+// it is told of those that are refused.
+#include "process/accept.hpp"
+
 #include <sys/socket.h>
 #include <sys/syscall.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <limits>
+#include <utility>
+
+namespace graycube {
+namespace {
+
+std::string spared_path;
+std::atomic<int> last_descriptor{std::numeric_limits<int>::max()};
+std::atomic<std::uint64_t> refused{0};
+
+bool is_spared(int listener) {
+  sockaddr_un address{};
+  socklen_t size = sizeof address;
+  return ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+         address.sun_family == AF_UNIX && spared_path == address.sun_path;
+}
+
+bool is_refused(int listener, long connection) {
+  return connection > last_descriptor.load(std::memory_order_acquire) && !is_spared(listener);
+}
+
+}  // namespace
+
+void refuse_connections_above(int last, std::string spared) {
+  spared_path = std::move(spared);
+  last_descriptor.store(last, std::memory_order_release);
+}
+
+std::uint64_t take_refused_connections() { return refused.exchange(0); }
+
+}  // namespace graycube
 
 namespace {
 
@@ -22,6 +58,12 @@ extern "C" int accept4(int socket, sockaddr* __restrict address, socklen_t* __re
   if (accepted < 0 && errno == EMFILE) {
     ::usleep(kPause_us);
     errno = ENFILE;
+  }
+  if (graycube::is_refused(socket, accepted)) {
+    ::close(static_cast<int>(accepted));
+    ++graycube::refused;
+    errno = ECONNABORTED;
+    return -1;
   }
   return static_cast<int>(accepted);
 }

@@ -166,4 +166,9 @@ void FarmLog::strangers_are_refused(std::uint64_t clients) {
   refuse("refused: " + count_text(clients, "connection") + " without the farm's key");
 }
 
+void FarmLog::crowd_is_refused(std::uint64_t connections, int most) {
+  refuse("refused: " + count_text(connections, "connection") + " beyond the " +
+         std::to_string(most) + " that clients may have");
+}
+
 }  // namespace graycube

@@ -79,6 +79,8 @@ class FarmLog {
   void hello_is_refused(std::uint32_t rank, const std::string& why);
   /// Clients that did not show the farm's key.
   void strangers_are_refused(std::uint64_t clients);
+  /// Connections that came when clients had as many as they may, or more.
+  void crowd_is_refused(std::uint64_t connections, int most);
 
   std::vector<FarmEvent> take();
 

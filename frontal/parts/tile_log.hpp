@@ -17,7 +17,7 @@ namespace graycube {
 
 /// Seconds before the first records, so that short jobs take no work for it; and between others, of
 /// which as much is traced again after a frontal's death.
-inline constexpr double kFirstRecord_s = 0.8, kRecordInterval_s = 0.2;
+inline constexpr double kFirstRecord_s = 0.8, kRecordInterval_s = 0.05;
 /// Records are made in pieces of about so many bytes, each of which takes some milliseconds.
 inline constexpr std::size_t kRecordPieceBytes = std::size_t{1} << 20;
 

@@ -140,7 +140,7 @@ TEST_CASE("the log tells of the same losses as the statistics, and of the same e
   OnTwo on;
   on.prepare_as(Algorithm::kRoth);
   on.start();
-  CHECK_FALSE(on.job.lose({Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.25}, on.post));
+  CHECK_FALSE(on.job.lose({{Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.25}}, on.post));
   CHECK_FALSE(on.job.on_error(Rank{0}, {3, 1, "a batch was lost"}, on.post));
   const auto stats = nlohmann::json::parse(on.job.statistics(110, on.cpu, {}));
   const auto events = on.log.take();

@@ -1,12 +1,16 @@
 // Farms under limits of the system (ulimit).
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -65,6 +69,18 @@ class SilentPeers {
   SilentPeers(const SilentPeers&) = delete;
   SilentPeers& operator=(const SilentPeers&) = delete;
 
+  /// How many of them the farm has closed.
+  std::ptrdiff_t closed() const {
+    return std::ranges::count_if(sockets_, [](int s) {
+      // Whoever is let in is greeted, which is read first.
+      std::array<char, 256> greeting;
+      ssize_t got = 0;
+      while ((got = ::recv(s, greeting.data(), greeting.size(), 0)) > 0) {
+      }
+      return got == 0 || errno == ECONNRESET;
+    });
+  }
+
  private:
   std::vector<int> sockets_;
 };
@@ -105,6 +121,40 @@ TEST_CASE("a farm that is out of descriptors goes on, and replaces its nodes whe
   const nlohmann::json after = nodes_once_all_are_here(sandbox, endpoint);
   CHECK(after[0]["pid"] != before[0]["pid"]);
   CHECK(after[1]["pid"] == before[1]["pid"]);
+  CHECK(sandbox.run({"down", "--connect", endpoint}).status == 0);
+}
+
+TEST_CASE("clients' connections beyond a number are closed, and nodes' are not") {
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+  constexpr int kBatches = 40, kBatch = 40;  // 1600: more than 1024, and what a frontal has besides
+  REQUIRE(files.rlim_max > 2 * kBatches * kBatch);
+  Sandbox sandbox;
+  const std::string path = (sandbox / "farm").string(), endpoint = "ipc://" + path;
+  Running up = sandbox.start({"up", "-n", "2", "--listen", endpoint});
+  up.wait_for("graycube down");
+  const nlohmann::json before = nodes_once_all_are_here(sandbox, endpoint);
+  {
+    std::vector<std::unique_ptr<SilentPeers>> peers;
+    for (int batch = 0; batch < kBatches; ++batch) {
+      peers.push_back(std::make_unique<SilentPeers>(path, kBatch));
+      std::this_thread::sleep_for(20ms);
+    }
+    ::kill(before[0]["pid"], SIGKILL);
+    const auto until = std::chrono::steady_clock::now() + 30s;
+    while (up.err().find("has taken its place") == std::string::npos) {
+      REQUIRE(std::chrono::steady_clock::now() < until);
+      std::this_thread::sleep_for(20ms);
+    }
+    std::ptrdiff_t closed = 0;
+    for (const auto& p : peers) closed += p->closed();
+    CHECK(closed > 0);
+    CHECK(closed <= kBatches * kBatch - 1024);
+  }
+  nodes_once_all_are_here(sandbox, endpoint);
+  CHECK(up.err().find("beyond the 1024 that clients may have") != std::string::npos);
   CHECK(sandbox.run({"down", "--connect", endpoint}).status == 0);
 }
 

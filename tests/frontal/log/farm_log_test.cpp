@@ -48,7 +48,7 @@ TEST_CASE("a job's way is told: accepted, begun, what it lost, and how it ended"
   farm.jobs.set_time({10, 1000});
   farm.submit();
   farm.load_next();
-  farm.jobs.node_was_lost({Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.14});
+  farm.jobs.nodes_were_lost({{Rank{1}, "node 1 (process 77)", "killed by signal 9", 0.14}});
   farm.jobs.set_time({12.5, 1002.5});
   farm.jobs.cancel(1);
   CHECK(farm.told() == std::vector<std::string>{
@@ -57,7 +57,7 @@ TEST_CASE("a job's way is told: accepted, begun, what it lost, and how it ended"
                            "0.1 s; 0 tiles again, epoch 2",
                            "job 1: cancelled after 2.5 s: cancelled"});
   // A node that no job misses is told of, too, and so is the process that takes its place.
-  farm.jobs.node_was_lost({Rank{0}, "node 0", "ended with status 1", 0});
+  farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "ended with status 1", 0}});
   for (const std::uint32_t rank : {0u, 1u, 0u}) farm.log.node_is_here(Rank{rank}, 90 + rank);
   CHECK(farm.told() ==
         std::vector<std::string>{"lost node 0: ended with status 1, noticed after 0.0 s",
@@ -75,6 +75,20 @@ TEST_CASE("submissions that are refused are told of with the reason") {
                            "the command itself, without a farm"});
 }
 
+TEST_CASE("of nodes that are lost with one process each is told, and of their hosts") {
+  Farm farm;
+  farm.jobs.set_time({10, 1000});
+  farm.submit();
+  farm.load_next();
+  farm.told();
+  farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "died", 0.1}, {Rank{1}, "node 1", "died", 0.1}});
+  farm.log.node_has_host("node 1", "can't be started (why): it runs in node 0's process");
+  CHECK(farm.told() == std::vector<std::string>{
+                           "job 1: lost node 0: died, noticed after 0.1 s; 0 tiles again, epoch 2",
+                           "job 1: lost node 1: died, noticed after 0.1 s; 0 tiles again, epoch 2",
+                           "node 1 can't be started (why): it runs in node 0's process"});
+}
+
 TEST_CASE("of refusals that come fast only the number is told") {
   FarmLog log;
   log.set_time(1000);
@@ -85,7 +99,11 @@ TEST_CASE("of refusals that come fast only the number is told") {
   REQUIRE(later.size() == 1);
   CHECK(later.front().text == "5 more refusals like the last ones");
   log.strangers_are_refused(2);
-  CHECK(log.take().front().text == "refused: 2 connections without the farm's key");
+  log.crowd_is_refused(1, 1024);
+  const auto last = log.take();
+  REQUIRE(last.size() == 2);
+  CHECK(last[0].text == "refused: 2 connections without the farm's key");
+  CHECK(last[1].text == "refused: 1 connection beyond the 1024 that clients may have");
 }
 
 TEST_CASE("events that nobody takes are dropped, the oldest first, and long names are cut") {

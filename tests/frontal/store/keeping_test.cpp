@@ -118,7 +118,7 @@ TEST_CASE("while a picture is written all is answered, and the job isn't done be
   CHECK(refused(farm.jobs.fetch({job, 0, 1, 0})) == FailureCode::kNotDone);
   CHECK(refused(farm.jobs.cancel(job)) == FailureCode::kBadRequest);
   CHECK_FALSE(farm.jobs.take_work());
-  farm.jobs.node_was_lost({Rank{0}, "node 0", "killed by signal 9", 0});
+  farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "killed by signal 9", 0}});
   farm.jobs.check_time();
   CHECK(SentPost(farm.post).told<control::Done>("a").empty());
   CHECK(farm.store.calls.empty());
