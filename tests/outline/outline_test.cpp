@@ -33,6 +33,23 @@ TEST_CASE("pieces join to the bit, and turn back neither in x nor in y") {
   }
 }
 
+TEST_CASE("where control points coincide, a curve has the direction of its points nearby") {
+  // From (0, 0) it sets out along x, though its other end lies at (1, 1), where it comes in along
+  // y.
+  const OutlinePiece twice_at_start{{{0, 0, 1, 1}}, {{0, 0, 0, 1}}};
+  const OutlinePoint first = twice_at_start.tangent(0);
+  CHECK(first.x > 0);
+  CHECK(std::fabs(first.y) < 1e-4 * first.x);
+  const OutlinePiece twice_at_end{{{0, 0, 1, 1}}, {{0, 1, 1, 1}}};
+  const OutlinePoint last = twice_at_end.tangent(1);
+  CHECK(last.x > 0);
+  CHECK(std::fabs(last.y) < 1e-4 * last.x);
+  // All points but one coincide, so that it is straight.
+  const OutlinePoint straight = OutlinePiece{{{0, 0, 0, 2}}, {{0, 0, 0, 1}}}.tangent(0);
+  CHECK(straight.x == 2 * straight.y);
+  CHECK(straight.y > 0);
+}
+
 TEST_CASE("an outline holds the points that an odd number of its loops goes round") {
   std::size_t compared = 0, inside = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
