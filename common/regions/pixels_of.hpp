@@ -1,4 +1,4 @@
-// A walk over a rectangle's pixels, row by row.
+// The pixels of a rectangle, and a walk over them, row by row.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,11 @@
 #include "regions/macro_grid.hpp"
 
 namespace graycube {
+
+/// The number of pixels in a rectangle that isn't empty.
+inline std::size_t pixel_count_of(const PixelRect& rect) {
+  return std::size_t{rect.x1 - rect.x0} * (rect.y1 - rect.y0);
+}
 
 /// Calls act(pixel, i) for the pixels of a rectangle, in rows from the top: `pixel` is the index in
 /// a picture of this width, i counts from 0.

@@ -27,15 +27,17 @@ void append(std::vector<std::byte>& out, T value) {
   store_little(out.data() + out.size() - sizeof value, value);
 }
 
-/// Small differences, of either sign, take few bytes.
-void append_difference(std::vector<std::byte>& out, std::int64_t now, std::int64_t before) {
+/// Small differences, of either sign, take few bytes: at most kMostSumBytes. Returns where they
+/// end.
+std::byte* put_difference(std::byte* to, std::int64_t now, std::int64_t before) {
   const std::uint64_t d = static_cast<std::uint64_t>(now) - static_cast<std::uint64_t>(before);
   std::uint64_t bits = d << 1 ^ (d >> 63 != 0 ? ~std::uint64_t{0} : 0);
-  for (; bits >= 0x80; bits >>= 7) out.push_back(static_cast<std::byte>(bits | 0x80));
-  out.push_back(static_cast<std::byte>(bits));
+  for (; bits >= 0x80; bits >>= 7) *to++ = static_cast<std::byte>(bits | 0x80);
+  *to++ = static_cast<std::byte>(bits);
+  return to;
 }
 
-/// Reads what append_difference() wrote; false when the bytes end before, or are too many.
+/// Reads what put_difference() wrote; false when the bytes end before, or are too many.
 bool take_sum(std::span<const std::byte>& bytes, std::int64_t& sum) {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < std::min(bytes.size(), kMostSumBytes); ++i) {
@@ -87,7 +89,7 @@ struct Pixels {
 
 bool decode_pixels(const Record& record, std::size_t planes, Pixels& pixels) {
   const PixelRect& t = record.tile;
-  const std::uint64_t count = std::uint64_t{t.x1 - t.x0} * (t.y1 - t.y0);
+  const std::uint64_t count = pixel_count_of(t);
   // Each takes three bytes at least, so that memory is bounded by the record's size.
   if (record.pixels.size() < count * (3 + kAovPlaneBytes * planes)) return false;
   auto bytes = record.pixels;
@@ -161,18 +163,23 @@ void append_tile_record(std::vector<std::byte>& records, const Film& film, const
   append(records, kRecordMagic);
   for (const std::uint32_t edge : {tile.x0, tile.y0, tile.x1, tile.y1}) append(records, edge);
   append(records, std::uint32_t{0});
+  // Room for the longest sums at once: to look for it with each byte took a third of the time.
+  const std::size_t sums = records.size();
+  records.resize(sums + 3 * kMostSumBytes * pixel_count_of(tile));
+  std::byte* to = records.data() + sums;
   bool fits = true;
   FixedRgb before;
   each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
     const std::optional<FixedRgb> sum = film.short_sum(pixel);
     fits = fits && sum.has_value();
     if (!fits) return;
-    append_difference(records, sum->r, before.r);
-    append_difference(records, sum->g, before.g);
-    append_difference(records, sum->b, before.b);
+    to = put_difference(to, sum->r, before.r);
+    to = put_difference(to, sum->g, before.g);
+    to = put_difference(to, sum->b, before.b);
     before = *sum;
   });
   if (!fits) return records.resize(begin);
+  records.resize(static_cast<std::size_t>(to - records.data()));
   for (std::size_t p = 0; p < kAovPlanes; ++p) {
     if (!film.has_plane_of_aovs(p)) continue;
     each_pixel_of(tile, film.width(), [&](std::uint32_t pixel, std::size_t) {
