@@ -20,9 +20,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDatabaseFile = "jobs.sqlite";
 
+/// A folder that is made here is this user's alone, whatever the umask. One that was there has the
+/// rights that somebody wanted it to have.
 fs::path made(fs::path folder) {
   std::error_code error;
+  const bool is_new = !fs::exists(folder, error);
   fs::create_directories(folder, error);
+  if (is_new && !error) fs::permissions(folder, fs::perms::owner_all, error);
   if (error) throw std::runtime_error(folder.string() + ": " + error.message());
   return folder;
 }

@@ -1,4 +1,5 @@
 // What a daemon's job store still knows when it is opened again, and what damage does to it.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -349,4 +350,20 @@ TEST_CASE("files that were not written whole are removed, and nobody else's") {
   CHECK_FALSE(place.has(".graycube-12-0.tmp"));
   CHECK(place.has("notes.txt"));
   CHECK(place.has("job-x.exr"));
+}
+
+TEST_CASE(
+    "a folder that a store makes is its owner's alone, and one that was there stays as it is") {
+  const TemporaryFolder folder;
+  const auto rights_of = [](const fs::path& path) { return fs::status(path).permissions(); };
+  const auto open = [](const fs::path& path) {
+    open_database_store(path, {}, [](const std::string&) {});
+  };
+  const mode_t before = ::umask(0);
+  open(folder.path() / "new");
+  fs::create_directory(folder.path() / "old");
+  open(folder.path() / "old");
+  ::umask(before);
+  CHECK(rights_of(folder.path() / "new") == fs::perms::owner_all);
+  CHECK(rights_of(folder.path() / "old") == fs::perms::all);
 }
