@@ -45,7 +45,7 @@ void TileWriter::run() {
       changed_.wait(lock, has_work);
     } else if (!changed_.wait_until(lock, *unsafe_since_ + kDiskInterval, has_work)) {
       lock.unlock();
-      reach_disk();
+      ask_disk();
       lock.lock();
       continue;
     }
@@ -88,10 +88,37 @@ void TileWriter::write(const Task& task) {
   }
   const auto now = std::chrono::steady_clock::now();
   if (!unsafe_since_) unsafe_since_ = now;
-  if (now - *unsafe_since_ >= kDiskInterval) reach_disk();
+  if (now - *unsafe_since_ >= kDiskInterval) ask_disk();
+}
+
+void TileWriter::ask_disk() {
+  if (disk_.valid()) {
+    if (disk_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      unsafe_since_ = std::chrono::steady_clock::now();  // asked again when as long has passed
+      return;
+    }
+    if (const int error = disk_.get()) fail(error);
+  }
+  unsafe_since_.reset();
+  // The file may be closed here meanwhile.
+  const int file = ::fcntl(file_, F_DUPFD_CLOEXEC, 0);
+  if (file < 0) return fail(errno);
+  const auto write_to_disk = [file] {
+    const int error = ::fdatasync(file) == 0 ? 0 : errno;
+    ::close(file);
+    return error;
+  };
+  try {
+    disk_ = std::async(std::launch::async, write_to_disk);
+  } catch (const std::system_error&) {  // there are no more threads
+    if (const int error = write_to_disk()) fail(error);
+  }
 }
 
 void TileWriter::reach_disk() {
+  if (disk_.valid()) {
+    if (const int error = disk_.get()) fail(error);
+  }
   if (!std::exchange(unsafe_since_, std::nullopt)) return;
   if (::fdatasync(file_) != 0) fail(errno);
 }

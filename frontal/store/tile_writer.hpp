@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -19,8 +20,9 @@ namespace graycube {
 /// again.
 inline constexpr std::size_t kMaxWaitingRecordBytes = std::size_t{64} << 20;
 
-/// It is waited for the disk no oftener: it writes while others are written. Only the machine's
-/// end, not the process's, loses what isn't there yet.
+/// The disk is asked to write no oftener, and by another thread: that may take seconds, in which
+/// records go on being written. Only the machine's end, not the process's, loses what isn't on the
+/// disk yet.
 inline constexpr std::chrono::seconds kDiskInterval{1};
 
 class TileWriter {
@@ -46,7 +48,9 @@ class TileWriter {
   void run();
   void carry_out(const Task& task);
   void write(const Task& task);
-  /// Waits until what was written is on the disk.
+  /// Has the disk write what was written, unless it still writes what came before.
+  void ask_disk();
+  /// Waits until all of it is there.
   void reach_disk();
   void fail(int error);
 
@@ -60,6 +64,8 @@ class TileWriter {
   std::filesystem::path open_;
   int file_ = -1;
   std::optional<std::chrono::steady_clock::time_point> unsafe_since_;
+  /// The disk's answer, an errno or 0, while it writes.
+  std::future<int> disk_;
   std::thread thread_;
 };
 
