@@ -11,6 +11,13 @@ namespace graycube {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Waits until the file is on the disk; returns an errno or 0.
+int write_to_disk(int file) { return ::fdatasync(file) == 0 ? 0 : errno; }
+
+}  // namespace
+
 TileWriter::TileWriter(Warn warn) : warn_(std::move(warn)), thread_([this] { run(); }) {}
 
 TileWriter::~TileWriter() {
@@ -97,30 +104,31 @@ void TileWriter::ask_disk() {
       unsafe_since_ = std::chrono::steady_clock::now();  // asked again when as long has passed
       return;
     }
-    if (const int error = disk_.get()) fail(error);
+    take_answer(disk_.get());
   }
   unsafe_since_.reset();
   // The file may be closed here meanwhile.
   const int file = ::fcntl(file_, F_DUPFD_CLOEXEC, 0);
   if (file < 0) return fail(errno);
-  const auto write_to_disk = [file] {
-    const int error = ::fdatasync(file) == 0 ? 0 : errno;
+  const auto write_and_close = [file] {
+    const int error = write_to_disk(file);
     ::close(file);
     return error;
   };
   try {
-    disk_ = std::async(std::launch::async, write_to_disk);
+    disk_ = std::async(std::launch::async, write_and_close);
   } catch (const std::system_error&) {  // there are no more threads
-    if (const int error = write_to_disk()) fail(error);
+    take_answer(write_and_close());
   }
 }
 
 void TileWriter::reach_disk() {
-  if (disk_.valid()) {
-    if (const int error = disk_.get()) fail(error);
-  }
-  if (!std::exchange(unsafe_since_, std::nullopt)) return;
-  if (::fdatasync(file_) != 0) fail(errno);
+  if (disk_.valid()) take_answer(disk_.get());
+  if (std::exchange(unsafe_since_, std::nullopt)) take_answer(write_to_disk(file_));
+}
+
+void TileWriter::take_answer(int error) {
+  if (error != 0) fail(error);
 }
 
 void TileWriter::fail(int error) {

@@ -52,6 +52,8 @@ class TileWriter {
   void ask_disk();
   /// Waits until all of it is there.
   void reach_disk();
+  /// The disk's: an errno or 0.
+  void take_answer(int error);
   void fail(int error);
 
   Warn warn_;
