@@ -111,7 +111,7 @@ class Parser {
     add_nodes(options, up.nodes);
     add_threads(options, up.threads, "Evaluator threads per node (default 1)");
     options.option(
-        {.names = "--listen", .value = "ENDPOINT", .help = "ipc:///PATH or tcp://127.0.0.1:PORT"},
+        {.names = "--listen", .value = "ENDPOINT", .help = "ipc:///PATH or tcp://HOST:PORT"},
         [&up](const std::string& text) { up.listen = text; });
     options.option({.names = "--key",
                     .value = "FILE",
@@ -210,6 +210,8 @@ class Parser {
                                    options.flag("--json", nodes.as_json, "As one line of JSON");
                                  });
     declare_client<DownCommand>("down", "Stop a farm");
+    auto key = declare<KeyCommand>("key", "Print a new key for a farm at a TCP port");
+    add_farm_of_client(key.options, key.command.of_farm);
   }
 
   void declare_check() {
@@ -346,7 +348,8 @@ class Parser {
 };
 
 /// Finds out the endpoint at which client commands look for the farm.
-void resolve_endpoint(std::string& endpoint) {
+void resolve_endpoint(FarmAddress& farm) {
+  std::string& endpoint = farm.endpoint;
   const char* origin = "--connect";
   if (endpoint.empty()) {
     const char* variable = std::getenv("GRAYCUBE_FRONTAL");
@@ -358,15 +361,11 @@ void resolve_endpoint(std::string& endpoint) {
       origin = "XDG_RUNTIME_DIR";
     }
   }
-  if (const auto problem = endpoint_problem(endpoint)) {
+  if (const auto problem = endpoint_problem(endpoint, !farm.key_file.empty())) {
     throw usage_failure(std::string(origin) + " " + endpoint, *problem);
   }
 }
 
-template <typename C>
-concept HasConnect = requires(C command) {
-  command.connect;
-};
 template <typename C>
 concept IsQuietImport = requires(C command) {
   command.choice;
@@ -386,7 +385,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     Command command = parser.parse(words);
     std::visit(
         [](auto& c) {
-          if constexpr (HasConnect<decltype(c)>) resolve_endpoint(c.connect.endpoint);
+          if constexpr (requires { c.connect; }) resolve_endpoint(c.connect);
           if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
         },
         command);

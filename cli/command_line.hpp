@@ -83,6 +83,10 @@ struct NodesCommand {
 struct DownCommand {
   FarmAddress connect;
 };
+struct KeyCommand {
+  /// The file of the farm's key of which a client's is made; empty for a new farm's key.
+  std::filesystem::path of_farm;
+};
 struct CheckCommand {
   std::string scene;
   ModelChoice choice;
@@ -136,7 +140,7 @@ struct PrintCommand {
 
 using Command =
     std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
-                 CancelCommand, FetchCommand, NodesCommand, DownCommand, CheckCommand,
+                 CancelCommand, FetchCommand, NodesCommand, DownCommand, KeyCommand, CheckCommand,
                  CompareCommand, SimulateCommand, DrawCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are main's, the command's own name first.

@@ -76,8 +76,8 @@ class Frontal {
   std::vector<Process> take_kills() { return nodes_.take_kills(); }
   /// What has happened since it was last asked.
   std::vector<FarmEvent> take_events() { return log_.take(); }
-  /// So many clients were turned away, since they did not show the farm's key.
-  void turned_away(std::uint64_t clients) { log_.strangers_are_refused(clients); }
+  /// Somebody was hung up on, having shown no key of the farm.
+  void turned_away(const TurnedAway& peer) { log_.stranger_is_refused(peer); }
   /// So many connections were closed at once, as clients had `most` already.
   void crowded_out(std::uint64_t connections, int most) {
     log_.crowd_is_refused(connections, most);

@@ -92,9 +92,12 @@ class FrontalProcess {
              "frontal: process " + std::to_string(::getpid()) + " begins, Graycube " + kVersion),
         shows_all_(!a.is_private && !a.is_quiet),
         shows_trouble_(!a.is_private),
-        secret_(make_secret()),
-        doors_(folder_.path(), a.is_private ? "" : a.listen, a.key,
-               static_cast<int>(kOwnDescriptors + a.nodes + kMaxHttpConnections)),
+        doors_({.folder = folder_.path(),
+                .listen = a.is_private ? "" : a.listen,
+                .key_file = a.key,
+                .others = static_cast<int>(kOwnDescriptors + a.nodes + kMaxHttpConnections),
+                .address_for_nodes = ""}),
+        secret_(doors_.keys() ? doors_.keys()->node_secret : make_secret()),
         store_(make_store(a)),
         processes_(own_folder() / "graycube-node", folder_.path(), a.threads, secret_),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
@@ -177,7 +180,7 @@ class FrontalProcess {
     }
     if (auto result = preparation_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
-    if (const std::uint64_t refused = doors_.take_refused()) frontal_.turned_away(refused);
+    for (const TurnedAway& refusal : doors_.take_refusals()) frontal_.turned_away(refusal);
     if (const std::uint64_t refused = Doors::take_crowded_out())
       frontal_.crowded_out(refused, kMaxClientConnections);
     while (auto m = doors_.receive()) {
@@ -248,10 +251,10 @@ class FrontalProcess {
   bool shows_all_, shows_trouble_;
   double own_start_cpu_s_ = 0;
   TemporaryFolder folder_;
-  Secret secret_;
   Wakeup wakeup_;
   HttpDesk desk_{wakeup_};
   Doors doors_;
+  Secret secret_;
   std::unique_ptr<JobStore> store_;
   NodeProcesses processes_;
   Frontal frontal_;
@@ -319,7 +322,8 @@ int run_main(int argc, char** argv) {
     a.keep = *rule;
   }
   if (a.listen.empty()) a.listen = default_endpoint();
-  if (const auto problem = endpoint_problem(a.listen)) return fail("usage: --listen", *problem, 2);
+  if (const auto problem = endpoint_problem(a.listen, !a.key.empty()))
+    return fail("usage: --listen", *problem, 2);
   if (!a.http.empty()) {
     if (const auto problem = endpoint_problem("tcp://" + a.http)) {
       return fail("usage: --http", *problem, 2);

@@ -16,6 +16,7 @@ ExitStatus run(const CancelCommand& command);
 ExitStatus run(const FetchCommand& command);
 ExitStatus run(const NodesCommand& command);
 ExitStatus run(const DownCommand& command);
+ExitStatus run(const KeyCommand& command);
 ExitStatus run(const CheckCommand& command);
 ExitStatus run(const CompareCommand& command);
 ExitStatus run(const SimulateCommand& command);

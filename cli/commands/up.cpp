@@ -1,12 +1,14 @@
 // graycube up: a farm in the foreground.
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "cli/commands/commands.hpp"
@@ -61,9 +63,18 @@ class EndpointCleanup {
   bool is_default_;
 };
 
+/// The endpoint, with this machine's name where it stands for all of its addresses.
+std::string reachable(const std::string& endpoint) {
+  constexpr std::string_view everywhere = "tcp://0.0.0.0:";
+  std::array<char, 256> name{};
+  if (!endpoint.starts_with(everywhere) || ::gethostname(name.data(), name.size() - 1) != 0)
+    return endpoint;
+  return "tcp://" + std::string(name.data()) + ":" + endpoint.substr(everywhere.size());
+}
+
 /// What tells other commands where the farm is, if they don't know.
 std::string connect_option(const std::string& endpoint, bool is_default) {
-  return is_default ? "" : " --connect " + endpoint;
+  return is_default ? "" : " --connect " + reachable(endpoint);
 }
 
 void refuse_second_farm(const std::string& endpoint, const std::string& key, bool is_default) {
@@ -76,7 +87,7 @@ void refuse_second_farm(const std::string& endpoint, const std::string& key, boo
                 Problem{"farm", endpoint,
                         answer ? "a farm is running there already; stop it with 'graycube down" +
                                      connect_option(endpoint, is_default) + "'"
-                               : "something listens there already, and it is no farm"});
+                               : "something listens there already, no farm with this key"});
 }
 
 /// All arguments but those that SupervisedFrontal adds. Jobs that lie in `passing` rather than
@@ -143,7 +154,7 @@ std::unique_ptr<LogFile> open_log(const std::string& file) {
 ExitStatus run(const UpCommand& command) {
   const bool is_default = command.listen.empty();
   const std::string endpoint = is_default ? default_endpoint() : command.listen;
-  if (const auto problem = endpoint_problem(endpoint)) {
+  if (const auto problem = endpoint_problem(endpoint, !command.key.empty())) {
     throw usage_failure("--listen " + endpoint, *problem);
   }
   if (!command.http.empty()) {

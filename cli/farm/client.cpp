@@ -39,10 +39,11 @@ Failure failure_of(const control::Failed& failed, const std::string& what) {
 }
 
 FarmClient::FarmClient(const FarmAddress& farm, std::function<void()> check)
-    : endpoint_(farm.endpoint), check_(std::move(check)) {
-  connection_.emplace(context_, endpoint_, key_shown_at(farm));
-  connection_->watch_loss();
+    : endpoint_(farm.endpoint), access_(access_to(farm)), check_(std::move(check)) {
+  connect();
 }
+
+void FarmClient::connect() { connection_.emplace(context_, endpoint_, access_, Watch::kYes); }
 
 void FarmClient::send(const ControlMessage& message, SharedBytes payload) {
   last_ = Message::of_text(encode(message), std::move(payload));
@@ -53,8 +54,7 @@ void FarmClient::go_on_after_loss() {
   if (!waits_for_restart_ || !connection_->is_lost()) return;
   if (Clock::now() - connected_at_ < kCheckInterval) return;
   // A new connection has a new name, so that late answers of the old one can't come.
-  connection_.emplace(context_, endpoint_);
-  connection_->watch_loss();
+  connect();
   connected_at_ = Clock::now();
   if (!last_.frame.empty()) {
     connection_->send(last_);
@@ -82,6 +82,7 @@ std::optional<Received> FarmClient::receive(Clock::duration timeout) {
       }
       continue;
     }
+    if (is_turned_away()) return std::nullopt;
     go_on_after_loss();
     const auto now = Clock::now();
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end_of_wait(until) - now);
@@ -104,18 +105,30 @@ Received FarmClient::answer() {
   if (auto received = receive(has_answered_ ? kLaterAnswer : kFirstAnswer))
     return *std::move(received);
   // A farm under load is slow to answer; if a process listens there, it gets more time.
-  if (!has_answered_ && find_listener(endpoint_).is_there) {
+  if (!has_answered_ && may_be_slow()) {
     if (auto received = receive(kLaterAnswer)) return *std::move(received);
   }
   throw silence();
 }
 
-Failure FarmClient::silence() const {
-  return {ExitStatus::kFailed,
-          Problem{"farm", endpoint_,
-                  has_answered_          ? "it answers no longer"
-                  : needs_key(endpoint_) ? "somebody listens there, but doesn't answer to this key"
-                                         : "nobody answers; start one with 'graycube up'"}};
+bool FarmClient::is_turned_away() {
+  const auto trouble = connection_->trouble();
+  return trouble && *trouble != HandshakeTrouble::kNobody && *trouble != HandshakeTrouble::kSilent;
+}
+
+bool FarmClient::may_be_slow() {
+  // Elsewhere only the connection itself tells.
+  return needs_key(endpoint_) ? !connection_->trouble() : find_listener(endpoint_).is_there;
+}
+
+Failure FarmClient::silence() {
+  const auto trouble = connection_->trouble();
+  const bool is_missing = !trouble || *trouble == HandshakeTrouble::kNobody;
+  return {ExitStatus::kFailed, Problem{"farm", endpoint_,
+                                       !is_missing     ? sentence_of(*trouble)
+                                       : has_answered_ ? "it answers no longer"
+                                       : trouble ? "nobody answers; start one with 'graycube up'"
+                                                 : "somebody listens there, but doesn't answer"}};
 }
 
 }  // namespace graycube

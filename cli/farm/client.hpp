@@ -47,7 +47,7 @@ class FarmClient {
   void expect_end() { waits_for_restart_ = false; }
   /// Whether a request was repeated, so that the frontal may have granted it before.
   bool has_asked_again() const { return has_asked_again_; }
-  /// The next control message; nothing when the time is up.
+  /// The next control message; nothing when the time is up, or when it is clear that none comes.
   std::optional<Received> receive(Clock::duration timeout);
 
   /// The answer to a message; other messages are dropped. Throws the Failure that a `failed` answer
@@ -68,18 +68,25 @@ class FarmClient {
     }
   }
 
-  Failure silence() const;
+  /// Why nothing comes.
+  Failure silence();
 
  private:
   /// The next message; throws silence() when none comes in time.
   Received answer();
+  /// Whether the farm's end of the connection won't ever answer, whoever waits.
+  bool is_turned_away();
+  /// Whether a process listens there that may answer yet.
+  bool may_be_slow();
 
+  void connect();
   /// Connects anew if the frontal has died, and repeats the last request.
   void go_on_after_loss();
   /// The end of a wait that is to last until `until`; later while a restart is waited for.
   Clock::time_point end_of_wait(Clock::time_point until) const;
 
   std::string endpoint_;
+  std::optional<CurveAccess> access_;
   std::function<void()> check_;
   ZmqContext context_;
   std::optional<Connection> connection_;

@@ -12,6 +12,7 @@
 #include "cli/failure.hpp"
 #include "cli/farm/listener_owner.hpp"
 #include "cli/interrupts.hpp"
+#include "transport/endpoint.hpp"
 #include "transport/farm_key.hpp"
 
 namespace graycube {
@@ -77,15 +78,17 @@ void check_local(const std::string& endpoint, const std::string& path) {
 
 }  // namespace
 
-std::string key_shown_at(const FarmAddress& farm) {
+std::optional<CurveAccess> access_to(const FarmAddress& farm) {
   constexpr std::string_view ipc = "ipc://";
   if (!needs_key(farm.endpoint)) {
     check_local(farm.endpoint, farm.endpoint.substr(ipc.size()));
-    return "";
+    return std::nullopt;
   }
-  check_owner(farm.endpoint, wait_for_owner([&] { return owner_of_listener(farm.endpoint); }));
+  if (is_on_loopback(farm.endpoint))
+    check_owner(farm.endpoint, wait_for_owner([&] { return owner_of_listener(farm.endpoint); }));
   try {
-    return read_key(farm.key_file.empty() ? key_file_of(farm.endpoint) : farm.key_file);
+    return access_of_client(
+        read_client_keys(farm.key_file.empty() ? key_file_of(farm.endpoint) : farm.key_file));
   } catch (const KeyError& e) {
     throw untrusted(farm.endpoint, std::string("its key can't be read: ") + e.what());
   }

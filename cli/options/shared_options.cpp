@@ -82,6 +82,14 @@ void add_connect(Declaring& options, FarmAddress& connect) {
                  [&connect](const std::string& text) { connect.key_file = text; });
 }
 
+void add_farm_of_client(Declaring& options, std::filesystem::path& farm_key) {
+  options.option({.names = "--client",
+                  .value = "FILE",
+                  .help = "Instead, of the farm's key there, one with which to be its client only",
+                  .kind = ValueKind::kFile},
+                 [&farm_key](const std::string& text) { farm_key = text; });
+}
+
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help, bool is_exr_required) {
   options.option({.names = "-o,--output",
                   .value = "OUT.exr",

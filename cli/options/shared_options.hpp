@@ -27,6 +27,9 @@ void add_job(Declaring& options, std::uint32_t& job);
 /// Which farm to connect to, and the file of its key.
 void add_connect(Declaring& options, FarmAddress& connect);
 
+/// The file of the farm's key of which a client's is to be made.
+void add_farm_of_client(Declaring& options, std::filesystem::path& farm_key);
+
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help,
                  bool is_exr_required = false);
 

@@ -5,6 +5,7 @@
 // it is told of those that are refused.
 #include "process/accept.hpp"
 
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/un.h>
@@ -18,15 +19,21 @@
 namespace graycube {
 namespace {
 
-std::string spared_path;
+SparedListeners spared_listeners;
 std::atomic<int> last_descriptor{std::numeric_limits<int>::max()};
 std::atomic<std::uint64_t> refused{0};
 
 bool is_spared(int listener) {
-  sockaddr_un address{};
+  sockaddr_storage address{};
   socklen_t size = sizeof address;
-  return ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
-         address.sun_family == AF_UNIX && spared_path == address.sun_path;
+  if (::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size) != 0) return false;
+  if (address.ss_family == AF_UNIX)
+    return spared_listeners.path == reinterpret_cast<const sockaddr_un&>(address).sun_path;
+  in_port_t port = 0;
+  if (address.ss_family == AF_INET) port = reinterpret_cast<const sockaddr_in&>(address).sin_port;
+  if (address.ss_family == AF_INET6)
+    port = reinterpret_cast<const sockaddr_in6&>(address).sin6_port;
+  return port != 0 && ntohs(port) == spared_listeners.port;
 }
 
 bool is_refused(int listener, long connection) {
@@ -35,8 +42,8 @@ bool is_refused(int listener, long connection) {
 
 }  // namespace
 
-void refuse_connections_above(int last, std::string spared) {
-  spared_path = std::move(spared);
+void refuse_connections_above(int last, SparedListeners spared) {
+  spared_listeners = std::move(spared);
   last_descriptor.store(last, std::memory_order_release);
 }
 

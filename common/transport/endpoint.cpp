@@ -20,7 +20,6 @@ bool is_port(std::string_view text) {
   return port > 0 && port < 65536;
 }
 
-/// Whether the host is in 127.0.0.0/8, or is ::1 or localhost.
 bool is_loopback(std::string_view host) {
   if (host == "localhost" || host == "[::1]") return true;
   if (!host.starts_with("127.")) return false;
@@ -40,9 +39,28 @@ bool is_loopback(std::string_view host) {
   return parts == 4;
 }
 
+/// A name, an IPv4 address, an IPv6 address in brackets, or "*".
+bool is_host(std::string_view host) {
+  if (host == "*") return true;
+  const bool is_ipv6 = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  if (is_ipv6) host = host.substr(1, host.size() - 2);
+  const std::string_view signs = is_ipv6 ? ":.%" : ".-_";
+  return !host.empty() && std::all_of(host.begin(), host.end(), [&](unsigned char c) {
+    return std::isalnum(c) || signs.find(static_cast<char>(c)) != signs.npos;
+  });
+}
+
+constexpr std::string_view kTcp = "tcp://";
+
+/// The host of a TCP endpoint that has a port.
+std::string_view host_of(std::string_view endpoint) {
+  endpoint.remove_prefix(kTcp.size());
+  return endpoint.substr(0, endpoint.rfind(':'));
+}
+
 }  // namespace
 
-std::optional<std::string> endpoint_problem(std::string_view endpoint) {
+std::optional<std::string> endpoint_problem(std::string_view endpoint, bool has_key) {
   if (endpoint.starts_with("ipc://")) {
     const std::string_view path = endpoint.substr(6);
     if (path.empty() || path.front() != '/') return "a local socket needs an absolute path";
@@ -51,17 +69,22 @@ std::optional<std::string> endpoint_problem(std::string_view endpoint) {
     }
     return std::nullopt;
   }
-  if (!endpoint.starts_with("tcp://")) return "expected ipc:///PATH or tcp://127.0.0.1:PORT";
-  const std::string_view address = endpoint.substr(6);
+  if (!endpoint.starts_with(kTcp)) return "expected ipc:///PATH or tcp://HOST:PORT";
+  const std::string_view address = endpoint.substr(kTcp.size());
   const std::size_t colon = address.rfind(':');
   if (colon == std::string_view::npos || !is_port(address.substr(colon + 1))) {
     return "expected a port after the last ':'";
   }
-  if (!is_loopback(address.substr(0, colon))) {
-    return "only loopback addresses (127.0.0.1, [::1], localhost) may be used: what is said there "
-           "isn't encrypted yet";
+  if (!is_host(host_of(endpoint))) return "expected an address or a name, or *, before the port";
+  if (!has_key && !is_loopback(host_of(endpoint))) {
+    return "other than loopback addresses (127.0.0.1, [::1], localhost) need a key: --key FILE, "
+           "with a file that 'graycube key' has made";
   }
   return std::nullopt;
+}
+
+bool is_on_loopback(std::string_view endpoint) {
+  return endpoint.starts_with(kTcp) && is_loopback(host_of(endpoint));
 }
 
 std::string run_folder() {

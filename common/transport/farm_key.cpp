@@ -8,16 +8,19 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "transport/endpoint.hpp"
-#include "transport/secret.hpp"
 
 namespace graycube {
 namespace {
 
 constexpr std::string_view kTcp = "tcp://";
+/// What a client's key begins with; two keys follow, in hexadecimal digits.
+constexpr std::string_view kClientKey = "client-";
+constexpr std::size_t kDigits = 64;
 
 KeyError error_of(const std::string& path) { return KeyError(path + ": " + std::strerror(errno)); }
 
@@ -37,24 +40,30 @@ class File {
   int descriptor_;
 };
 
-bool exists(const std::string& path) { return ::access(path.c_str(), F_OK) == 0; }
+/// The line that the file says, with no end.
+std::string key_text(const std::string& file) {
+  const File in(file, O_RDONLY | O_NONBLOCK);
+  if (!in.is_open()) throw error_of(file);
+  struct stat status {};
+  if (::fstat(in.descriptor(), &status) != 0) throw error_of(file);
+  if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid() || (status.st_mode & 0077) != 0)
+    throw KeyError(file + ": expected a file of this user that nobody else may read");
+  std::array<char, 256> text{};
+  const ssize_t got = ::read(in.descriptor(), text.data(), text.size());
+  if (got < 0) throw error_of(file);
+  std::string key(text.data(), static_cast<std::size_t>(got));
+  if (key.ends_with('\n')) key.pop_back();
+  return key;
+}
 
-void write_key(const std::string& file, const std::string& key) {
-  // A client finds the file whole or not at all.
-  const std::string unfinished = file + "." + std::to_string(::getpid());
-  {
-    const File out(unfinished, O_WRONLY | O_CREAT | O_EXCL);
-    const std::string line = key + '\n';
-    if (!out.is_open()) throw error_of(unfinished);
-    // Whatever the umask is, the owner may read it.
-    const bool is_written =
-        ::fchmod(out.descriptor(), 0600) == 0 &&
-        ::write(out.descriptor(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
-    if (is_written && ::rename(unfinished.c_str(), file.c_str()) == 0) return;
-  }
-  const KeyError error = error_of(file);
-  ::unlink(unfinished.c_str());
-  throw error;
+std::optional<ClientKeys> client_keys_in(std::string_view text) {
+  if (!text.starts_with(kClientKey)) return std::nullopt;
+  text.remove_prefix(kClientKey.size());
+  if (text.size() != 2 * kDigits) return std::nullopt;
+  const auto own = secret_of_hex(text.substr(0, kDigits)),
+             door = secret_of_hex(text.substr(kDigits));
+  if (!own || !door) return std::nullopt;
+  return ClientKeys{*own, *door};
 }
 
 }  // namespace
@@ -80,28 +89,48 @@ void make_private_folder(const std::string& folder) {
     throw KeyError(folder + ": expected a folder of this user that nobody else may enter");
 }
 
-std::string read_key(const std::string& file) {
-  const File in(file, O_RDONLY | O_NONBLOCK);
-  if (!in.is_open()) throw error_of(file);
-  struct stat status {};
-  if (::fstat(in.descriptor(), &status) != 0) throw error_of(file);
-  if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid() || (status.st_mode & 0077) != 0)
-    throw KeyError(file + ": expected a file of this user that nobody else may read");
-  std::array<char, 128> text{};
-  const ssize_t got = ::read(in.descriptor(), text.data(), text.size());
-  if (got < 0) throw error_of(file);
-  std::string_view key(text.data(), static_cast<std::size_t>(got));
-  if (key.ends_with('\n')) key.remove_suffix(1);
-  if (!secret_of_hex(key)) throw KeyError(file + ": expected a key of 64 hexadecimal digits");
-  return std::string(key);
+std::string text_of_farm_key(const Secret& farm_key) { return hex_of(farm_key); }
+
+std::string text_of_client_key(const ClientKeys& keys) {
+  return std::string(kClientKey) + hex_of(keys.client_secret) + hex_of(keys.door_public);
 }
 
-std::string make_key(const std::string& file) {
+Secret read_farm_key(const std::string& file) {
+  const std::string text = key_text(file);
+  if (const auto key = secret_of_hex(text)) return *key;
+  throw KeyError(file + (client_keys_in(text) ? ": it is a client's key, and a farm's is needed"
+                                              : ": expected a key of 64 hexadecimal digits"));
+}
+
+ClientKeys read_client_keys(const std::string& file) {
+  const std::string text = key_text(file);
+  if (const auto key = secret_of_hex(text)) return client_keys_of(farm_keys_of(*key));
+  if (const auto keys = client_keys_in(text)) return *keys;
+  throw KeyError(file + ": expected a key, as 'graycube key' prints it");
+}
+
+FoundKey find_farm_key(const std::string& file) {
+  if (::access(file.c_str(), F_OK) == 0) return {read_farm_key(file), true};
+  return {make_secret(), false};
+}
+
+void write_farm_key(const std::string& file, const Secret& farm_key) {
   if (file.starts_with(run_folder() + "/")) make_private_folder(run_folder());
-  if (exists(file)) return read_key(file);
-  std::string key = hex_of(make_secret());
-  write_key(file, key);
-  return key;
+  // A client finds the file whole or not at all.
+  const std::string unfinished = file + "." + std::to_string(::getpid());
+  {
+    const File out(unfinished, O_WRONLY | O_CREAT | O_EXCL);
+    const std::string line = text_of_farm_key(farm_key) + '\n';
+    if (!out.is_open()) throw error_of(unfinished);
+    // Whatever the umask is, the owner may read it.
+    const bool is_written =
+        ::fchmod(out.descriptor(), 0600) == 0 &&
+        ::write(out.descriptor(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    if (is_written && ::rename(unfinished.c_str(), file.c_str()) == 0) return;
+  }
+  const KeyError error = error_of(file);
+  ::unlink(unfinished.c_str());
+  throw error;
 }
 
 }  // namespace graycube

@@ -9,7 +9,9 @@
 #include <cstring>
 
 #include "check.hpp"
-#include "transport/doorkeeper.hpp"
+#include "transport/connection_watch.hpp"
+#include "transport/refusal_watch.hpp"
+#include "transport/tcp_options.hpp"
 #include "transport/zmq_context.hpp"
 
 namespace graycube {
@@ -145,24 +147,29 @@ void Wakeup::clear() {
 struct Connection::Impl {
   Impl(zmq::context_t& c, const std::string& endpoint)
       : context(c), socket(open(c, zmq::socket_type::dealer, endpoint)) {}
+  void take_events() {
+    const auto now = ConnectionWatch::Clock::now();
+    while (const auto event = monitor ? monitor->next() : std::nullopt) watch.on_event(*event, now);
+  }
   zmq::context_t& context;
   zmq::socket_t socket;
   /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
-  /// Where ZeroMQ tells that the connection is closed, once that is watched.
-  std::optional<zmq::socket_t> losses;
-  bool is_lost = false;
+  ConnectionWatch watch;
+  std::optional<SocketMonitor> monitor;
 };
 
-Connection::Connection(ZmqContext& context, const std::string& endpoint, const std::string& key)
+Connection::Connection(ZmqContext& context, const std::string& endpoint,
+                       const std::optional<CurveAccess>& access, Watch watch)
     : impl_(std::make_unique<Impl>(context.impl().context, endpoint)) {
+  if (is_tcp(endpoint) != access.has_value()) throw TransportError(endpoint + ": " + kKeysAtTcp);
   try {
     configure(impl_->socket, {});
-    if (!key.empty()) {
-      impl_->socket.set(zmq::sockopt::plain_username, kKeyUser);
-      impl_->socket.set(zmq::sockopt::plain_password, key);
-    }
+    if (access) make_keyed(impl_->socket, endpoint, *access);
     descriptor_ = impl_->socket.get(zmq::sockopt::fd);
+    // Before anything can happen that it should hear of.
+    if (watch == Watch::kYes)
+      impl_->monitor.emplace(impl_->context, impl_->socket, ConnectionWatch::events());
     impl_->socket.connect(endpoint);
   } catch (const zmq::error_t& e) {
     throw TransportError(endpoint + ": " + e.what());
@@ -204,60 +211,82 @@ std::optional<Message> Connection::receive(std::chrono::milliseconds timeout) {
   }
 }
 
-void Connection::watch_loss() {
-  // A name that no other watched connection of this process has.
-  static std::atomic<std::uint64_t> watched{0};
-  const std::string endpoint = "inproc://losses-" + std::to_string(watched.fetch_add(1));
-  try {
-    if (zmq_socket_monitor(impl_->socket.handle(), endpoint.c_str(), ZMQ_EVENT_DISCONNECTED) != 0)
-      throw zmq::error_t();
-    impl_->losses.emplace(impl_->context, zmq::socket_type::pair);
-    impl_->losses->set(zmq::sockopt::linger, 0);
-    impl_->losses->connect(endpoint);
-  } catch (const zmq::error_t& e) {
-    throw TransportError(endpoint + ": " + e.what());
-  }
+bool Connection::is_lost() {
+  impl_->take_events();
+  return impl_->watch.is_lost();
 }
 
-bool Connection::is_lost() {
-  std::vector<zmq::message_t> frames;
-  if (!impl_->is_lost && impl_->losses) {
-    receive_frames(*impl_->losses, frames);
-    // Nothing else is told there.
-    impl_->is_lost = !frames.empty();
-  }
-  return impl_->is_lost;
+std::optional<HandshakeTrouble> Connection::trouble() {
+  impl_->take_events();
+  return impl_->watch.trouble(ConnectionWatch::Clock::now());
 }
 
 void* Connection::socket() { return impl_->socket.handle(); }
 
 struct Inbox::Impl {
-  Impl(zmq::context_t& context, const std::string& at)
-      : socket(open(context, zmq::socket_type::router, at)) {}
+  Impl(zmq::context_t& c, const std::string& at, const PeerLimits& peers)
+      : context(c), socket(open(c, zmq::socket_type::router, at)), limits(peers) {
+    try {
+      configure(socket, limits);
+      socket.set(zmq::sockopt::handshake_ivl, limits.handshake_ms);
+      descriptor = socket.get(zmq::sockopt::fd);
+    } catch (const zmq::error_t& e) {
+      throw TransportError(at + ": " + e.what());
+    }
+  }
+  void bind(const std::string& at, std::string& bound) {
+    try {
+      const OwnerOnly owner_only;
+      socket.bind(at);
+      bound = socket.get(zmq::sockopt::last_endpoint);
+    } catch (const zmq::error_t& e) {
+      throw TransportError(at + ": " + e.what());
+    }
+  }
+  void bind_local(const std::string& at) {
+    if (is_tcp(at)) throw TransportError(at + ": " + kKeysAtTcp);
+    bind(at, local);
+  }
+  /// What is set for TCP holds for endpoints that are bound later.
+  void bind_tcp(const KeyedDoor& door) {
+    if (!is_tcp(door.endpoint)) throw TransportError(door.endpoint + ": " + kKeysAtTcp);
+    try {
+      make_keyed_door(socket, door);
+    } catch (const zmq::error_t& e) {
+      throw TransportError(door.endpoint + ": " + e.what());
+    }
+    bind(door.endpoint, tcp);
+  }
+
+  zmq::context_t& context;
   zmq::socket_t socket;
-  std::string endpoint;
+  PeerLimits limits;
+  int descriptor = -1;
+  std::string local, tcp;
   /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
+  std::optional<RefusalWatch> refusals;
+  std::optional<SocketMonitor> monitor;
 };
 
-Inbox::Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits,
-             bool wants_key)
-    : impl_(std::make_unique<Impl>(context.impl().context, endpoint)) {
-  try {
-    configure(impl_->socket, limits);
-    impl_->socket.set(zmq::sockopt::handshake_ivl, limits.handshake_ms);
-    if (wants_key) impl_->socket.set(zmq::sockopt::plain_server, true);
-    descriptor_ = impl_->socket.get(zmq::sockopt::fd);
-    const OwnerOnly owner_only;
-    impl_->socket.bind(endpoint);
-    impl_->endpoint = impl_->socket.get(zmq::sockopt::last_endpoint);
-  } catch (const zmq::error_t& e) {
-    throw TransportError(endpoint + ": " + e.what());
-  }
+Inbox::Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits)
+    : impl_(std::make_unique<Impl>(context.impl().context, endpoint, limits)) {
+  descriptor_ = impl_->descriptor;
+  impl_->bind_local(endpoint);
+}
+Inbox::Inbox(ZmqContext& context, const KeyedDoor& door, const PeerLimits& limits)
+    : impl_(std::make_unique<Impl>(context.impl().context, door.endpoint, limits)) {
+  descriptor_ = impl_->descriptor;
+  impl_->bind_tcp(door);
+}
+Inbox::Inbox(ZmqContext& context, const std::string& endpoint, const KeyedDoor& door,
+             const PeerLimits& limits)
+    : Inbox(context, endpoint, limits) {
+  impl_->bind_tcp(door);
 }
 Inbox::~Inbox() {
   // libzmq may leave the file of a local socket behind.
-  if (impl_->endpoint.starts_with("ipc://")) ::unlink(impl_->endpoint.c_str() + 6);
+  if (impl_->local.starts_with("ipc://")) ::unlink(impl_->local.c_str() + 6);
 }
 
 std::optional<Inbox::Received> Inbox::receive() {
@@ -267,7 +296,8 @@ std::optional<Inbox::Received> Inbox::receive() {
     is_drained_ = frames.empty();
     // Anything but one or two frames is not of this protocol.
     if (const auto message = message_of(frames, 1))
-      return Received{frames.front().to_string(), *message};
+      return Received{frames.front().to_string(), *message,
+                      impl_->tcp.empty() ? PeerKey::kNone : key_of_sender(frames.back())};
   }
   return std::nullopt;
 }
@@ -278,7 +308,25 @@ void Inbox::send(const std::string& peer, Message message) {
   send_frames(impl_->socket, std::move(message));
 }
 
-const std::string& Inbox::endpoint() const { return impl_->endpoint; }
+const std::string& Inbox::endpoint() const {
+  return impl_->local.empty() ? impl_->tcp : impl_->local;
+}
+const std::string& Inbox::tcp_endpoint() const { return impl_->tcp; }
+
+void Inbox::watch_refusals() {
+  impl_->refusals.emplace(impl_->tcp);
+  impl_->monitor.emplace(impl_->context, impl_->socket, RefusalWatch::events());
+}
+
+std::vector<TurnedAway> Inbox::take_refusals() {
+  std::vector<TurnedAway> taken;
+  while (const auto event = impl_->monitor ? impl_->monitor->next() : std::nullopt) {
+    if (auto refusal = impl_->refusals->on_event(*event, address_of_peer))
+      taken.push_back(*std::move(refusal));
+  }
+  return taken;
+}
+
 void* Inbox::socket() { return impl_->socket.handle(); }
 
 // zmq::poll would ask each socket before and after it waits. This waits for the sockets'

@@ -1,6 +1,7 @@
 // Sockets of ZeroMQ; none but the files beside this one know it. Between a farm's own processes
 // high-water marks are 0, that is, none: flow is controlled by credits of our own (a ROUTER
-// silently drops messages past its mark). Peers from outside have limits.
+// silently drops messages past its mark). Peers from outside have limits. Whatever goes over TCP is
+// encrypted, and both ends show keys (CURVE).
 #pragma once
 
 #include <atomic>
@@ -12,7 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "transport/curve_keys.hpp"
+#include "transport/handshake_trouble.hpp"
 #include "transport/message.hpp"
+#include "transport/peer_key.hpp"
 
 namespace graycube {
 
@@ -32,8 +36,8 @@ struct PeerLimits {
   int unsent = 0;
   /// Messages of the peer that wait to be received; it can't send more meanwhile. 0: any number.
   int unread = 0;
-  /// A peer that hasn't shown the farm's key after so many milliseconds, where one is needed, or
-  /// hasn't even said that it knows ZeroMQ, is disconnected.
+  /// A peer that hasn't shown a key after so many milliseconds, where one is needed, or hasn't even
+  /// said that it knows ZeroMQ, is disconnected.
   int handshake_ms = 30'000;
 };
 
@@ -93,12 +97,16 @@ class Readable {
   bool is_drained_ = false;
 };
 
+/// Whether one wants to know what becomes of a connection.
+enum class Watch : bool { kNo, kYes };
+
 /// The connecting end (DEALER).
 class Connection : public Readable {
  public:
-  /// Connecting itself never fails: messages wait until the peer is there. `key` is shown to the
-  /// peer if it isn't empty; it must be empty if the peer wants none.
-  Connection(ZmqContext& context, const std::string& endpoint, const std::string& key = "");
+  /// Connecting itself never fails: messages wait until the peer is there. A TCP endpoint needs
+  /// `access`, and a local socket has none: anything else is a TransportError.
+  Connection(ZmqContext& context, const std::string& endpoint,
+             const std::optional<CurveAccess>& access = std::nullopt, Watch watch = Watch::kNo);
   ~Connection() override;
   Connection(Connection&&) noexcept;
   /// Never blocks; messages queue while the peer isn't there.
@@ -109,10 +117,16 @@ class Connection : public Readable {
   std::optional<MessageView> receive_view();
   /// Like receive(), but waits for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
-  /// From now on is_lost() tells whether the peer's process, once reached, has closed the
-  /// connection since, as it does when it dies. What was sent to it and not answered is lost then.
-  void watch_loss();
+  /// The next two tell what becomes of a connection that is watched (Watch::kYes). They are to be
+  /// asked every now and then, as what happens is kept until then.
+  ///
+  /// Whether the peer's process, once it was reached, has closed the connection since, as it does
+  /// when it dies, or the network has been gone for long. What was sent to it and not answered is
+  /// lost then.
   bool is_lost();
+  /// Why the peer hasn't been reached so far; nothing while that may still come by itself, and once
+  /// it was. kNobody and kSilent may pass, the others don't.
+  std::optional<HandshakeTrouble> trouble();
 
  private:
   void* socket() override;
@@ -120,25 +134,43 @@ class Connection : public Readable {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The listening end (ROUTER).
+/// A TCP endpoint of an inbox ("tcp://10.0.0.3:*", or "tcp://*:7411"): whoever connects must hold
+/// a key that the context's Doorkeeper lets into the domain.
+struct KeyedDoor {
+  std::string endpoint;
+  CurvePair keys;
+  std::string domain;
+};
+
+/// The listening end (ROUTER): at a local socket, at a TCP port, or at both.
 class Inbox : public Readable {
  public:
   /// Throws TransportError when the endpoint can't be bound, also when somebody answers there
-  /// already. A local socket can be used by its owner alone, whatever the process's umask is. With
-  /// `wants_key`, the context's Doorkeeper decides who is let in.
-  Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits = {},
-        bool wants_key = false);
+  /// already, and when it isn't a local socket's ("ipc:///path"). That can be used by its owner
+  /// alone, whatever the process's umask is.
+  Inbox(ZmqContext& context, const std::string& endpoint, const PeerLimits& limits = {});
+  Inbox(ZmqContext& context, const KeyedDoor& door, const PeerLimits& limits = {});
+  Inbox(ZmqContext& context, const std::string& endpoint, const KeyedDoor& door,
+        const PeerLimits& limits = {});
   ~Inbox() override;
   struct Received {
     std::string peer;
     /// Valid until the next call of receive().
     MessageView message;
+    PeerKey key = PeerKey::kNone;
   };
   std::optional<Received> receive();
   /// Sends to a peer that has sent something before; the message is dropped if it has gone.
   void send(const std::string& peer, Message message);
-  /// The endpoint bound, with the port that was picked.
+  /// The endpoint bound, the local one if there is one; the TCP one, with the port that was picked,
+  /// empty if there is none.
   const std::string& endpoint() const;
+  const std::string& tcp_endpoint() const;
+
+  /// From now on take_refusals() tells who was hung up on at the TCP port; it is to be asked every
+  /// now and then, as what happens is kept until then.
+  void watch_refusals();
+  std::vector<TurnedAway> take_refusals();
 
  private:
   void* socket() override;

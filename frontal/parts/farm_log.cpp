@@ -162,8 +162,9 @@ void FarmLog::hello_is_refused(std::uint32_t rank, const std::string& why) {
   refuse("refused: a hello for node " + std::to_string(rank) + ": " + why);
 }
 
-void FarmLog::strangers_are_refused(std::uint64_t clients) {
-  refuse("refused: " + count_text(clients, "connection") + " without the farm's key");
+void FarmLog::stranger_is_refused(const TurnedAway& peer) {
+  refuse("refused: a connection" + (peer.address.empty() ? "" : " from " + peer.address) +
+         " without the farm's key: " + sentence_of(peer.reason));
 }
 
 void FarmLog::crowd_is_refused(std::uint64_t connections, int most) {

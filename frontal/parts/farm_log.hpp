@@ -12,6 +12,7 @@
 #include "proto/messages.hpp"
 #include "proto/statistics.hpp"
 #include "topology/rank.hpp"
+#include "transport/handshake_trouble.hpp"
 
 namespace graycube {
 
@@ -77,8 +78,8 @@ class FarmLog {
   void submission_is_refused(const std::string& scene, const std::string& why);
   /// A process that said it was a node.
   void hello_is_refused(std::uint32_t rank, const std::string& why);
-  /// Clients that did not show the farm's key.
-  void strangers_are_refused(std::uint64_t clients);
+  /// Somebody connected, and did not show a key of the farm's.
+  void stranger_is_refused(const TurnedAway& peer);
   /// Connections that came when clients had as many as they may, or more.
   void crowd_is_refused(std::uint64_t connections, int most);
 

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "integration/farm.hpp"
 #include "proto/control.hpp"
-#include "transport/secret.hpp"
+#include "transport/farm_key.hpp"
 #include "transport/zmq_sockets.hpp"
 
 namespace graycube {
@@ -135,19 +135,79 @@ TEST_CASE("at a TCP port the user's commands find the key, and nothing goes with
   CHECK(without.status == 1);
   CHECK(without.err.find("its key can't be read: " + key) != std::string::npos);
   ok(sandbox, {"nodes", "--connect", endpoint, "--key", moved});
+  const CurveAccess access = access_of_client(read_client_keys(moved));
+  const CurvePair another = pair_of(make_secret());
   ZmqContext context;
-  Connection stranger(context, endpoint);
-  stranger.send(Message::of_text(encode(control::Down{})));
-  CHECK_FALSE(stranger.receive(500ms));
-  Connection guesser(context, endpoint, "a guess");
-  guesser.send(Message::of_text(encode(control::Down{})));
-  CHECK_FALSE(guesser.receive(500ms));
-  const auto until = std::chrono::steady_clock::now() + 30s;
-  while (farm.up().err().find("without the farm's key") == std::string::npos)
-    REQUIRE(std::chrono::steady_clock::now() < until);
+  Connection stranger(context, endpoint, CurveAccess{another, access.server});
+  Connection lost(context, endpoint, CurveAccess{access.own, another.public_key});
+  for (Connection* c : {&stranger, &lost}) {
+    c->send(Message::of_text(encode(control::Down{})));
+    CHECK_FALSE(c->receive(500ms));
+  }
+  farm.up().wait_for("without the farm's key: it has another key");
   ok(sandbox, {"down", "--connect", endpoint, "--key", moved});
   CHECK(farm.up().wait(10s).status == 0);
   CHECK(sandbox.temporary_files().empty());
+}
+
+/// A key file that 'graycube key' makes.
+std::string key_file(Sandbox& sandbox, const std::string& name, const Arguments& options = {}) {
+  Arguments arguments{"key"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const fs::path file = sandbox.write(name, ok(sandbox, arguments));
+  REQUIRE(::chmod(file.c_str(), 0600) == 0);
+  return file.string();
+}
+
+TEST_CASE("a client's key is enough for a client, and no farm begins with it") {
+  Sandbox sandbox;
+  const std::string key = key_file(sandbox, "farm.key");
+  const std::string client = key_file(sandbox, "client.key", {"--client", key});
+  Farm farm(sandbox, {"--listen", "tcp://127.0.0.1:*", "--key", key});
+  const std::string endpoint = said_between(farm, " at ", ";");
+  ok(sandbox, {"nodes", "--connect", endpoint, "--key", client});
+  const Outcome second = sandbox.run({"up", "--listen", "tcp://127.0.0.1:*", "--key", client});
+  CHECK(second.status == 1);
+  CHECK(second.err.find("it is a client's key, and a farm's is needed") != std::string::npos);
+  const Outcome nested = sandbox.run({"key", "--client", client});
+  CHECK(nested.err.find("it is a client's key, and a farm's is needed") != std::string::npos);
+  ok(sandbox, {"down", "--connect", endpoint, "--key", key});
+  CHECK(farm.up().wait(10s).status == 0);
+  // What the user has made stays.
+  CHECK(fs::exists(key));
+}
+
+TEST_CASE("commands with a key that opens nothing say so at once") {
+  Sandbox sandbox;
+  const std::string key = key_file(sandbox, "farm.key"), other = key_file(sandbox, "other.key");
+  Farm farm(sandbox, {"--listen", "tcp://127.0.0.1:*", "--key", key});
+  const std::string endpoint = said_between(farm, " at ", ";");
+  const auto problem_with = [&](const std::string& file) {
+    // Far less than the wait for a farm that is slow.
+    const Outcome o = sandbox.run({"nodes", "--connect", endpoint, "--key", file}, 20s);
+    CHECK(o.status == 1);
+    return o.err;
+  };
+  CHECK(problem_with(other).find("it is another farm than this key's, or none") !=
+        std::string::npos);
+  const std::string open = key_file(sandbox, "open.key");
+  REQUIRE(::chmod(open.c_str(), 0640) == 0);
+  CHECK(problem_with(open).find("expected a file of this user that nobody else may read") !=
+        std::string::npos);
+  CHECK(problem_with((sandbox / "none.key").string()).find("No such file") != std::string::npos);
+  ok(sandbox, {"nodes", "--connect", endpoint, "--key", key});
+}
+
+TEST_CASE("off the loopback there is no farm without a key") {
+  Sandbox sandbox;
+  for (const char* endpoint : {"tcp://0.0.0.0:*", "tcp://*:7411", "tcp://192.0.2.1:7411"}) {
+    const Outcome o = sandbox.run({"up", "--listen", endpoint});
+    CHECK(o.status == 2);
+    CHECK(o.err.find("need a key: --key FILE") != std::string::npos);
+  }
+  const Outcome o = sandbox.run({"nodes", "--connect", "tcp://192.0.2.1:7411"});
+  CHECK(o.status == 2);
+  CHECK(o.err.find("need a key: --key FILE") != std::string::npos);
 }
 
 TEST_CASE("commands send nothing to a socket that somebody else may have made") {

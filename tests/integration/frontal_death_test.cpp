@@ -92,6 +92,26 @@ void wait_until_on(Sandbox& sandbox, const std::string& job) {
 
 }  // namespace
 
+TEST_CASE("a client at a TCP port shows its key to the next frontal, too") {
+  Sandbox sandbox;
+  const std::string expected = serial(sandbox, kLongSize);
+  const std::string key = (sandbox / "key").string();
+  Farm farm(sandbox, {"--listen", "tcp://127.0.0.1:*", "--key", key});
+  const std::string said = farm.up().out(), before = " at tcp://";
+  const std::size_t begin = said.find(before) + 4;
+  const std::string endpoint = said.substr(begin, said.find(';', begin) - begin);
+  Running waiting = sandbox.start({"submit", first(), "--size", kLongSize, "--wait", "-o", "a.exr",
+                                   "--connect", endpoint, "--key", key});
+  waiting.wait_for("1\n");
+  const auto info = nlohmann::json::parse(
+      ok(sandbox, {"status", "--farm", "--json", "--connect", endpoint, "--key", key}));
+  REQUIRE(::kill(info.at("pid").get<pid_t>(), SIGKILL) == 0);
+  const Outcome o = waiting.wait(120s);
+  INFO(o.err);
+  CHECK(o.status == 0);
+  CHECK((file_bytes(sandbox / "a.exr") == expected));
+}
+
 TEST_CASE("a frontal that is killed is started again, and every job ends right") {
   // Without --state, too, as long as the farm is up.
   const bool has_state = GENERATE(true, false);

@@ -98,12 +98,15 @@ TEST_CASE("of refusals that come fast only the number is told") {
   const auto later = log.take();
   REQUIRE(later.size() == 1);
   CHECK(later.front().text == "5 more refusals like the last ones");
-  log.strangers_are_refused(2);
+  log.stranger_is_refused({"10.0.0.5", RefusalReason::kWrongKey});
+  log.stranger_is_refused({"", RefusalReason::kNotZmq});
   log.crowd_is_refused(1, 1024);
   const auto last = log.take();
-  REQUIRE(last.size() == 2);
-  CHECK(last[0].text == "refused: 2 connections without the farm's key");
-  CHECK(last[1].text == "refused: 1 connection beyond the 1024 that clients may have");
+  REQUIRE(last.size() == 3);
+  CHECK(last[0].text ==
+        "refused: a connection from 10.0.0.5 without the farm's key: it has another key");
+  CHECK(last[1].text == "refused: a connection without the farm's key: it doesn't speak ZeroMQ");
+  CHECK(last[2].text == "refused: 1 connection beyond the 1024 that clients may have");
 }
 
 TEST_CASE("events that nobody takes are dropped, the oldest first, and long names are cut") {
