@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "check.hpp"
+#include "frontal/admission/submission.hpp"
 #include "frontal/parts/message_senders.hpp"
 #include "overloaded.hpp"
 #include "proto/control.hpp"
@@ -178,48 +179,46 @@ void Frontal::give_result(const RecutResult& cut) {
 // ---- clients
 
 void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
-                        std::span<const std::byte> payload) {
-  if (const auto* write = std::get_if<control::Write>(&message)) return on_write(peer, *write);
-  if (const auto* fetch = std::get_if<control::Fetch>(&message)) return on_fetch(peer, *fetch);
-  const auto refuse_type = [&]() -> Answer {
+                        const SharedBytes& payload) {
+  using Given = std::optional<Answer>;
+  const auto refuse_type = [&]() -> Given {
     return Refusal{0, FailureCode::kBadRequest, "type",
                    "'" + std::string(type_of(message)) + "' is not for a frontal"};
   };
-  const auto answer =
+  auto answer =
       std::visit(Overloaded{
-                     [&](const control::Submit& m) { return submit(m, payload); },
-                     [&](const control::Status& m) { return jobs_.status(m.job); },
-                     [&](const control::List&) { return jobs_.list(); },
-                     [&](const control::Watch& m) { return jobs_.watch(peer, m.job); },
-                     [&](const control::Cancel& m) { return jobs_.cancel(m.job); },
-                     [&](const control::Nodes&) -> Answer {
+                     [&](const control::Submit& m) { return submit(peer, m, payload); },
+                     [&](const control::Status& m) -> Given { return jobs_.status(m.job); },
+                     [&](const control::List&) -> Given { return jobs_.list(); },
+                     [&](const control::Watch& m) -> Given { return jobs_.watch(peer, m.job); },
+                     [&](const control::Cancel& m) -> Given { return jobs_.cancel(m.job); },
+                     [&](const control::Nodes&) -> Given {
                        return Reply{nodes_.list(jobs_.keep_nodes_busy())};
                      },
-                     [&](const control::Fetch&) { return refuse_type(); },
-                     [&](const control::Write&) { return refuse_type(); },
-                     [&](const control::Farm&) -> Answer { return Reply{info()}; },
-                     [](const control::Down&) -> Answer { return Reply{control::Bye{}}; },
+                     [&](const control::Fetch& m) { return fetch(peer, m); },
+                     [&](const control::Write& m) { return write(peer, m); },
+                     [&](const control::Farm&) -> Given { return Reply{info()}; },
+                     [](const control::Down&) -> Given { return Reply{control::Bye{}}; },
                      [&](const control::Hello&) { return refuse_type(); },
                      [&](const FromNode auto&) { return refuse_type(); },
                      [&](const FromFrontal auto&) { return refuse_type(); },
                  },
                  message);
-  post_.answer(peer, answer);
+  if (answer) post_.answer(peer, *std::move(answer));
   if (std::holds_alternative<control::Down>(message)) go_down();
 }
 
 /// The files are written elsewhere, and the answer is sent when they are.
-void Frontal::on_write(const PeerId& peer, const control::Write& m) {
+std::optional<Answer> Frontal::write(const PeerId& peer, const control::Write& m) {
   // A job that ends might take the picture's place in the store.
-  if (is_writing_ || jobs_.job_that_is_on()) {
-    return post_.answer(
-        peer, Refusal{m.job, FailureCode::kBusy, "", "another picture is written, or rendered"});
-  }
+  if (is_writing_ || jobs_.job_that_is_on())
+    return Refusal{m.job, FailureCode::kBusy, "", "another picture is written, or rendered"};
   auto work = jobs_.write(m);
-  if (auto* refusal = std::get_if<Refusal>(&work)) return post_.answer(peer, std::move(*refusal));
+  if (auto* refusal = std::get_if<Refusal>(&work)) return std::move(*refusal);
   writing_ = std::get<WritingWork>(std::move(work));
   writing_->peer = peer;
   is_writing_ = true;
+  return std::nullopt;
 }
 
 void Frontal::give_result(WritingResult result) {
@@ -228,13 +227,12 @@ void Frontal::give_result(WritingResult result) {
 }
 
 /// A picture that is not in memory is read elsewhere, and the answer is sent when it is.
-void Frontal::on_fetch(const PeerId& peer, const control::Fetch& m) {
-  if (!jobs_.must_read(m.job)) return post_.answer(peer, jobs_.fetch(m));
-  if (fetches_.size() >= kMaxWaitingFetches) {
-    return post_.answer(
-        peer, Refusal{m.job, FailureCode::kBusy, "", "too many pictures are asked for at once"});
-  }
+std::optional<Answer> Frontal::fetch(const PeerId& peer, const control::Fetch& m) {
+  if (!jobs_.must_read(m.job)) return jobs_.fetch(m);
+  if (fetches_.size() >= kMaxWaitingFetches)
+    return Refusal{m.job, FailureCode::kBusy, "", "too many pictures are asked for at once"};
   fetches_.push_back({peer, m});
+  return std::nullopt;
 }
 
 std::optional<ReadingWork> Frontal::take_reading() {
@@ -256,9 +254,16 @@ void Frontal::give_result(ReadingResult result) {
 
 void Frontal::give_result(KeepingResult result) { jobs_.give_result(std::move(result)); }
 
-Answer Frontal::submit(const control::Submit& m, std::span<const std::byte> scene) {
-  if (is_going_down_) return Refusal{0, FailureCode::kBusy, "", "the farm is going down"};
-  return jobs_.submit(m, scene);
+std::optional<Answer> Frontal::submit(const PeerId& peer, const control::Submit& m,
+                                      SharedBytes scene) {
+  if (is_going_down_) return farm_goes_down();
+  return jobs_.submit({peer, m, std::move(scene)});
+}
+
+void Frontal::give_result(const AdmissionResult& result) {
+  jobs_.give_result(result);
+  // What was accepted meanwhile must not begin.
+  if (is_going_down_) jobs_.stop();
 }
 
 control::FarmInfo Frontal::info() const {

@@ -59,6 +59,12 @@ class Frontal {
   std::optional<WritingWork> take_writing() { return std::exchange(writing_, std::nullopt); }
   void give_result(WritingResult result);
 
+  /// The same for a long scene that was submitted: nobody else's is taken until the result is
+  /// given, and then its client is answered.
+  std::optional<AdmissionWork> take_admission() { return jobs_.take_admission(); }
+  void give_result(const AdmissionResult& result);
+  bool is_admitting() const { return jobs_.is_admitting(); }
+
   /// The same for the picture of a job that is complete, and for one that is to be read before it
   /// can be fetched. Nobody is kept from anything else meanwhile, but that no other job begins
   /// until a complete one is kept.
@@ -95,11 +101,11 @@ class Frontal {
  private:
   void on_hello(const PeerId& peer, const control::Hello& m, std::span<const std::byte> shown);
   void on_node(Rank rank, const ControlMessage& message);
-  void on_client(const PeerId& peer, const ControlMessage& message,
-                 std::span<const std::byte> payload);
-  void on_write(const PeerId& peer, const control::Write& m);
-  void on_fetch(const PeerId& peer, const control::Fetch& m);
-  Answer submit(const control::Submit& m, std::span<const std::byte> scene);
+  void on_client(const PeerId& peer, const ControlMessage& message, const SharedBytes& payload);
+  // Answers to clients; nothing if they are sent later.
+  std::optional<Answer> submit(const PeerId& peer, const control::Submit& m, SharedBytes scene);
+  std::optional<Answer> write(const PeerId& peer, const control::Write& m);
+  std::optional<Answer> fetch(const PeerId& peer, const control::Fetch& m);
   control::FarmInfo info() const;
   void lose(Rank rank, const std::string& how);
   bool finds_host(Rank rank, const std::string& why);

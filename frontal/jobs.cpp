@@ -24,21 +24,9 @@ Jobs::Jobs(const FrontalOptions& farm, JobStore& store, Post& post, FarmLog& log
   recover_accepted();
 }
 
-QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options) const {
-  QueuedJob job;
-  job.submitted_at_s = now_.now_s;
-  job.work.job = info.job;
-  job.work.scene_name = info.scene;
-  job.work.options = options;
-  job.work.cube = farm_.cube;
-  job.work.replica_bytes = farm_.replica_bytes;
-  job.info = std::move(info);
-  return job;
-}
-
 void Jobs::count(control::FarmInfo& farm) const {
   farm.queued = static_cast<std::uint32_t>(queue_.all().size());
-  farm.running = running_ || keeping_ ? 1 : 0;
+  farm.running = running_ || keeping_.is_on() ? 1 : 0;
   farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
@@ -68,7 +56,7 @@ void Jobs::check_time() {
 // ---- its preparation
 
 std::optional<PreparationWork> Jobs::take_work() {
-  if (running_ || keeping_ || queue_.is_empty()) return std::nullopt;
+  if (running_ || keeping_.is_on() || queue_.is_empty()) return std::nullopt;
   QueuedJob next = queue_.take_first();
   // Its client has waited since it was submitted to an earlier frontal.
   if (next.is_recovered)
@@ -76,7 +64,7 @@ std::optional<PreparationWork> Jobs::take_work() {
   running_.emplace(farm_, next, now_, cpu_, log_);
   tell_progress();
   try {
-    if (next.is_recovered) next.work.scene = store_.scene(next.info.job);
+    if (next.is_recovered) find_scene(next.work);
     const auto [begun, ever] = store_.begin(next.info.job);
     running_->goes_on_after(ever - 1);
     log_.job_begins(next.info, ever - 1);
@@ -92,6 +80,15 @@ std::optional<PreparationWork> Jobs::take_work() {
     return std::nullopt;
   }
   return std::move(next.work);
+}
+
+/// Long scenes are read by whoever prepares them.
+void Jobs::find_scene(PreparationWork& work) {
+  if (auto scene = store_.scene(work.job)) {
+    work.scene = *std::move(scene);
+  } else {
+    work.read_scene = [this, job = work.job]() -> SharedBytes { return store_.read_scene(job); };
+  }
 }
 
 void Jobs::give_result(PreparationResult result) {
@@ -195,6 +192,29 @@ bool Jobs::fail_internally(const std::string& why) {
   return true;
 }
 
+// ---- what nodes' losses do to the job that is on (docs/design/epochs.md)
+
+void Jobs::nodes_were_lost(const std::vector<NodeLoss>& nodes) {
+  if (!running_) {
+    for (const NodeLoss& node : nodes)
+      log_.node_is_lost(node.rank, node.name, node.how, node.noticed_s);
+    return;
+  }
+  if (auto failure = running_->lose(nodes, post_)) return fail(*std::move(failure));
+  if (running_->is_loaded()) finish_when_complete();
+}
+
+void Jobs::node_has_host(const NodeLoss& node) {
+  if (running_) running_->note_guest(node);
+}
+
+void Jobs::look_for_lost_messages() {
+  if (!running_) return;
+  if (auto failure = running_->look_for_lost_messages(now_.now_s, post_))
+    return fail(*std::move(failure));
+  if (running_->is_loaded()) finish_when_complete();
+}
+
 // ---- how jobs get on and end
 
 void Jobs::tell_progress() {
@@ -213,11 +233,24 @@ void Jobs::end_when_over() {
 }
 
 void Jobs::complete() {
-  keeping_ = EndedJob{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
-  keeping_->info.fraction = 1;
-  keeping_->info.message = "waits for its picture to be written";
-  film_ = std::make_shared<const Film>(running_->take_film());
+  EndedJob job{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_.begin(std::move(job), running_->take_film());
   running_.reset();
+}
+
+void Jobs::give_result(KeepingResult result) {
+  auto job = keeping_.end(result, now_.unix_s);
+  if (!job) return;
+  const EndedJob& kept = ended_.keep(*std::move(job), std::move(result.picture));
+  log_.job_ends(kept.info);
+  for (const PeerId& peer : watchers_.take(kept.info.job)) {
+    if (kept.info.state == JobState::kDone) {
+      post_.to_peer(peer, control::Done{kept.info.job, {kept.stats_json}});
+    } else {
+      post_.answer(
+          peer, Refusal{kept.info.job, FailureCode::kFailed, "the job store", kept.info.message});
+    }
+  }
 }
 
 /// The nodes drop the job. A job that is deadlocked ends as deadlocked, whatever else happens while

@@ -8,11 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "frontal/admission/admission.hpp"
 #include "frontal/parts/ended_jobs.hpp"
 #include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/job_queue.hpp"
-#include "frontal/parts/keeping.hpp"
+#include "frontal/parts/picture_keeping.hpp"
 #include "frontal/parts/post.hpp"
 #include "frontal/parts/progress_watch.hpp"
 #include "frontal/parts/running_job.hpp"
@@ -35,7 +36,10 @@ class Jobs {
   void count(control::FarmInfo& farm) const;
 
   // Asked by clients
-  Answer submit(const control::Submit& m, std::span<const std::byte> scene);
+  /// Nothing if the answer is posted later.
+  std::optional<Answer> submit(Submission submission) {
+    return admission_.submit(std::move(submission), now_);
+  }
   Answer status(std::uint32_t job) const;
   Answer list() const;
   Answer watch(const PeerId& peer, std::uint32_t job);
@@ -44,11 +48,15 @@ class Jobs {
   /// The writing that is asked for, for which nobody is named yet, or why it isn't done.
   std::variant<WritingWork, Refusal> write(const control::Write& m);
 
+  /// The long scene that is to be taken into the store, once one is submitted.
+  std::optional<AdmissionWork> take_admission() { return admission_.take_work(now_, post_); }
+  void give_result(const AdmissionResult& result) { admission_.give_result(result, now_, post_); }
+  bool is_admitting() const { return admission_.is_at_work(); }
   /// The picture that is to be kept, once a job is complete. It counts as rendered until the result
   /// is given, and no other job is on.
-  std::optional<KeepingWork> take_keeping();
+  std::optional<KeepingWork> take_keeping() { return keeping_.take_work(store_); }
   void give_result(KeepingResult result);
-  bool is_keeping() const { return keeping_.has_value(); }
+  bool is_keeping() const { return keeping_.is_on(); }
   /// Whether the job's picture has to be read before it can be fetched.
   bool must_read(std::uint32_t job) const;
   ReadingWork reading(std::uint32_t job) { return {job, &store_}; }
@@ -107,15 +115,16 @@ class Jobs {
   void stop();
 
  private:
-  Answer accept(const control::Submit& m, std::span<const std::byte> scene);
   void recover_accepted();
+  void find_scene(PreparationWork& work);
   void resume();
   void record_tiles(bool all);
-  QueuedJob queued(control::JobInfo info, const control::JobOptions& options) const;
   bool is_rendered() const { return running_ && running_->is_prepared(); }
   std::optional<control::JobInfo> find(std::uint32_t job) const;
   /// The running job, with what it waits for as its message; one must be on.
   control::JobInfo running_info() const;
+  /// The same for a job of the queue.
+  control::JobInfo queued_info(control::JobInfo job) const;
   /// The picture of a job that is done.
   std::variant<const Picture*, Refusal> picture(std::uint32_t job);
   void tell_progress();
@@ -137,11 +146,10 @@ class Jobs {
   double looked_s_ = 0, cleared_s_ = 0;
   CpuMeter cpu_;
   JobQueue queue_;
+  Admission admission_{farm_, store_, queue_, log_};
   std::optional<RunningJob> running_;
+  PictureKeeping keeping_;
   EndedJobs ended_;
-  /// The job that is complete, but not kept yet; its film, until that is taken.
-  std::optional<EndedJob> keeping_;
-  std::shared_ptr<const Film> film_;
   Watchers watchers_;
   ProgressWatch progress_watch_;
 };

@@ -1,11 +1,9 @@
 // What clients may ask of jobs.
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "frontal/jobs.hpp"
 #include "frontal/parts/picture_answers.hpp"
-#include "frontal/parts/submission.hpp"
 
 namespace graycube {
 namespace {
@@ -25,52 +23,10 @@ ControlMessage end_of(const EndedJob& job) {
 
 }  // namespace
 
-Answer Jobs::submit(const control::Submit& m, std::span<const std::byte> scene) {
-  Answer answer = accept(m, scene);
-  if (const auto* refusal = std::get_if<Refusal>(&answer)) {
-    log_.submission_is_refused(
-        m.scene_name, (refusal->where.empty() ? "" : refusal->where + ": ") + refusal->why);
-  }
-  return answer;
-}
-
-Answer Jobs::accept(const control::Submit& m, std::span<const std::byte> scene) {
-  if (auto refusal = refusal_of(m, scene, farm_.is_private)) return *std::move(refusal);
-  const std::uint64_t content = content_of(m, scene);
-  try {
-    if (const auto known = m.key.empty() ? std::nullopt : store_.find_key(m.key)) {
-      if (known->content == content) return Reply{control::Accepted{known->job}};
-      return Refusal{known->job, FailureCode::kBadRequest, "key",
-                     "another scene or other options were submitted under this key"};
-    }
-    if (auto refusal = refusal_for_want_of_room(queue_)) return *std::move(refusal);
-    control::JobInfo info;
-    info.job = queue_.next_number();
-    info.scene = m.scene_name;
-    info.algorithm = m.options.algorithm;
-    info.nodes = farm_.cube.nodes();
-    info.submitted_s = now_.unix_s;
-    // The number is told only once the store has it: it must be the job's after any end of this
-    // process.
-    store_.add({info, m.options, m.key, content}, scene);
-    log_.job_is_accepted(info, false);
-    QueuedJob job = queued(std::move(info), m.options);
-    job.work.scene.assign(scene.begin(), scene.end());
-    job.content = content;
-    return Reply{control::Accepted{queue_.add(std::move(job))}};
-  } catch (const std::runtime_error& e) {
-    return Refusal{0, FailureCode::kFailed, "the job store", e.what()};
-  }
-}
-
 std::optional<control::JobInfo> Jobs::find(std::uint32_t job) const {
   if (running_ && running_->id() == job) return running_info();
-  if (keeping_ && keeping_->info.job == job) return keeping_->info;
-  if (const auto* queued = queue_.find(job)) {
-    control::JobInfo info = *queued;
-    if (running_) info.message = "waits for job " + std::to_string(running_->id()) + " to end";
-    return info;
-  }
+  if (keeping_.is_on() && keeping_.job()->job == job) return *keeping_.job();
+  if (const auto* queued = queue_.find(job)) return queued_info(*queued);
   if (const EndedJob* ended = ended_.find(job)) return ended->info;
   return std::nullopt;
 }
@@ -79,6 +35,15 @@ control::JobInfo Jobs::running_info() const {
   control::JobInfo info = running_->info_at(now_.now_s);
   info.message = "waits for " + progress_watch_.waits_for(info, running_->stage(), now_.now_s);
   return info;
+}
+
+control::JobInfo Jobs::queued_info(control::JobInfo job) const {
+  if (running_) {
+    job.message = "waits for job " + std::to_string(running_->id()) + " to end";
+  } else if (const control::JobInfo* kept = keeping_.job()) {
+    job.message = "waits for job " + std::to_string(kept->job) + "'s picture to be kept";
+  }
+  return job;
 }
 
 Answer Jobs::status(std::uint32_t job) const {
@@ -90,9 +55,9 @@ Answer Jobs::list() const {
   control::Jobs list;
   const auto has_room = [&] { return list.jobs.size() < kMaxJobsListed; };
   if (running_) list.jobs.push_back(running_info());
-  if (keeping_) list.jobs.push_back(keeping_->info);
+  if (keeping_.is_on()) list.jobs.push_back(*keeping_.job());
   for (const QueuedJob& job : queue_.all()) {
-    if (has_room()) list.jobs.push_back(job.info);
+    if (has_room()) list.jobs.push_back(queued_info(job.info));
   }
   for (auto job = ended_.all().rbegin(); job != ended_.all().rend() && has_room(); ++job)
     list.jobs.push_back(job->info);
@@ -131,6 +96,15 @@ std::variant<const Picture*, Refusal> Jobs::picture(std::uint32_t job) {
   }
   if (const Picture* picture = ended_.picture(job)) return picture;
   return Refusal{job, FailureCode::kFailed, "", "the picture is not kept any longer"};
+}
+
+bool Jobs::must_read(std::uint32_t job) const {
+  const auto info = find(job);
+  return info && info->state == JobState::kDone && store_.must_read(job);
+}
+
+void Jobs::give_result(ReadingResult result) {
+  if (result.picture) store_.hold(result.job, *std::move(result.picture));
 }
 
 Answer Jobs::fetch(const control::Fetch& m) {

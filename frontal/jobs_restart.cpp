@@ -12,7 +12,7 @@ void Jobs::recover_accepted() {
     info.state = JobState::kQueued;
     info.nodes = farm_.cube.nodes();
     log_.job_is_accepted(info, true);
-    QueuedJob job = queued(std::move(info), accepted.options);
+    QueuedJob job = queued_job(farm_, std::move(info), accepted.options, now_);
     job.is_recovered = true;
     job.content = accepted.content;
     queue_.restore(std::move(job));
@@ -39,6 +39,7 @@ void Jobs::record_tiles(bool all) {
 }
 
 void Jobs::stop() {
+  admission_.close(post_);
   if (running_) record_tiles(true);
   if (farm_.keeps_jobs) return leave_to_next_frontal();
   const JobFailure stopped{JobState::kCancelled, FailureCode::kCancelled, {{"", "the farm stops"}}};

@@ -146,7 +146,8 @@ class FrontalProcess {
       if (frontal_.is_going_down()) {
         if (down_since_s == 0) down_since_s = now.now_s;
         const bool is_over = processes_.empty() || now.now_s - down_since_s > kGrace_s;
-        if (is_over && !frontal_.is_keeping()) return frontal_.fatal_error();
+        if (is_over && !frontal_.is_keeping() && !frontal_.is_admitting())
+          return frontal_.fatal_error();
       }
       const auto sockets = doors_.sockets();
       const int descriptors[] = {wakeup_.descriptor(), signals_};
@@ -192,7 +193,7 @@ class FrontalProcess {
       frontal_.on_message(HttpDesk::peer_of(q.number), q.message);
       flush();
     }
-    take_pictures();
+    work_aside();
     preparation_.work_only_for(frontal_.job_that_is_on());
     if (preparation_.is_free()) {
       if (auto work = frontal_.take_work()) {
@@ -204,12 +205,15 @@ class FrontalProcess {
     flush();
   }
 
-  void take_pictures() {
+  /// Hands pictures, and scenes that are long, to the thread that writes and reads them.
+  void work_aside() {
     if (auto result = writing_thread_.take())
       std::visit([this](auto& r) { frontal_.give_result(std::move(r)); }, *result);
     if (!writing_thread_.is_free()) return;
     if (auto work = frontal_.take_keeping()) {
       writing_thread_.give(*std::move(work));
+    } else if (auto admission = frontal_.take_admission()) {
+      writing_thread_.give(*std::move(admission));
     } else if (auto writing = frontal_.take_writing()) {
       writing_thread_.give(*std::move(writing));
     } else if (auto reading = frontal_.take_reading()) {

@@ -1,5 +1,5 @@
-// Writes pictures to files and to the job store, and reads them from there, beside the mailroom,
-// which must stay quick to answer: a large one takes seconds.
+// Writes pictures to files and to the job store, and reads them from there, and takes long scenes
+// into the store: beside the mailroom, which must stay quick to answer. A large one takes seconds.
 #pragma once
 
 #include <mutex>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "frontal/admission/long_scene.hpp"
 #include "frontal/parts/keeping.hpp"
 #include "frontal/parts/picture_answers.hpp"
 #include "frontal/parts/writing.hpp"
@@ -20,8 +21,8 @@ namespace graycube {
 /// One piece of work at a time. A thread begins with each, and ends with it.
 class WritingThread {
  public:
-  using Work = std::variant<WritingWork, KeepingWork, ReadingWork>;
-  using Result = std::variant<WritingResult, KeepingResult, ReadingResult>;
+  using Work = std::variant<WritingWork, KeepingWork, ReadingWork, AdmissionWork>;
+  using Result = std::variant<WritingResult, KeepingResult, ReadingResult, AdmissionResult>;
 
   explicit WritingThread(Wakeup& mailroom) : mailroom_(mailroom) {}
   /// Waits until what is under way is written: files come whole or not at all.
@@ -58,7 +59,8 @@ class WritingThread {
                                                                 process_cpu_seconds)};
                    },
                    [](KeepingWork& w) -> Result { return keep_picture(std::move(w)); },
-                   [](ReadingWork& w) -> Result { return read_picture(w); }},
+                   [](ReadingWork& w) -> Result { return read_picture(w); },
+                   [](AdmissionWork& w) -> Result { return admit_scene(w); }},
         work);
   }
 

@@ -9,6 +9,7 @@
 #include "proto/slices/outline_bytes.hpp"
 #include "proto/slices/values.hpp"
 #include "regions/kept_trees.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -212,7 +213,10 @@ std::vector<std::byte> encode_model(const Model& model) {
   for (const Plane& plane : model.planes) put_plane(w, plane);
   for (const Mesh& mesh : model.meshes) put_mesh(w, mesh.surface());
   for (const Outline& outline : model.outlines) put_outline(w, outline);
-  for (const Primitive& p : model.primitives) put_primitive(w, p, flags_of(p));
+  for (const Primitive& p : model.primitives) {
+    stop_if_asked();
+    put_primitive(w, p, flags_of(p));
+  }
   for (const TreeNode& node : model.nodes) put_node(w, node);
   for (const Object& object : model.objects) put_object(w, object);
   return std::move(w).take();
@@ -307,6 +311,7 @@ std::vector<std::byte> SliceEncoder::encode(
   for (const std::uint32_t o : kept.outlines) put_outline(w, model_.outlines[o]);
   counts.planes = counts.meshes = 0;
   kept.for_each_primitive([&](std::uint32_t index) {
+    stop_if_asked();
     const Primitive& p = model_.primitives[index];
     const unsigned written = flags(p, flags_[index]);
     if (p.plane_count == 0 && p.kind != PrimitiveKind::kMesh && !csg::has_outline(p.kind))

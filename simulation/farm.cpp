@@ -66,7 +66,8 @@ template <typename Call>
 void Farm::in_frontal(PerUnit doings, Call&& call) {
   const double began_s = observe ? thread_cpu_seconds() : 0;
   call();
-  // Pictures are kept beside the frontal's mailroom, in no simulated time.
+  // Long scenes are taken, and pictures kept, beside the frontal's mailroom, in no simulated time.
+  while (auto w = frontal_->take_admission()) frontal_->give_result(admit_scene(*w));
   while (auto w = frontal_->take_keeping()) frontal_->give_result(keep_picture(*std::move(w)));
   auto out = std::make_shared<std::vector<Frontal::Outgoing>>(frontal_->take_outgoing());
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
@@ -378,8 +379,7 @@ void Farm::tell_of_end(const Frontal::Process& process, bool was_started) {
 Outcome Farm::render(const std::string& scene_text, const control::JobOptions& options) {
   outcome_ = {};
   reports_ = 0;
-  is_over_ = false;
-  has_failed_ = false;
+  is_over_ = has_failed_ = false;
   render_began_s_ = -1;
   const double began_s = timeline_.now_s();
   const auto text = std::as_bytes(std::span(scene_text.data(), scene_text.size()));

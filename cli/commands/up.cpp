@@ -15,11 +15,11 @@
 #include "cli/farm/client.hpp"
 #include "cli/farm/listener.hpp"
 #include "cli/farm/loss_options.hpp"
+#include "cli/farm/passing_folder.hpp"
 #include "cli/farm/supervised_frontal.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/temporary_place.hpp"
 #include "process/log_file.hpp"
-#include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
 #include "transport/farm_key.hpp"
 
@@ -169,7 +169,8 @@ ExitStatus run(const UpCommand& command) {
   const InterruptsHeld held;
   const EndpointCleanup cleanup(endpoint, is_default);
   const std::unique_ptr<LogFile> log = open_log(command.log);
-  std::optional<TemporaryFolder> passing;
+  std::optional<PassingFolder> passing;
+  clear_left_passing_folders();
   if (command.state.empty()) {
     check_temporary_place();
     passing.emplace();

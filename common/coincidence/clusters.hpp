@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "stop_point.hpp"
+#include "stoppable_sort.hpp"
+
 namespace graycube::csg {
 
 /// A number that may be off by its tolerance.
@@ -58,10 +61,11 @@ void for_each_run(std::span<Extent> extents, Visit&& visit) {
   });
   // Values that overflowed equal nothing.
   extents = extents.first(static_cast<std::size_t>(end_of_numbers - extents.begin()));
-  std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
+  stoppable_sort(extents, [](const Extent& a, const Extent& b) {
     return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.item < b.item;
   });
   for (std::size_t first = 0; first < extents.size();) {
+    stop_if_asked();
     double reached = extents[first].hi, common = reached;
     std::size_t end = first + 1;
     for (; end < extents.size() && extents[end].lo <= reached; ++end) {
@@ -100,6 +104,7 @@ class Clusters {
     }
     if (agreeing == dimensions_ || passes == kMostRounds * dimensions_) return visit_(items);
     for (Extent& e : items) {
+      stop_if_asked();
       const Measured m = measure_(e.item, dimension);
       e.lo = m.value - m.tolerance;
       e.hi = m.value + m.tolerance;

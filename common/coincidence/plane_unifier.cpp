@@ -5,6 +5,8 @@
 
 #include "coincidence/faces.hpp"
 #include "geometry/infinity.hpp"
+#include "stop_point.hpp"
+#include "stoppable_sort.hpp"
 
 namespace graycube::csg {
 
@@ -118,6 +120,7 @@ void PlaneUnifier::unify_direction(std::span<const Extent> cluster) {
   std::vector<Vec3> anchors;
   Aabb around = Aabb::nothing();
   for (const Extent& e : cluster) {
+    stop_if_asked();
     const Heading& h = others_[e.item];
     for (std::uint32_t slot = h.slot; slot < h.slot + h.count; ++slot) {
       group.push_back(level_of(h.primitive, slot, direction));
@@ -183,6 +186,7 @@ void PlaneUnifier::unify_offsets(const Vec3& direction, std::vector<Level> group
   // share one.
   if (!planes.has_unequal()) return;
   planes.for_each([&](std::span<const Level> plane, double offset) {
+    stop_if_asked();
     const bool is_shared_plane = is_shared(plane);
     for (const Level& f : plane) set(f, direction, offset, is_shared_plane);
   });
@@ -206,8 +210,9 @@ void PlaneUnifier::set(const Level& level, const Vec3& direction, double offset,
 }
 
 bool PlaneUnifier::settle() {
-  std::sort(changed_.begin(), changed_.end());
+  stoppable_sort(std::span(changed_));
   for (std::size_t i = 0; i < changed_.size(); ++i) {
+    stop_if_asked();
     // The last entry of a primitive is that of the face that has moved most.
     if (i + 1 < changed_.size() && changed_[i + 1].first == changed_[i].first) continue;
     settle_faces(model_, changed_[i].first, changed_[i].second);

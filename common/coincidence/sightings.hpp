@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coincidence/candidates.hpp"
+#include "stop_point.hpp"
 
 namespace graycube::csg {
 
@@ -32,9 +33,13 @@ class Sightings {
   void for_each_candidate(Visit&& visit) {
     if (seen_.empty()) return;
     candidates_.emplace(tolerances_ / static_cast<double>(seen_.size()), seen_.size());
-    for (const Seen& s : seen_) candidates_->mark(measured(s));
+    for (const Seen& s : seen_) {
+      stop_if_asked();
+      candidates_->mark(measured(s));
+    }
     std::optional<std::uint32_t> last;
     for (const Seen& s : seen_) {
+      stop_if_asked();
       if (s.primitive == last || !candidates_->may_meet(measured(s))) continue;
       last = s.primitive;
       visit(s.primitive);

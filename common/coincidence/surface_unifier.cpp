@@ -10,6 +10,7 @@
 #include "csg/elliptic_torus.hpp"
 #include "csg/quadric.hpp"
 #include "csg/torus.hpp"
+#include "stop_point.hpp"
 
 namespace graycube::csg {
 namespace {
@@ -132,6 +133,7 @@ void SurfaceUnifier::unify_cluster(std::span<const Extent> cluster) {
   }
   const Primitive from = model_.primitives[best];
   for (const Extent& e : cluster) {
+    stop_if_asked();
     Primitive& p = model_.primitives[e.item];
     const Primitive before = p;
     take_surface(from, p);

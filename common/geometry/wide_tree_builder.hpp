@@ -102,6 +102,7 @@ class WideTreeBuilder {
   std::vector<Group> children_of(Run run, std::size_t depth) {
     std::vector<Group> groups{group_of(run)};
     while (groups.size() < WideNode::kWidth) {
+      stop_if_asked();
       std::size_t widest = groups.size();
       for (std::size_t g = 0; g < groups.size(); ++g) {
         if (groups[g].is_item()) continue;
@@ -118,7 +119,6 @@ class WideTreeBuilder {
   }
 
   void build_node(std::size_t index, Run run, std::size_t depth) {
-    stop_if_asked();
     const std::vector<Group> groups = children_of(run, depth);
     WideNode node;
     for (std::size_t g = 0; g < WideNode::kWidth; ++g) {

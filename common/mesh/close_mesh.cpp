@@ -13,6 +13,8 @@
 #include "mesh/edges.hpp"
 #include "mesh/face_limits.hpp"
 #include "mesh/join_points.hpp"
+#include "stop_point.hpp"
+#include "stoppable_sort.hpp"
 #include "written_digits.hpp"
 
 namespace graycube {
@@ -82,16 +84,16 @@ std::optional<MeshFault> fault_of_faces(const PolygonMesh& p) {
   std::size_t triangles = 0;
   for (std::size_t f = 0; f < p.face_ends.size(); ++f) {
     const std::uint32_t end = p.face_ends[f], n = end - begin;
-    const std::string where = "face " + std::to_string(f) + " has ";
+    const auto where = [f] { return "face " + std::to_string(f) + " has "; };
     if (n < 3)
-      return MeshFault{where + counted(n, "corner", "corners") + ", at least 3 are needed"};
+      return MeshFault{where() + counted(n, "corner", "corners") + ", at least 3 are needed"};
     if (n > kMostFaceCorners) {
-      return MeshFault{where + std::to_string(n) + " corners, at most " +
+      return MeshFault{where() + std::to_string(n) + " corners, at most " +
                        std::to_string(kMostFaceCorners) + " are accepted"};
     }
     for (std::uint32_t i = begin; i < end; ++i) {
       if (p.corners[i] >= p.points.size()) {
-        return MeshFault{where + "the point " + std::to_string(p.corners[i]) + ", there are " +
+        return MeshFault{where() + "the point " + std::to_string(p.corners[i]) + ", there are " +
                          std::to_string(p.points.size())};
       }
     }
@@ -142,6 +144,7 @@ void renumber(TriangleMesh& mesh) {
 /// Turns faces until every edge is used as often one way as the other, or says why that can't be
 /// done.
 std::optional<MeshFault> fault_of_edges(TriangleMesh& mesh) {
+  stop_if_asked();
   if (MeshEdges(mesh.triangles).unbalanced_count() == 0) return std::nullopt;
   const auto contradiction = agree_on_orientation(mesh.triangles);
   if (contradiction) {
@@ -172,6 +175,7 @@ TriangleMesh welded_and_cut(const PolygonMesh& polygons) {
   std::vector<std::uint32_t> face;
   std::uint32_t begin = 0;
   for (const std::uint32_t end : polygons.face_ends) {
+    stop_if_asked();
     face.clear();
     for (std::uint32_t i = begin; i < end; ++i) {
       if (face.empty() || face.back() != corners[i]) face.push_back(corners[i]);
@@ -192,7 +196,7 @@ std::variant<TriangleMesh, MeshFault> cut_and_oriented(const PolygonMesh& polygo
 /// Moves corners to the points that they become when points within a distance are joined.
 void join(std::span<const Vec3> points, double distance, std::span<std::uint32_t> corners) {
   std::vector<std::uint32_t> used(corners.begin(), corners.end());
-  std::sort(used.begin(), used.end());
+  stoppable_sort(std::span(used));
   used.erase(std::unique(used.begin(), used.end()), used.end());
   const auto number = joined_points(points, used, distance);
   for (std::uint32_t& c : corners) c = number[c];
@@ -266,6 +270,7 @@ std::variant<TriangleMesh, MeshFault> closed_mesh(TriangleMesh triangles) {
     return too_many_triangles(triangles.triangles.size());
   Welder weld(triangles.points);
   for (Triangle& t : triangles.triangles) {
+    stop_if_asked();
     for (std::uint32_t& i : t) {
       if (i >= triangles.points.size()) {
         return MeshFault{"face " + std::to_string(&t - triangles.triangles.data()) +

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "stop_point.hpp"
+#include "stoppable_sort.hpp"
+
 namespace graycube {
 namespace {
 
@@ -33,7 +36,7 @@ std::vector<std::uint32_t> sides_across(std::span<const Triangle> triangles, std
       sides.push_back({key_of(e.from, e.to), 3 * t + i});
     }
   }
-  std::sort(sides.begin(), sides.end());
+  stoppable_sort(std::span(sides));
   std::vector<std::uint32_t> across(sides.size(), none);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i;
@@ -55,7 +58,7 @@ MeshEdges::MeshEdges(std::span<const Triangle> triangles) {
       records_.push_back(key_of(e.from, e.to) | (e.from > e.to ? 1u : 0u));
     }
   }
-  std::sort(records_.begin(), records_.end());
+  stoppable_sort(std::span(records_));
   for (std::size_t i = 0; i < records_.size();) {
     const std::uint64_t key = records_[i] & ~std::uint64_t{1};
     std::ptrdiff_t balance = 0;
@@ -100,6 +103,7 @@ std::optional<MeshEdge> agree_on_orientation(std::span<Triangle> triangles) {
     state[seed] = State::kKept;
     std::size_t turned = 0;
     for (std::size_t next = 0; next < part.size(); ++next) {
+      stop_if_asked();
       const std::uint32_t t = part[next];
       for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t other = across[3 * t + i];

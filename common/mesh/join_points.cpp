@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "stop_point.hpp"
+
 namespace graycube {
 namespace {
 
@@ -85,6 +87,7 @@ std::vector<std::uint32_t> joined_points(std::span<const Vec3> points,
   if (!(distance > kLeastShare * largest) || !std::isfinite(distance)) return number;
   PointGrid grid(points, chosen.size(), distance);
   for (const std::uint32_t i : chosen) {
+    stop_if_asked();
     const std::uint32_t near = grid.nearest(points[i]);
     if (near == kNoPoint) {
       grid.add(i);

@@ -8,6 +8,7 @@
 #include "geometry/float_box.hpp"
 #include "geometry/infinity.hpp"
 #include "geometry/wide_tree_builder.hpp"
+#include "stop_point.hpp"
 
 namespace graycube {
 namespace {
@@ -92,8 +93,10 @@ class MeshTreeBuilder {
     boxes_.reserve(order_.size());
     double largest = 0;
     for (const Vec3& p : mesh.points) largest = larger(max_abs(p), largest);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      stop_if_asked();
       boxes_.push_back(box_of(mesh, t, kGrowth * largest));
+    }
     tree_.planes_ = mesh.planes;
     std::iota(order_.begin(), order_.end(), 0u);
   }

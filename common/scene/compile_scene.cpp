@@ -87,10 +87,7 @@ class Compiler {
     model_.nodes.reserve(leaves);
     model_.primitives.reserve(leaves);
     unifier_.reserve(leaves);
-    for (const SceneObject& object : scene_.objects) {
-      stop_if_asked();
-      add_object(object);
-    }
+    for (const SceneObject& object : scene_.objects) add_object(object);
     check_settings();
     if (!faults_.is_empty()) throw UnrenderableScene(std::move(faults_).take());
     if (unifier_.unify()) measure_again();
@@ -261,6 +258,7 @@ class Compiler {
   }
 
   void emit_leaf(const CsgNode& leaf, Primitive primitive, const Context& context) {
+    stop_if_asked();
     GRAYCUBE_CHECK(context.material != kInheritMaterial, "a leaf without a material");
     if (const char* why = why_unsound(primitive, model_.planes)) {
       report(context.place, csg::traits_of(primitive.kind).name, why);

@@ -33,6 +33,7 @@ class SharedBytes {
       : owner_(std::move(owner)), bytes_(bytes) {}
 
   std::span<const std::byte> bytes() const { return bytes_; }
+  operator std::span<const std::byte>() const { return bytes_; }  // NOLINT: implicit
   std::size_t size() const { return bytes_.size(); }
   bool empty() const { return bytes_.empty(); }
 
@@ -57,13 +58,13 @@ struct Message {
   std::string_view text() const { return text_of(frame); }
 };
 
-/// A message that somebody else holds.
+/// A message whose frame somebody else holds. The payload can be kept without a copy.
 struct MessageView {
   std::span<const std::byte> frame;
-  std::span<const std::byte> payload;
+  SharedBytes payload;
 
   MessageView() = default;
-  MessageView(const Message& m) : frame(m.frame), payload(m.payload.bytes()) {}
+  MessageView(const Message& m) : frame(m.frame), payload(m.payload) {}
 
   std::string_view text() const { return text_of(frame); }
 };

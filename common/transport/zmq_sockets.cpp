@@ -112,13 +112,13 @@ void receive_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) 
   }
 }
 
-/// Frames from `first` on as a message: one or two of them, else nothing.
-std::optional<MessageView> message_of(const std::vector<zmq::message_t>& frames,
-                                      std::size_t first) {
+/// Frames from `first` on as a message: one or two of them, else nothing. The payload's frame is
+/// taken.
+std::optional<MessageView> message_of(std::vector<zmq::message_t>& frames, std::size_t first) {
   if (frames.size() <= first || frames.size() > first + 2) return std::nullopt;
   MessageView m;
   m.frame = bytes_of(frames[first]);
-  if (frames.size() == first + 2) m.payload = bytes_of(frames[first + 1]);
+  if (frames.size() == first + 2) m.payload = shared(std::move(frames[first + 1]));
   return m;
 }
 
@@ -186,9 +186,7 @@ void Connection::send(Message message) {
 std::optional<Message> Connection::receive() {
   const auto view = receive_view();
   if (!view) return std::nullopt;
-  Message message{copy_of(view->frame), {}};
-  if (!view->payload.empty()) message.payload = shared(std::move(impl_->frames.back()));
-  return message;
+  return Message{copy_of(view->frame), view->payload};
 }
 
 std::optional<MessageView> Connection::receive_view() {

@@ -113,7 +113,7 @@ class Connection : public Readable {
   void send(Message message);
   /// Nothing when no message is waiting.
   std::optional<Message> receive();
-  /// Like receive(), without a copy: the view is valid until the next call.
+  /// Like receive(), without a copy: the view's frame is valid until the next call.
   std::optional<MessageView> receive_view();
   /// Like receive(), but waits for up to `timeout`.
   std::optional<Message> receive(std::chrono::milliseconds timeout);
@@ -155,7 +155,7 @@ class Inbox : public Readable {
   ~Inbox() override;
   struct Received {
     std::string peer;
-    /// Valid until the next call of receive().
+    /// Its frame is valid until the next call of receive().
     MessageView message;
     PeerKey key = PeerKey::kNone;
   };

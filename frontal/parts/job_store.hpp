@@ -34,6 +34,11 @@ struct AcceptedJob {
   std::uint64_t content = 0;
 };
 
+/// From so many bytes on a scene is written beside the frontal's other work: it would be held up
+/// for too long.
+inline constexpr std::size_t kLongScene = std::size_t{1} << 20;
+inline bool is_long_scene(std::span<const std::byte> scene) { return scene.size() >= kLongScene; }
+
 /// A job that was accepted under a key.
 struct KeyedJob {
   std::uint32_t job = 0;
@@ -45,7 +50,7 @@ class JobStore {
  public:
   virtual ~JobStore() = default;
 
-  /// Keeps a job and its scene until it ends.
+  /// Keeps a job and its scene until it ends. A long scene must have been written.
   virtual void add(const AcceptedJob& job, std::span<const std::byte> scene) = 0;
   /// The job that was accepted under a key, if it is still known.
   virtual std::optional<KeyedJob> find_key(const std::string& key) = 0;
@@ -61,6 +66,10 @@ class JobStore {
 
   // Slow: another thread may call them, one at a time, while this one calls any other.
 
+  /// Writes the long scene of a job that is about to be added.
+  virtual void write_scene(std::uint32_t, std::span<const std::byte>) {}
+  /// The scene of a job that has not ended, which was written.
+  virtual Bytes read_scene(std::uint32_t) { return {}; }
   /// Writes the picture of a job that is about to be kept as done.
   virtual void write_picture(const control::JobInfo&, const Picture&) {}
   /// Nothing if there is none, or it can't be read.
@@ -79,8 +88,8 @@ class JobStore {
   };
   /// A job begins to be rendered.
   virtual Begun begin(std::uint32_t) { return {}; }
-  /// The scene of a job that has not ended.
-  virtual Bytes scene(std::uint32_t) { return {}; }
+  /// The scene of a job that has not ended; nothing if it must be read.
+  virtual std::optional<Bytes> scene(std::uint32_t) { return std::nullopt; }
   /// The largest number that a job ever had; 0 if there never was one.
   virtual std::uint32_t last_number() { return 0; }
   /// A job that has ended, however old.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 #include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
@@ -271,10 +272,24 @@ std::string choices_text(const PreparedScene& scene) {
 
 namespace {
 
+/// Nothing, and an error, when it can't be read.
+std::optional<SharedBytes> scene_of(const PreparationWork& work, PreparationResult& result) {
+  if (!work.read_scene) return work.scene;
+  try {
+    return work.read_scene();
+  } catch (const std::runtime_error& e) {
+    add_error(result.errors, "the job store", e.what());
+    result.is_internal = true;
+    return std::nullopt;
+  }
+}
+
 void prepare_into(PreparationResult& result, const PreparationWork& work,
                   const std::function<double()>& clock_s) {
   const double began_s = clock_s();
-  auto whole = model_of(work.scene, result.errors);
+  const auto text = scene_of(work, result);
+  if (!text) return;
+  auto whole = model_of(*text, result.errors);
   if (!whole) return;
   Model& model = *whole;
   apply_overrides(work.options, model.settings);

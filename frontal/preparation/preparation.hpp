@@ -26,7 +26,9 @@ struct PreparationWork {
   std::uint32_t job = 0;
   std::string scene_name;
   /// The scene's text, or the model that the client has compiled it to.
-  Bytes scene;
+  SharedBytes scene;
+  /// What reads it, if it isn't here yet; throws std::runtime_error.
+  std::function<SharedBytes()> read_scene{};
   control::JobOptions options;
   Hypercube cube = *Hypercube::of_size(1);
   std::uint64_t replica_bytes = kReplicaBytes;

@@ -9,6 +9,7 @@
 #include "frontal/store/job_rows.hpp"
 #include "frontal/store/picture_folder.hpp"
 #include "frontal/store/record_file.hpp"
+#include "frontal/store/scene_folder.hpp"
 #include "frontal/store/schema.hpp"
 #include "frontal/store/store_lock.hpp"
 #include "frontal/store/tile_writer.hpp"
@@ -38,7 +39,7 @@ std::unique_ptr<Database> open_sound(const fs::path& folder, const Warn& warn) {
   return database;
 }
 
-/// A damaged database is set aside with its log, which belongs to it.
+/// A damaged database is set aside with its log and the scenes of its jobs, which belong to it.
 std::unique_ptr<Database> open_database(const fs::path& folder, const Warn& warn) {
   try {
     return open_sound(folder, warn);
@@ -48,6 +49,7 @@ std::unique_ptr<Database> open_database(const fs::path& folder, const Warn& warn
       const fs::path file = (folder / kDatabaseFile).string() + ending;
       if (fs::exists(file)) set_aside(folder, file, e.what(), warn);
     }
+    for (const fs::path& file : scene_files(folder)) set_aside(folder, file, e.what(), warn);
   }
   return open_sound(folder, warn);
 }
@@ -62,14 +64,17 @@ class DatabaseStore : public JobStore {
         database_(open_database(folder_, warn_)),
         rows_(*database_),
         pictures_(folder_, !options.is_passing, warn_),
+        scenes_(folder_, !options.is_passing),
         writer_(warn_) {
     remove_unfinished_files(folder_);
+    scenes_.keep_only(rows_.not_ended());
     if (options.is_passing) database_->run("PRAGMA synchronous = OFF");
   }
 
   void add(const AcceptedJob& job, std::span<const std::byte> scene) override {
     Transaction transaction(*database_);
-    rows_.add(job, scene);
+    rows_.add(job);
+    if (!is_long_scene(scene)) rows_.add_scene(job.info.job, scene);
     transaction.commit();
   }
   std::optional<KeyedJob> find_key(const std::string& key) override { return rows_.find_key(key); }
@@ -79,6 +84,9 @@ class DatabaseStore : public JobStore {
     transaction.commit();
     if (!picture.rgb.empty()) pictures_.hold(job.info.job, std::move(picture));
     forget_tiles(job.info.job);
+    const fs::path scene = scenes_.file(job.info.job);
+    std::error_code ignored;
+    if (fs::exists(scene, ignored)) writer_.remove(scene);
   }
   const Picture* picture(std::uint32_t job) override { return pictures_.held(job); }
   bool must_read(std::uint32_t job) const override {
@@ -87,6 +95,10 @@ class DatabaseStore : public JobStore {
   void hold(std::uint32_t job, Picture picture) override {
     pictures_.hold(job, std::move(picture));
   }
+  void write_scene(std::uint32_t job, std::span<const std::byte> scene) override {
+    scenes_.write(job, scene);
+  }
+  Bytes read_scene(std::uint32_t job) override { return scenes_.read(job); }
   void write_picture(const control::JobInfo& job, const Picture& picture) override {
     pictures_.write(job.job, picture, job.scene);
   }
@@ -95,7 +107,7 @@ class DatabaseStore : public JobStore {
   std::vector<EndedJob> recover() override { return rows_.newest_ended(kMaxJobsListed, warn_); }
   std::vector<AcceptedJob> recover_accepted() override { return rows_.accepted(warn_); }
   Begun begin(std::uint32_t job) override { return rows_.begin(job); }
-  Bytes scene(std::uint32_t job) override { return rows_.scene(job); }
+  std::optional<Bytes> scene(std::uint32_t job) override { return rows_.scene(job); }
   std::uint32_t last_number() override {
     return std::max(rows_.last_number(), last_job_of_files(folder_));
   }
@@ -132,6 +144,7 @@ class DatabaseStore : public JobStore {
   std::unique_ptr<Database> database_;
   JobRows rows_;
   PictureFolder pictures_;
+  SceneFolder scenes_;
   TileWriter writer_;
   /// The job of which tiles were recorded last.
   std::uint32_t recorded_job_ = 0;

@@ -61,19 +61,23 @@ JobRows::JobRows(Database& db)
       accepted_(db.handle(),
                 "SELECT number, info, request, content FROM jobs "
                 "WHERE finished_s IS NULL AND state != 'damaged' ORDER BY number"),
+      not_ended_(db.handle(), "SELECT number FROM jobs WHERE finished_s IS NULL"),
       damaged_(db.handle(), "UPDATE jobs SET state = 'damaged' WHERE number = ?"),
       beyond_count_(db.handle(),
                     "SELECT number FROM jobs WHERE finished_s IS NOT NULL "
                     "ORDER BY number DESC LIMIT ? OFFSET ?"),
       beyond_time_(db.handle(), "SELECT number FROM jobs WHERE finished_s < ? LIMIT ?") {}
 
-void JobRows::add(const AcceptedJob& job, std::span<const std::byte> scene) {
+void JobRows::add(const AcceptedJob& job) {
   const std::string info = encode(job.info);
   const std::string request = encode(control::Submit{job.info.scene, job.options, job.key});
   add_.set(std::int64_t{job.info.job}).set(to_string(job.info.state)).set(info).set(request);
   job.key.empty() ? add_.set_nothing() : add_.set(job.key);
   add_.set(std::bit_cast<std::int64_t>(job.content)).run();
-  add_scene_.set(std::int64_t{job.info.job}).set(scene).run();
+}
+
+void JobRows::add_scene(std::uint32_t job, std::span<const std::byte> scene) {
+  add_scene_.set(std::int64_t{job}).set(scene).run();
 }
 
 void JobRows::end(const EndedJob& job) {
@@ -107,8 +111,8 @@ std::optional<KeyedJob> JobRows::find_key(const std::string& key) {
   return found;
 }
 
-Bytes JobRows::scene(std::uint32_t job) {
-  Bytes scene;
+std::optional<Bytes> JobRows::scene(std::uint32_t job) {
+  std::optional<Bytes> scene;
   scene_.set(std::int64_t{job});
   while (scene_.next()) scene = scene_.bytes(0);
   return scene;
@@ -176,6 +180,8 @@ void JobRows::mark_damaged(const std::vector<std::uint32_t>& jobs, const Warn& w
     warn("the record of job " + std::to_string(job) + " is damaged; the farm goes on without it");
   }
 }
+
+std::vector<std::uint32_t> JobRows::not_ended() { return numbers_in(not_ended_); }
 
 std::vector<std::uint32_t> JobRows::beyond(const KeepRule& rule, double unix_s) {
   if (rule.jobs != 0) {

@@ -23,7 +23,8 @@ class JobRows {
   /// The database must have its tables, and outlive this.
   explicit JobRows(Database& database);
 
-  void add(const AcceptedJob& job, std::span<const std::byte> scene);
+  void add(const AcceptedJob& job);
+  void add_scene(std::uint32_t job, std::span<const std::byte> scene);
   /// The job has ended; its scene is dropped.
   void end(const EndedJob& job);
   void remove(std::uint32_t job);
@@ -32,7 +33,8 @@ class JobRows {
   void got_on(std::uint32_t job);
 
   std::optional<KeyedJob> find_key(const std::string& key);
-  Bytes scene(std::uint32_t job);
+  /// Nothing if none was added.
+  std::optional<Bytes> scene(std::uint32_t job);
   std::uint32_t last_number();
   /// A job that has ended. None for a row that can't be read.
   std::optional<EndedJob> ended(std::uint32_t job);
@@ -40,6 +42,8 @@ class JobRows {
   std::vector<EndedJob> newest_ended(std::size_t most, const Warn& warn);
   /// Jobs that have not ended, oldest first. Rows that can't be read are named and marked.
   std::vector<AcceptedJob> accepted(const Warn& warn);
+  /// The numbers of all that have not ended, damaged ones too.
+  std::vector<std::uint32_t> not_ended();
   /// Some of the jobs that the rule doesn't keep at that Unix time.
   std::vector<std::uint32_t> beyond(const KeepRule& rule, double unix_s);
 
@@ -49,7 +53,7 @@ class JobRows {
   void mark_damaged(const std::vector<std::uint32_t>& jobs, const Warn& warn);
 
   Statement add_, add_scene_, end_, drop_scene_, keep_statistics_, remove_, begin_, got_on_,
-      by_key_, scene_, last_, ended_, newest_ended_, accepted_, damaged_, beyond_count_,
+      by_key_, scene_, last_, ended_, newest_ended_, accepted_, not_ended_, damaged_, beyond_count_,
       beyond_time_;
 };
 

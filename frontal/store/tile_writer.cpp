@@ -69,7 +69,8 @@ void TileWriter::run() {
 }
 
 void TileWriter::carry_out(const Task& task) {
-  if (task.removes || task.file != open_) {
+  const bool is_open = task.file == open_;
+  if (task.removes ? is_open : !is_open) {
     if (!task.removes) reach_disk();
     if (file_ >= 0) ::close(std::exchange(file_, -1));
     open_.clear();

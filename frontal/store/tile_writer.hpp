@@ -35,7 +35,7 @@ class TileWriter {
   TileWriter& operator=(const TileWriter&) = delete;
 
   void append(std::filesystem::path file, Bytes records);
-  /// Removes the file once what was appended before is written.
+  /// Removes the file, be it one of records or not, once what was appended before is written.
   void remove(std::filesystem::path file);
 
  private:

@@ -7,12 +7,18 @@
 
 namespace graycube::testing {
 
+/// The preparation of a scene's text for four nodes.
+inline PreparationWork work_of(const std::string& text) {
+  PreparationWork work;
+  const auto bytes = std::as_bytes(std::span(text));
+  work.scene = Bytes(bytes.begin(), bytes.end());
+  work.cube = *Hypercube::of_size(4);
+  return work;
+}
+
 inline PreparedScene prepared(const Scene& scene, const control::JobOptions& options,
                               std::uint32_t nodes = 4, Algorithm algorithm = Algorithm::kMacro) {
-  const std::string text = write_scene_text(scene);
-  PreparationWork work;
-  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  work.scene.assign(bytes, bytes + text.size());
+  PreparationWork work = work_of(write_scene_text(scene));
   work.options = options;
   work.options.algorithm = algorithm;
   work.cube = *Hypercube::of_size(nodes);

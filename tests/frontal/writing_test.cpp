@@ -3,10 +3,12 @@
 #include "catch.hpp"
 #include "frontal/frontal.hpp"
 #include "frontal/parts/picture_answers.hpp"
+#include "frontal/watched_store.hpp"
 #include "process/temporary_folder.hpp"
 #include "proto/control.hpp"
 
 using namespace graycube;
+using namespace graycube::testing;
 
 namespace {
 
@@ -43,24 +45,6 @@ TEST_CASE("a picture that isn't there is not written") {
 
 namespace {
 
-/// A store in which an earlier frontal left job 1, a picture of 4 × 2 pixels.
-class OnePicture : public JobStore {
- public:
-  void add(const AcceptedJob&, std::span<const std::byte>) override {}
-  std::optional<KeyedJob> find_key(const std::string&) override { return std::nullopt; }
-  void keep(const EndedJob&, Picture) override {}
-  const Picture* picture(std::uint32_t job) override { return job == 1 ? &picture_ : nullptr; }
-  std::vector<EndedJob> recover() override {
-    EndedJob job;
-    job.info.job = 1;
-    job.info.state = JobState::kDone;
-    return {job};
-  }
-
- private:
-  Picture picture_{4, 2, std::vector<float>(24, 0.5F), {}, {}};
-};
-
 template <typename Answer>
 std::vector<Answer> told(Frontal& frontal, const PeerId& peer) {
   std::vector<Answer> answers;
@@ -77,7 +61,8 @@ std::vector<Answer> told(Frontal& frontal, const PeerId& peer) {
 
 TEST_CASE("a picture is written aside: the answer comes when it is, and no job begins before") {
   const TemporaryFolder folder;
-  OnePicture store;
+  WatchedStore store;
+  store.hold(1, Picture{4, 2, std::vector<float>(24, 0.5F), {}, {}});
   Frontal frontal({.cube = *Hypercube::of_size(1), .version = "test", .is_private = true}, store);
   const std::string file = (folder / "a.png").string();
   const auto ask = [&](const PeerId& peer) {

@@ -5,10 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "formats/graycube/write_scene.hpp"
-#include "frontal/jobs.hpp"
-#include "frontal/sent_post.hpp"
-#include "trace/corner_scene.hpp"
+#include "frontal/jobs_farm.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -17,23 +14,7 @@ namespace {
 
 using Kind = FarmEvent::Kind;
 
-struct Farm {
-  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
-  std::unique_ptr<JobStore> store = make_memory_store();
-  Post post = post_of(2);
-  FarmLog log;
-  Jobs jobs{options, *store, post, log};
-
-  Answer submit(const std::string& name = "a scene", control::JobOptions o = {}) {
-    const std::string text = write_scene_text(corner_scene());
-    return jobs.submit({name, o}, std::as_bytes(std::span(text)));
-  }
-  void load_next() {
-    auto work = jobs.take_work();
-    REQUIRE(work);
-    jobs.give_result(prepare(*work, [] { return 0.0; }));
-    if (jobs.waits_to_be_loaded()) jobs.load();
-  }
+struct Farm : JobsFarm {
   std::vector<std::string> told() {
     std::vector<std::string> texts;
     for (const FarmEvent& e : log.take()) texts.push_back(e.text);
@@ -69,7 +50,7 @@ TEST_CASE("submissions that are refused are told of with the reason") {
   Farm farm;
   control::JobOptions serial;
   serial.algorithm = Algorithm::kSerial;
-  CHECK(refused(farm.submit("a \"scene\"", serial)) == FailureCode::kBadRequest);
+  CHECK(refused(farm.try_submit({"a \"scene\"", serial, {}})) == FailureCode::kBadRequest);
   CHECK(farm.told() == std::vector<std::string>{
                            "refused: a submission of \"a 'scene'\": --algorithm: serial runs in "
                            "the command itself, without a farm"});

@@ -101,8 +101,45 @@ TEST_CASE("jobs that have not ended are there again, in order, with all that was
   CHECK(left[1].key == "key 6");
   CHECK(left[1].content == accepted(6).content);
   CHECK(store->scene(6) == bytes_of("text 6"));
-  CHECK(store->scene(5).empty());
+  CHECK_FALSE(store->scene(5));
   CHECK(store->last_number() == 6);
+}
+
+TEST_CASE("a long scene lies in a file of its own, which is read again and goes with its job") {
+  Place place;
+  const Bytes scene(kLongScene, std::byte{7});
+  {
+    const auto store = place.open();
+    for (const std::uint32_t job : {1u, 2u}) {
+      store->write_scene(job, scene);
+      store->add(accepted(job), scene);
+    }
+    store->write_scene(3, scene);  // whose frontal dies before the job is accepted
+    CHECK(place.has("job-3.scene"));
+    store->keep(ended(1, JobState::kCancelled), {});
+  }
+  CHECK_FALSE(place.has("job-1.scene"));
+  const auto store = place.open();
+  CHECK_FALSE(place.has("job-3.scene"));
+  CHECK(store->recover_accepted().size() == 1);
+  CHECK_FALSE(store->scene(2));
+  CHECK(store->read_scene(2) == scene);
+  CHECK_THROWS_AS(store->read_scene(1), std::runtime_error);
+}
+
+TEST_CASE("the scenes of a database that is damaged are set aside with it") {
+  Place place;
+  const Bytes scene(kLongScene);
+  {
+    const auto store = place.open();
+    store->write_scene(1, scene);
+    store->add(accepted(1), scene);
+  }
+  write(place.folder / "jobs.sqlite", "no database");
+  place.open();
+  CHECK(place.has("damaged/job-1.scene"));
+  CHECK_FALSE(place.has("job-1.scene"));
+  CHECK(place.open()->last_number() == 1);
 }
 
 TEST_CASE("a job that was submitted under a key is found by it, after it has ended, too") {

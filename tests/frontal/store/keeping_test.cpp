@@ -1,73 +1,23 @@
 // Pictures go to the store and come from it beside the frontal, which answers meanwhile.
 #include "frontal/parts/keeping.hpp"
 
-#include <stdexcept>
-
 #include "catch.hpp"
-#include "formats/graycube/write_scene.hpp"
 #include "frontal/frontal.hpp"
+#include "frontal/jobs_farm.hpp"
 #include "frontal/prepared.hpp"
-#include "frontal/sent_post.hpp"
-#include "trace/corner_scene.hpp"
+#include "frontal/watched_store.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
 
 namespace {
 
-/// A store of which the test sees in which order it was used; its disk may be full.
-class SlowStore : public JobStore {
- public:
-  std::vector<std::string> calls;
-  bool is_full = false;
-
-  void add(const AcceptedJob&, std::span<const std::byte>) override {}
-  std::optional<KeyedJob> find_key(const std::string&) override { return std::nullopt; }
-  void keep(const EndedJob& job, Picture picture) override {
-    calls.push_back("keep as " + std::string(to_string(job.info.state)));
-    if (!picture.rgb.empty()) hold(job.info.job, std::move(picture));
-  }
-  const Picture* picture(std::uint32_t job) override { return job == held_ ? &picture_ : nullptr; }
-  bool must_read(std::uint32_t job) const override { return job == 1 && held_ != 1; }
-  void hold(std::uint32_t job, Picture picture) override {
-    held_ = job;
-    picture_ = std::move(picture);
-  }
-  void write_picture(const control::JobInfo&, const Picture&) override {
-    if (is_full) throw std::runtime_error("the disk is full");
-    calls.push_back("write");
-  }
-  std::optional<Picture> read_picture(std::uint32_t) override {
-    calls.push_back("read");
-    return Picture{2, 1, std::vector<float>(6, 0.5F), {}, {}};
-  }
-  std::vector<EndedJob> recover() override {
-    EndedJob job;
-    job.info.job = 1;
-    job.info.state = JobState::kDone;
-    return {job};
-  }
-
- private:
-  std::uint32_t held_ = 0;
-  Picture picture_;
-};
-
 /// Jobs of a farm of one node, the first of which is job 2.
-struct Farm {
-  FrontalOptions options{.cube = *Hypercube::of_size(1), .version = "test"};
-  SlowStore store;
-  Post post = post_of(1);
-  FarmLog log;
-  Jobs jobs{options, store, post, log};
+struct Farm : JobsFarm {
+  Farm() : JobsFarm(1, std::make_unique<WatchedStore>()) {}
 
-  std::uint32_t submit() {
-    const std::string text = write_scene_text(corner_scene());
-    control::JobOptions o;
-    o.algorithm = Algorithm::kRoth;
-    return granted<control::Accepted>(jobs.submit({"a scene", o}, std::as_bytes(std::span(text))))
-        .job;
-  }
+  WatchedStore& watched() { return static_cast<WatchedStore&>(*store); }
+  std::uint32_t submit() { return JobsFarm::submit({.algorithm = Algorithm::kRoth}); }
   /// Renders a job to the point where its picture is to be kept.
   void render(std::uint32_t job) {
     const auto work = jobs.take_work();
@@ -97,7 +47,6 @@ struct Farm {
     report.job = job;
     jobs.on_node(Rank{0}, report);
   }
-  control::JobInfo info(std::uint32_t job) { return granted<control::JobInfo>(jobs.status(job)); }
 };
 
 }  // namespace
@@ -121,10 +70,11 @@ TEST_CASE("while a picture is written all is answered, and the job isn't done be
   farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "killed by signal 9", 0}});
   farm.jobs.check_time();
   CHECK(SentPost(farm.post).told<control::Done>("a").empty());
-  CHECK(farm.store.calls.empty());
+  CHECK(farm.info(next).message == "waits for job 2's picture to be kept");
+  farm.watched().calls.clear();
 
   farm.jobs.give_result(keep_picture(*std::move(work)));
-  CHECK(farm.store.calls == std::vector<std::string>{"write", "keep as done"});
+  CHECK(farm.watched().calls == std::vector<std::string>{"write", "keep as done"});
   CHECK(SentPost(farm.post).told<control::Done>("a").size() == 1);
   CHECK(farm.info(job).state == JobState::kDone);
   CHECK(granted<control::Picture>(farm.jobs.fetch({job, 0, 1, 0})).rows == 1);
@@ -135,17 +85,18 @@ TEST_CASE("a job whose picture can't be written has failed, and tells why") {
   Farm farm;
   const std::uint32_t job = farm.submit();
   farm.render(job);
-  farm.store.is_full = true;
+  farm.watched().is_full = true;
+  farm.watched().calls.clear();
   farm.jobs.watch("a", job);
   farm.jobs.give_result(keep_picture(*farm.jobs.take_keeping()));
   CHECK(farm.info(job).state == JobState::kFailed);
   CHECK(farm.info(job).message == "the disk is full");
   CHECK(SentPost(farm.post).told<control::Failed>("a").size() == 1);
-  CHECK(farm.store.calls == std::vector<std::string>{"keep as failed"});
+  CHECK(farm.watched().calls == std::vector<std::string>{"keep as failed"});
 }
 
 TEST_CASE("rows of a picture that must be read are sent once it is, and others aren't held up") {
-  SlowStore store;
+  WatchedStore store;
   Frontal frontal({.cube = *Hypercube::of_size(1), .version = "test"}, store);
   const auto names = [&] {
     std::vector<std::string> sent;

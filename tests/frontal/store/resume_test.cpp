@@ -1,11 +1,8 @@
 // What a frontal does with the jobs that another one has left, and with a job submitted twice.
 #include "catch.hpp"
-#include "formats/graycube/write_scene.hpp"
-#include "frontal/jobs.hpp"
-#include "frontal/sent_post.hpp"
+#include "frontal/jobs_farm.hpp"
 #include "frontal/store/database_store.hpp"
 #include "process/temporary_folder.hpp"
-#include "trace/corner_scene.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
@@ -21,25 +18,18 @@ control::Submit request(const std::string& key, std::uint32_t samples = 1) {
 }
 
 /// The jobs of one frontal after another, in the same folder.
-struct Farm {
+struct Farm : JobsFarm {
   explicit Farm(const TemporaryFolder& folder)
-      : store(open_database_store(folder.path(), {}, [](const std::string&) {})) {}
-
-  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test", .keeps_jobs = true};
-  std::unique_ptr<JobStore> store;
-  Post post = post_of(2);
-  FarmLog log;
-  Jobs jobs{options, *store, post, log};
+      : JobsFarm(2, open_database_store(folder.path(), {}, [](const std::string&) {}), true) {}
 
   Answer try_submit(const std::string& key, std::uint32_t samples = 1,
                     const std::string& text = "{}") {
-    return jobs.submit(request(key, samples), std::as_bytes(std::span(text)));
+    return JobsFarm::try_submit(request(key, samples), text);
   }
   std::uint32_t submit(const std::string& key = {}, std::uint32_t samples = 1,
                        const std::string& text = "{}") {
     return granted<control::Accepted>(try_submit(key, samples, text)).job;
   }
-  JobState state_of(std::uint32_t job) { return granted<control::JobInfo>(jobs.status(job)).state; }
 };
 
 }  // namespace
@@ -65,6 +55,26 @@ TEST_CASE(
   }
   CHECK_FALSE(farm.jobs.take_work());
   CHECK(farm.submit() == 4);
+}
+
+TEST_CASE("a long scene is there for the next frontal, whoever prepares it reads it") {
+  const TemporaryFolder folder;
+  const std::string scene = JobsFarm::scene() + std::string(kLongScene, ' ');
+  {
+    Farm farm(folder);
+    farm.jobs.submit({"a", request("key"), bytes_of(scene)});
+    farm.jobs.give_result(admit_scene(*farm.jobs.take_admission()));
+    CHECK(SentPost(farm.post).told<control::Accepted>("a").size() == 1);
+  }
+  Farm farm(folder);
+  const auto work = farm.jobs.take_work();
+  REQUIRE(work);
+  CHECK(work->scene.empty());
+  CHECK(prepare(*work, [] { return 0.0; }).scene.has_value());
+  std::filesystem::remove(folder / "job-1.scene");
+  farm.jobs.give_result(prepare(*work, [] { return 0.0; }));
+  CHECK(farm.info(1).message ==
+        "the job store: " + (folder / "job-1.scene").string() + ": No such file or directory");
 }
 
 TEST_CASE("a farm that stops leaves its jobs to the next frontal, and tells who watches them") {
@@ -117,14 +127,13 @@ TEST_CASE("another scene or other options under a key that is known are refused"
 }
 
 TEST_CASE("a store in memory knows keys, too") {
-  const FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
-  const auto store = make_memory_store();
-  Post post = post_of(2);
-  FarmLog log;
-  Jobs jobs(options, *store, post, log);
-  CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
-  CHECK(granted<control::Accepted>(jobs.submit(request("a"), {})).job == 1);
-  CHECK(granted<control::Accepted>(jobs.submit(request("b"), {})).job == 2);
+  JobsFarm farm;
+  const auto number = [&](const std::string& key) {
+    return granted<control::Accepted>(farm.try_submit(request(key))).job;
+  };
+  CHECK(number("a") == 1);
+  CHECK(number("a") == 1);
+  CHECK(number("b") == 2);
 }
 
 TEST_CASE("when all numbers are used, no job is taken any more") {

@@ -1,4 +1,4 @@
-#include "frontal/parts/submission.hpp"
+#include "frontal/admission/submission.hpp"
 
 #include "catch.hpp"
 #include "csg/random_model.hpp"

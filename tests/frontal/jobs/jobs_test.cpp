@@ -2,38 +2,12 @@
 #include "frontal/jobs.hpp"
 
 #include "catch.hpp"
-#include "formats/graycube/write_scene.hpp"
-#include "frontal/sent_post.hpp"
-#include "trace/corner_scene.hpp"
+#include "frontal/jobs_farm.hpp"
 
 using namespace graycube;
 using namespace graycube::testing;
 
-namespace {
-
-struct Farm {
-  FrontalOptions options{.cube = *Hypercube::of_size(2), .version = "test"};
-  std::unique_ptr<JobStore> store = make_memory_store();
-  Post post = post_of(2);
-  FarmLog log;
-  Jobs jobs{options, *store, post, log};
-
-  std::uint32_t submit(control::JobOptions o = {}, const std::string& text = scene()) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return granted<control::Accepted>(jobs.submit({"a scene", o}, bytes)).job;
-  }
-  static std::string scene() { return write_scene_text(corner_scene()); }
-  /// Prepares the next job and loads it.
-  void load_next() {
-    auto work = jobs.take_work();
-    REQUIRE(work);
-    jobs.give_result(prepare(*work, [] { return 0.0; }));
-    if (jobs.waits_to_be_loaded()) jobs.load();
-  }
-  JobState state_of(std::uint32_t job) { return granted<control::JobInfo>(jobs.status(job)).state; }
-};
-
-}  // namespace
+using Farm = JobsFarm;
 
 TEST_CASE("one job is on at a time, the others wait in order, and all are listed") {
   Farm farm;
@@ -198,7 +172,7 @@ TEST_CASE("numbers go on where an earlier frontal stopped") {
   Post post = post_of(2);
   FarmLog log;
   Jobs jobs(options, store, post, log);
-  CHECK(granted<control::Accepted>(jobs.submit({}, {})).job == 18);
+  CHECK(granted<control::Accepted>(jobs.submit({}).value()).job == 18);
   CHECK(refused(jobs.fetch({17, 0, 1, 0})) == FailureCode::kFailed);
 }
 

@@ -1,4 +1,4 @@
-#include "frontal/parts/submission.hpp"
+#include "frontal/admission/submission.hpp"
 
 #include "content_digest.hpp"
 #include "proto/control.hpp"
@@ -33,6 +33,8 @@ std::optional<Refusal> refusal_for_want_of_room(const JobQueue& queue) {
   }
   return std::nullopt;
 }
+
+Refusal farm_goes_down() { return {0, FailureCode::kBusy, "", "the farm is going down"}; }
 
 std::uint64_t content_of(const control::Submit& m, std::span<const std::byte> scene) {
   control::Submit asked = m;

@@ -20,6 +20,9 @@ std::optional<Refusal> refusal_of(const control::Submit& m, std::span<const std:
 /// Why no job can be added to the queue, whatever it is; nothing if one can.
 std::optional<Refusal> refusal_for_want_of_room(const JobQueue& queue);
 
+/// Why nothing is accepted any more.
+Refusal farm_goes_down();
+
 /// A digest of all that a client asks for: what is the same has the same picture.
 std::uint64_t content_of(const control::Submit& m, std::span<const std::byte> scene);
 
