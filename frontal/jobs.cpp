@@ -32,6 +32,7 @@ QueuedJob Jobs::queued(control::JobInfo info, const control::JobOptions& options
   job.work.options = options;
   job.work.cube = farm_.cube;
   job.work.replica_bytes = farm_.replica_bytes;
+  job.work.hosts = farm_.hosts;
   job.info = std::move(info);
   return job;
 }
