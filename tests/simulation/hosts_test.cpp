@@ -185,7 +185,8 @@ TEST_CASE("bytes between hosts of a scene file", "[.measure]") {
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const char* side = std::getenv("GRAYCUBE_SIDE");
   control::JobOptions options = with(Algorithm::kMacro);
-  options.width = options.height = side != nullptr ? std::atoi(side) : 256;
+  options.width = options.height =
+      side != nullptr ? static_cast<std::uint32_t>(std::strtoul(side, nullptr, 10)) : 256;
   if (const char* shadows = std::getenv("GRAYCUBE_FORWARD"); shadows != nullptr)
     options.shadows = ShadowMode::kForward;
   for (const auto& [nodes, hosts] : {std::pair{16u, 4u}, std::pair{64u, 8u}, std::pair{64u, 6u}}) {
