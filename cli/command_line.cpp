@@ -10,6 +10,7 @@
 #include "cli/failure.hpp"
 #include "cli/option_values.hpp"
 #include "cli/options/completion.hpp"
+#include "cli/options/machine_options.hpp"
 #include "cli/options/man_page.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/options/usage.hpp"
@@ -20,7 +21,6 @@
 namespace graycube {
 namespace {
 
-constexpr std::uint32_t kMaxCores = 1u << 16;
 constexpr std::uint32_t kMaxJobsShown = 1'000'000;
 
 /// All commands; after parsing, the chosen command's values are in its declaration.
@@ -294,31 +294,6 @@ class Parser {
     add_how(options, c.options);
     add_common_options(options, c.options);
     options.flag("--quiet,-q", c.is_quiet, "Print nothing but errors");
-  }
-
-  /// Declares the figures of the machines that simulate assumes.
-  void add_machine(Declaring& options, SimulateCommand& c) {
-    const auto figure = [&](const char* name, const char* type, const char* help, auto& value,
-                            double least, double most) {
-      options.option({.names = name, .value = type, .help = help},
-                     [&value, name, least, most](const std::string& text) {
-                       value = parse_number(name, text, least, most);
-                     });
-    };
-    figure("--link-gbps", "G", "Bandwidth of a link, 10^9 bits a second (default 10)", c.link_gbps,
-           1e-6, 1e6);
-    figure("--link-us", "L", "Latency of a link, microseconds (default 50)", c.link_us, 0, 1e9);
-    figure("--host-gbps", "G", "Bandwidth of the frontal's link (default: as the others)",
-           c.host_gbps, 1e-6, 1e6);
-    figure("--message-us", "T", "CPU time that a message takes each side (default: measured here)",
-           c.message_us, 0, 1e9);
-    figure("--cpu-scale", "F", "How much longer than here evaluators take (default 1)", c.cpu_scale,
-           1e-6, 1e9);
-    options.option(
-        {.names = "--cores",
-         .value = "C",
-         .help = "Cores that all processes share (default: one each)"},
-        [&c](const std::string& text) { c.cores = parse_count("--cores", text, 1, kMaxCores); });
   }
 
   /// Declares the commands that print texts made of these very declarations.

@@ -110,6 +110,11 @@ struct SimulateCommand {
   std::vector<std::uint32_t> nodes;
   /// See simulation::MachineFigures.
   double link_gbps = 10, link_us = 50, cpu_scale = 1;
+  /// Hosts that the nodes lie on; 0 gives each node a machine of its own, with a link to each
+  /// neighbour.
+  std::uint32_t hosts = 0;
+  /// The same as of links, within hosts; those of MachineFigures if not given.
+  std::optional<double> local_gbps, local_us;
   /// Bandwidth of the frontal's link; like the other links if not given.
   std::optional<double> host_gbps;
   /// Microseconds that handing a message over takes each side; measured if not given.

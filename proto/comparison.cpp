@@ -58,10 +58,16 @@ std::string simulation_json(const std::string& scene, const std::vector<Simulate
   for (const SimulatedRow& r : rows) {
     Json row{{"nodes", r.nodes},
              {"time_s", r.time_s},
+             {"distribution_s", r.distribution_s},
              {"host_load", r.host_load},
              {"predicted_over_measured", r.predicted_over_measured},
              {"outcome", to_string(r.row.outcome)},
              {"why", r.row.why}};
+    if (r.hosts > 0) {
+      row["hosts"] = r.hosts;
+      row["bytes_between_hosts"] = r.bytes_between_hosts;
+      row["bytes_with_frontal"] = r.bytes_with_frontal;
+    }
     for (const auto& [name, seconds] : r.costs) row["costs"][name] = seconds;
     row["statistics"] = r.row.statistics.empty() ? Json() : Json::parse(r.row.statistics);
     j["rows"].push_back(std::move(row));

@@ -52,14 +52,21 @@ struct SimulatedRow {
   double time_s = 0;
   /// Share of that time in which the frontal's link carried light.
   double host_load = 0;
+  /// Seconds before the barrier in which slices were on their way.
+  double distribution_s = 0;
+  /// Hosts that the nodes lay on, bytes that nodes of different ones sent each other, and bytes
+  /// that the frontal, on a host of its own, sent or got. 0 where no hosts are given.
+  std::uint32_t hosts = 0;
+  std::uint64_t bytes_between_hosts = 0, bytes_with_frontal = 0;
   /// CPU seconds as predicted, divided by those that the same work took here.
   double predicted_over_measured = 0;
   /// CPU seconds of each unit of work, by name.
   std::vector<std::pair<std::string, double>> costs;
   ComparedRow row;
 };
-/// One JSON object: {"scene", "rows": [{"nodes", "time_s", "host_load", "predicted_over_measured",
-/// "costs": {NAME: SECONDS}, "outcome", "why", "statistics"}]}.
+/// One JSON object: {"scene", "rows": [{"nodes", "time_s", "distribution_s", "host_load",
+/// "predicted_over_measured", "costs": {NAME: SECONDS}, "outcome", "why", "statistics"}]}. Rows
+/// with hosts also have "hosts", "bytes_between_hosts" and "bytes_with_frontal".
 std::string simulation_json(const std::string& scene, const std::vector<SimulatedRow>& rows);
 
 /// One JSON object: {"scene", "nodes", "rows": [{"name", "arguments", "outcome", "why",

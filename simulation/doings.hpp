@@ -22,9 +22,10 @@ enum class Unit : std::uint8_t {
   kFrontalByte,  ///< of contributions decoded and added up
   kMessage,      ///< handed to or taken from the transport
   kMessageByte,  ///< of it
+  kCipherByte,   ///< of it, if it goes to or comes from another host
   kWakeup,       ///< of a thread by another of its process
 };
-inline constexpr std::size_t kUnits = 15;
+inline constexpr std::size_t kUnits = 16;
 
 /// A number for each unit: how often something was done, or what it costs in CPU seconds.
 struct PerUnit {

@@ -23,7 +23,7 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
       machine_(machine),
       cube_(*Hypercube::of_size(options.nodes)),
       processes_(options.nodes) {
-  const std::size_t pools = machine.shared_cores() > 0 ? 1 : options.nodes + 1;
+  const std::size_t pools = machine.shared_cores() > 0 ? machine.hosts() : options.nodes + 1;
   const unsigned count = machine.shared_cores() > 0 ? machine.shared_cores() : machine.own_cores();
   for (std::size_t i = 0; i < pools; ++i) {
     cores_.push_back(std::make_unique<Cores>(timeline_, count));
@@ -41,22 +41,11 @@ Farm::Farm(const FarmOptions& options, Machine& machine)
                    .retries = options.retries,
                    .version = "simulated",
                    .replica_bytes = options.replica_bytes,
-                   .limits = options.limits};
+                   .limits = options.limits,
+                   .hosts = options.hosts};
   frontal_ = std::make_unique<Frontal>(f, *store_);
   frontal_->set_cpu_meter({[this] { return frontal_cpu_s_; }, [] { return 0.0; }});
   in_frontal({}, [] {});
-}
-
-Cores& Farm::cores_of(Place place) {
-  if (machine_.shared_cores() > 0) return *cores_.front();
-  return *cores_[place ? place->value : processes_.size()];
-}
-
-/// The core seconds of a place's work, which are added to its account.
-double Farm::take(Place place, const PerUnit& doings) {
-  const double seconds = machine_.cpu_s(place, doings);
-  (place ? processes_[place->value].cpu_s : frontal_cpu_s_) += seconds;
-  return seconds;
 }
 
 // ---- the frontal
@@ -77,7 +66,7 @@ void Farm::in_frontal(PerUnit doings, Call&& call) {
   if (auto work = frontal_->take_work()) prepare(*work);
   if (auto work = frontal_->take_recut()) recut(*work);
   for (const Frontal::Outgoing& o : *out) {
-    if (o.to != kClient) doings.add(handling(bytes_of(o.message)));
+    if (o.to != kClient) doings.add(passing({}, place_of(o.to), bytes_of(o.message)));
   }
   mailroom_of({}).ask({process_of({}), [this, doings] { return take({}, doings); },
                        [this, out] {
@@ -131,7 +120,7 @@ void Farm::frontal_receives(const PeerId& peer, const Message& message) {
       frontal_->on_message(peer, message);
     });
   };
-  const PerUnit transport = handling(bytes_of(message));
+  const PerUnit transport = passing(place_of(peer), {}, bytes_of(message));
   mailroom_of({}).ask({process_of({}), [this, transport] { return take({}, transport); }, arrive});
 }
 
@@ -219,7 +208,7 @@ void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
   if (observe) observe(doings, thread_cpu_seconds() - began_s);
   watch_time(p);
   if (is_evaluator && !(out->empty() && for_fifo->empty())) doings[Unit::kWakeup] = 1;
-  for (const Node::Outgoing& o : *out) doings.add(handling(bytes_of(o.message)));
+  for (const Node::Outgoing& o : *out) doings.add(passing(rank, o.to, bytes_of(o.message)));
   add_sending_to_fifo(*for_fifo, doings);
   mailroom_of(rank).ask(
       {rank.value, [this, rank, doings] { return take(rank, doings); },
@@ -232,7 +221,8 @@ void Farm::in_node(Rank rank, bool is_evaluator, PerUnit doings, Call&& call) {
 }
 
 void Farm::node_receives(Rank rank, std::uint32_t incarnation, Place from, const Message& message) {
-  const auto begin_receiving = [this, rank, incarnation, transport = handling(bytes_of(message))] {
+  const PerUnit transport = passing(from, rank, bytes_of(message));
+  const auto begin_receiving = [this, rank, incarnation, transport] {
     return is_alive(rank, incarnation) ? take(rank, transport) : 0;
   };
   const auto arrive = [this, rank, incarnation, from, message] {
@@ -392,6 +382,7 @@ Outcome Farm::render(const std::string& scene_text, const control::JobOptions& o
   while (!outcome_.ended && timeline_.now_s() - began_s < options_.stalled_s) timeline_.run_one();
   if (!outcome_.ended) outcome_.violations.push_back("the job has stalled");
   outcome_.render_s = render_began_s_ < 0 ? 0 : last_change_s_ - render_began_s_;
+  outcome_.distribution_s = render_began_s_ < 0 ? 0 : render_began_s_ - began_s;
   ++renders_;
   if (outcome_.failed) collect_reports();
   return outcome_;

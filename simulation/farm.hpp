@@ -35,6 +35,8 @@ struct FarmOptions {
   FlowLimits limits{};
   /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
+  /// What the frontal is told of; where nodes lie is the machine's affair.
+  std::uint32_t hosts = 1;
 };
 
 /// Something that goes wrong while a job is rendered.
@@ -71,6 +73,8 @@ struct Outcome {
   /// Simulated seconds from the barrier to the end, or to the last thing that any process did
   /// before a failure.
   double render_s = 0;
+  /// Simulated seconds from when the job was submitted to the barrier: slices on their way.
+  double distribution_s = 0;
   /// CPU seconds that reading and cutting the scene took here; it takes no simulated time.
   double preparation_cpu_s = 0;
 };
@@ -125,6 +129,8 @@ class Farm {
   std::uint32_t process_of(Place place) const { return place ? place->value : cube_.nodes(); }
   Thread& mailroom_of(Place place) { return *mailrooms_[process_of(place)]; }
   double take(Place place, const PerUnit& doings);
+  PerUnit passing(Place from, Place to, std::size_t bytes) const;
+  Place place_of(const PeerId& peer) const;
 
   // The frontal
   void start(const Frontal::Process& started);

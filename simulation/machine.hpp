@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "simulation/doings.hpp"
@@ -26,8 +27,12 @@ class Machine {
   virtual double cpu_s(Place at, const PerUnit& doings) = 0;
   /// Cores that each node, and the frontal, has for itself; 0 for no limit.
   virtual unsigned own_cores() const { return 0; }
-  /// Cores that all of them share instead; 0 if they share none.
+  /// Cores that all of a host share instead; 0 if they share none.
   virtual unsigned shared_cores() const { return 0; }
+  /// Hosts, the frontal's included. What is sent from one to another is ciphered.
+  virtual std::uint32_t hosts() const { return 1; }
+  /// The host of a node or of the frontal, below hosts().
+  virtual std::uint32_t host_of(Place) const { return 0; }
 };
 
 }  // namespace graycube::simulation

@@ -15,10 +15,11 @@ namespace graycube::simulation {
 inline std::size_t bytes_of(const Message& m) { return m.frame.size() + m.payload.size(); }
 
 /// One side's part of passing on a message of so many bytes.
-inline PerUnit handling(std::size_t bytes) {
+inline PerUnit handling(std::size_t bytes, bool is_ciphered = false) {
   PerUnit doings;
   doings[Unit::kMessage] = 1;
   doings[Unit::kMessageByte] = static_cast<double>(bytes);
+  doings[Unit::kCipherByte] = is_ciphered ? static_cast<double>(bytes) : 0;
   return doings;
 }
 

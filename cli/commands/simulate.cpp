@@ -13,7 +13,9 @@
 #include "proto/statistics.hpp"
 #include "simulation/calibration.hpp"
 #include "simulation/farm.hpp"
+#include "simulation/message_doings.hpp"
 #include "simulation/modelled_machine.hpp"
+#include "simulation/traffic.hpp"
 #include "transport/zmq_sockets.hpp"
 #include "version.hpp"
 
@@ -31,21 +33,15 @@ constexpr std::uint32_t kCalibrationNodes = 256, kCalibrationSide = 256, kBlocki
 /// Simulated seconds after which a job counts as stalled.
 constexpr double kStalled_s = 1e9;
 
-constexpr std::pair<Unit, const char*> kUnitNames[] = {{Unit::kPiece, "piece_of_work"},
-                                                       {Unit::kRay, "ray_traced"},
-                                                       {Unit::kVisit, "node_visited"},
-                                                       {Unit::kTest, "primitive_tested"},
-                                                       {Unit::kBuildByte, "byte_built"},
-                                                       {Unit::kNodeCall, "node_event"},
-                                                       {Unit::kRayIn, "ray_received"},
-                                                       {Unit::kRayOut, "ray_sent"},
-                                                       {Unit::kReturn, "light_returned"},
-                                                       {Unit::kLightByte, "byte_of_light_sent"},
-                                                       {Unit::kFrontalCall, "frontal_event"},
-                                                       {Unit::kFrontalByte, "byte_of_light_added"},
-                                                       {Unit::kMessage, "message"},
-                                                       {Unit::kMessageByte, "byte_of_message"},
-                                                       {Unit::kWakeup, "wake_up"}};
+constexpr std::pair<Unit, const char*> kUnitNames[] = {
+    {Unit::kPiece, "piece_of_work"},       {Unit::kRay, "ray_traced"},
+    {Unit::kVisit, "node_visited"},        {Unit::kTest, "primitive_tested"},
+    {Unit::kBuildByte, "byte_built"},      {Unit::kNodeCall, "node_event"},
+    {Unit::kRayIn, "ray_received"},        {Unit::kRayOut, "ray_sent"},
+    {Unit::kReturn, "light_returned"},     {Unit::kLightByte, "byte_of_light_sent"},
+    {Unit::kFrontalCall, "frontal_event"}, {Unit::kFrontalByte, "byte_of_light_added"},
+    {Unit::kMessage, "message"},           {Unit::kMessageByte, "byte_of_message"},
+    {Unit::kCipherByte, "byte_ciphered"},  {Unit::kWakeup, "wake_up"}};
 
 std::vector<std::pair<std::string, double>> named(const PerUnit& costs) {
   std::vector<std::pair<std::string, double>> list;
@@ -72,6 +68,7 @@ PerUnit costs_here(const SimulateCommand& command, const SceneInput& scene,
   costs[Unit::kMessageByte] = transport[Unit::kMessageByte];
   costs[Unit::kMessage] = transport[Unit::kMessage];
   costs[Unit::kWakeup] = transport[Unit::kWakeup];
+  costs[Unit::kCipherByte] = simulation::kCipherByte_s;
   if (command.message_us) {
     costs[Unit::kMessage] = 1e-6 * *command.message_us;
     costs[Unit::kMessageByte] = 0;
@@ -90,11 +87,15 @@ PerUnit transport_here() {
   return costs;
 }
 
-MachineFigures machine_of(const SimulateCommand& command, const PerUnit& costs) {
+MachineFigures machine_of(const SimulateCommand& command, const PerUnit& costs,
+                          std::uint32_t nodes) {
   MachineFigures figures;
   figures.link_gbps = command.link_gbps;
   figures.host_gbps = command.host_gbps.value_or(command.link_gbps);
   figures.link_us = command.link_us;
+  if (command.hosts > 0) figures.placement = HostPlacement::even(nodes, command.hosts);
+  figures.local_gbps = command.local_gbps.value_or(figures.local_gbps);
+  figures.local_us = command.local_us.value_or(figures.local_us);
   figures.cores = command.cores;
   figures.cpu_scale = command.cpu_scale;
   figures.costs = costs;
@@ -146,26 +147,57 @@ std::string why_of(const simulation::Outcome& outcome) {
   return why;
 }
 
+void add_traffic(const simulation::Traffic& traffic, const std::optional<HostPlacement>& placement,
+                 SimulatedRow& row) {
+  if (!placement) return;
+  row.hosts = placement->hosts();
+  row.bytes_between_hosts = traffic.between_hosts(*placement);
+  row.bytes_with_frontal = traffic.with_frontal();
+}
+
+/// What a job's statistics tell, or those of what was done until it failed.
+void add_statistics(const simulation::Outcome& outcome, const SceneInput& scene,
+                    const SimulateCommand& command, const RenderSettings& settings,
+                    double frontal_gbps, SimulatedRow& row) {
+  if (outcome.done) {
+    row.row.statistics = outcome.done->stats.text;
+  } else if (!outcome.reports.empty()) {
+    row.row.statistics = statistics_until_failure(outcome, scene, command, settings, row.nodes);
+  }
+  if (row.row.statistics.empty()) return;
+  const Figures f = figures_of(row.row.statistics);
+  row.time_s = f.render_s;
+  const double light_s = 8e-9 * static_cast<double>(f.light_bytes) / frontal_gbps;
+  row.host_load = row.time_s > 0 ? light_s / row.time_s : 0;
+}
+
 SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
                        const RenderSettings& settings, const PerUnit& transport,
                        const Picture& reference, std::uint32_t nodes) {
   const PerUnit costs = costs_here(command, scene, settings, transport, nodes);
-  const MachineFigures figures = machine_of(command, costs);
+  const MachineFigures figures = machine_of(command, costs, nodes);
   simulation::ModelledMachine machine(figures);
   simulation::Farm farm({.nodes = nodes,
                          .threads = 1,
                          // Slow machines are pinged less often.
                          .heartbeat_s = std::max(1.0, command.cpu_scale / 1000),
-                         .stalled_s = kStalled_s},
+                         .stalled_s = kStalled_s,
+                         .hosts = std::max(1u, command.hosts)},
                         machine);
   CostFit measured(simulation::measuring_overhead_s());
   farm.observe = [&](const PerUnit& doings, double seconds) { measured.add(doings, seconds); };
+  simulation::Traffic traffic(nodes);
+  farm.on_sent = [&](simulation::Place from, simulation::Place to, double, const Message& m) {
+    traffic.add(from, to, simulation::bytes_of(m));
+  };
   control::JobOptions options = command.options;
   options.timeout_s = 0;
   const simulation::Outcome outcome = farm.render(scene.text, options);
   SimulatedRow row;
   row.nodes = nodes;
   row.costs = named(costs);
+  row.distribution_s = outcome.distribution_s;
+  add_traffic(traffic, figures.placement, row);
   row.row.name = std::to_string(nodes) + (nodes == 1 ? " node" : " nodes");
   row.row.why = why_of(outcome);
   row.row.outcome = outcome_of(outcome, farm, reference);
@@ -173,23 +205,23 @@ SimulatedRow simulated(const SimulateCommand& command, const SceneInput& scene,
     row.predicted_over_measured =
         simulation::cost_of(measured.counts(), costs) / measured.seconds();
   }
-  if (outcome.done) {
-    row.row.statistics = outcome.done->stats.text;
-  } else if (!outcome.reports.empty()) {
-    row.row.statistics = statistics_until_failure(outcome, scene, command, settings, nodes);
-  }
-  if (row.row.statistics.empty()) return row;
-  const Figures f = figures_of(row.row.statistics);
-  row.time_s = f.render_s;
-  const double light_s = 8e-9 * static_cast<double>(f.light_bytes) / figures.host_gbps;
-  row.host_load = row.time_s > 0 ? light_s / row.time_s : 0;
+  add_statistics(outcome, scene, command, settings, figures.host_gbps, row);
   return row;
 }
 
+std::string megabytes(std::uint64_t bytes) {
+  return number_text("%.1f", 1e-6 * static_cast<double>(bytes));
+}
+
 std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
+  const bool has_hosts = !rows.empty() && rows.front().hosts > 0;
   std::vector<std::vector<std::string>> cells{{"NODES", "TIME s", "SPEED-UP", "EFFICIENCY",
                                                "BLOCKED %", "HOST LINK %", "CPU s", "MESSAGES",
                                                "MB", "ROUNDS", "QUEUE PEAK", "PICTURE", "COSTS"}};
+  if (has_hosts) {
+    auto& names = cells.front();
+    names.insert(names.end() - 2, {"BETWEEN HOSTS MB", "FRONTAL MB"});
+  }
   for (const SimulatedRow& r : rows) {
     auto& line = cells.emplace_back(std::vector<std::string>{std::to_string(r.nodes)});
     if (r.row.statistics.empty()) {
@@ -203,9 +235,12 @@ std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
                    ended ? number_text("%.2f", r.time_s > 0 ? serial_s / r.time_s : 0) : "-",
                    number_text("%.2f", f.efficiency), number_text("%.1f", 100 * f.blocked_fraction),
                    number_text("%.1f", 100 * r.host_load), number_text("%.4g", f.cpu_s),
-                   std::to_string(f.messages),
-                   number_text("%.1f", 1e-6 * static_cast<double>(f.message_bytes)),
-                   std::to_string(f.rounds), std::to_string(f.queue_peak)});
+                   std::to_string(f.messages), megabytes(f.message_bytes), std::to_string(f.rounds),
+                   std::to_string(f.queue_peak)});
+      if (has_hosts) {
+        line.insert(line.end(),
+                    {megabytes(r.bytes_between_hosts), megabytes(r.bytes_with_frontal)});
+      }
     }
     line.push_back(to_string(r.row.outcome));
     line.push_back(number_text("%.2f", r.predicted_over_measured));
@@ -215,6 +250,22 @@ std::string table_of(const std::vector<SimulatedRow>& rows, double serial_s) {
     if (!r.row.why.empty()) text += r.row.name + ": " + r.row.why + "\n";
   }
   return text;
+}
+
+/// Throws a usage failure unless every host has a node.
+void check_hosts(const SimulateCommand& command) {
+  if (command.hosts == 0) {
+    for (const auto& [name, value] : {std::pair{"--local-gbps", command.local_gbps},
+                                      std::pair{"--local-us", command.local_us}}) {
+      if (value) throw usage_failure(name, "is for --hosts");
+    }
+  }
+  const std::uint32_t least = std::ranges::min(command.nodes);
+  if (command.hosts > least) {
+    throw usage_failure("--hosts", "expected at most as many as nodes, found " +
+                                       std::to_string(command.hosts) + " for " +
+                                       std::to_string(least));
+  }
 }
 
 void say(const SimulateCommand& command, const std::string& what) {
@@ -237,6 +288,7 @@ ExitStatus run(const SimulateCommand& command) {
     throw usage_failure("--algorithm", "serial runs on no farm; expected auto, roth or macro");
   }
   check_sense(command.options);
+  check_hosts(command);
   if (!command.plot.empty()) check_output("--plot", command.plot, command.scene);
   check_ending("--plot", command.plot, ".svg", "SVG");
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);

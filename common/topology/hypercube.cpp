@@ -4,6 +4,7 @@
 
 #include "check.hpp"
 #include "topology/gray.hpp"
+#include "topology/hilbert.hpp"
 
 namespace graycube {
 
@@ -12,19 +13,24 @@ std::optional<Hypercube> Hypercube::of_size(std::uint64_t nodes) {
   return Hypercube(static_cast<std::uint32_t>(std::countr_zero(nodes)));
 }
 
+// There are as many columns as rows, or twice as many: two squares side by side, and the curve
+// through the first ends beside the second.
+
 Rank Hypercube::rank_at(std::uint32_t column, std::uint32_t row) const {
   GRAYCUBE_CHECK(column < columns() && row < rows(), "column %u, row %u", column, row);
-  return {column + row * columns()};
+  const std::uint32_t square = column >> row_bits_;
+  return {square << 2 * row_bits_ | hilbert_number(rows(), {column & (rows() - 1), row})};
 }
 
 std::uint32_t Hypercube::column_of(Rank rank) const {
   GRAYCUBE_CHECK(has(rank), "rank %u of %u", rank.value, nodes());
-  return rank.value & (columns() - 1);
+  const std::uint32_t square = rank.value >> 2 * row_bits_;
+  return square << row_bits_ | hilbert_cell(rows(), rank.value).column;
 }
 
 std::uint32_t Hypercube::row_of(Rank rank) const {
   GRAYCUBE_CHECK(has(rank), "rank %u of %u", rank.value, nodes());
-  return rank.value >> column_bits_;
+  return hilbert_cell(rows(), rank.value).row;
 }
 
 GrayLabel Hypercube::label_of(Rank rank) const {

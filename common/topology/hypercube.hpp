@@ -13,8 +13,8 @@ namespace graycube {
 inline constexpr std::uint32_t kMaxDimension = 10;
 inline constexpr std::uint32_t kMaxNodes = 1u << kMaxDimension;
 
-/// A hypercube of dimension d is a grid of 2^⌈d/2⌉ columns and 2^⌊d/2⌋ rows. Both are numbered by
-/// cyclic Gray codes, so that neighbours on the torus are linked and rays are never routed.
+/// A hypercube of dimension d: 2^⌈d/2⌉ columns and 2^⌊d/2⌋ rows, both in cyclic Gray codes, so that
+/// neighbours on the torus are linked. Aligned blocks of 2^a ranks are compact, and subcubes.
 class Hypercube {
  public:
   /// Nothing unless `nodes` is a power of two, 1 … kMaxNodes.

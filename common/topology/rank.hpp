@@ -5,7 +5,7 @@
 
 namespace graycube {
 
-/// A node's number: its column + its row × the columns of the grid, 0 … nodes − 1.
+/// A node's number, 0 … nodes − 1. Neighbours in the grid mostly have near ones: hilbert.hpp.
 struct Rank {
   std::uint32_t value = 0;
   friend constexpr auto operator<=>(const Rank&, const Rank&) = default;

@@ -34,6 +34,8 @@ struct FrontalOptions {
   /// Models of more bytes are not replicated.
   std::uint64_t replica_bytes = kReplicaBytes;
   FlowLimits limits{};
+  /// Hosts that the nodes lie on: what is sent between hosts costs more.
+  std::uint32_t hosts = 1;
   /// Clients may send scenes that they have compiled. Only for a client that is trusted: what
   /// readers of scenes check, such as that a camera has a direction, is not checked again.
   bool is_private = false;

@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "formats/graycube/read_scene.hpp"
+#include "frontal/preparation/choice.hpp"
 #include "frontal/preparation/partition.hpp"
 #include "frontal/preparation/slices.hpp"
 #include "proto/horizon_bytes.hpp"
@@ -109,11 +110,12 @@ std::optional<Model> model_of(std::span<const std::byte> scene,
   }
 }
 
-/// A mesh that is asked for is one of macro-regions.
-Algorithm chosen(Algorithm wanted, MeshMode mesh, const Model& model) {
-  if (wanted != Algorithm::kAuto) return wanted;
-  if (mesh != MeshMode::k2d) return Algorithm::kMacro;
-  return encoded_model_bytes(model) <= kReplicatedModelBytes ? Algorithm::kRoth : Algorithm::kMacro;
+Algorithm chosen(const PreparationWork& work, const Model& model) {
+  if (work.options.algorithm != Algorithm::kAuto) return work.options.algorithm;
+  return chosen_algorithm(work.options.mesh, {.model_bytes = encoded_model_bytes(model),
+                                              .primary_rays = model.settings.image.primary_rays(),
+                                              .nodes = work.cube.nodes(),
+                                              .hosts = work.hosts});
 }
 
 void cut_for_roth(const Model& model, const Hypercube& cube, PreparedScene& out) {
@@ -302,7 +304,7 @@ void prepare_into(PreparationResult& result, const PreparationWork& work,
   PreparedScene& scene = result.scene.emplace();
   const double loaded_s = clock_s();
   scene.load_s = loaded_s - began_s;
-  scene.algorithm = chosen(work.options.algorithm, work.options.mesh, model);
+  scene.algorithm = chosen(work, model);
   scene.grain = scene.algorithm == Algorithm::kRoth ? work.options.grain : Grain::kTile;
   scene.settings = model.settings;
   scene.subdivision = work.options.subdivision;

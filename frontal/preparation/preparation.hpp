@@ -32,10 +32,9 @@ struct PreparationWork {
   control::JobOptions options;
   Hypercube cube = *Hypercube::of_size(1);
   std::uint64_t replica_bytes = kReplicaBytes;
+  /// Hosts that the nodes lie on.
+  std::uint32_t hosts = 1;
 };
-
-/// `roth` copies the scene to every node; `auto` picks it only when a node's copy stays below this.
-inline constexpr std::uint64_t kReplicatedModelBytes = std::uint64_t{512} << 20;
 
 struct PreparedScene {
   Algorithm algorithm = Algorithm::kMacro;

@@ -90,6 +90,13 @@ TEST_CASE("every option of simulate arrives") {
   CHECK(c.plot == "b.svg");
   CHECK(c.as_json);
   CHECK(c.is_quiet);
+  CHECK(c.hosts == 0);
+  CHECK_FALSE(c.local_gbps);
+  const auto hosts = std::get<SimulateCommand>(parsed(
+      {"simulate", "a.json", "-n", "64", "--hosts", "8", "--local-gbps", "20", "--local-us", "3"}));
+  CHECK(hosts.hosts == 8);
+  CHECK(hosts.local_gbps == 20.0);
+  CHECK(hosts.local_us == 3.0);
   CHECK(refused({"simulate", "a.json"}).find("--nodes is required") != std::string::npos);
 }
 

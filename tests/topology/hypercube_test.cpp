@@ -1,5 +1,6 @@
 #include "topology/hypercube.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <set>
@@ -52,8 +53,43 @@ TEST_CASE("eight nodes are a grid of four columns and two rows") {
   CHECK(cube->dimension() == 3);
   CHECK(cube->columns() == 4);
   CHECK(cube->rows() == 2);
-  CHECK(cube->rank_at(2, 1) == Rank{6});
-  CHECK(cube->label_of(Rank{6}) == GrayLabel{0b111});  // gray(1) = 1 above gray(2) = 11
+  CHECK(cube->rank_at(2, 1) == Rank{5});
+  CHECK(cube->label_of(Rank{5}) == GrayLabel{0b111});  // gray(1) = 1 above gray(2) = 11
+}
+
+TEST_CASE("consecutive ranks are linked, as neighbours in the grid") {
+  for_each_cube([](const Hypercube& cube) {
+    for (Rank rank; cube.has({rank.value + 1}); ++rank.value) {
+      const Rank next{rank.value + 1};
+      REQUIRE(cube.link_between(rank, next));
+      const auto apart = [](std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; };
+      REQUIRE(apart(cube.column_of(rank), cube.column_of(next)) +
+                  apart(cube.row_of(rank), cube.row_of(next)) ==
+              1);
+    }
+  });
+}
+
+TEST_CASE(
+    "every aligned block of ranks is a subcube, and a block of the grid about as high as wide") {
+  for_each_cube([](const Hypercube& cube) {
+    for (std::uint32_t size = 1; size <= cube.nodes(); size *= 2) {
+      for (std::uint32_t first = 0; first < cube.nodes(); first += size) {
+        std::uint32_t bits = 0, left = cube.columns(), right = 0, top = cube.rows(), bottom = 0;
+        for (Rank rank{first}; rank.value < first + size; ++rank.value) {
+          bits |= cube.label_of(rank).value ^ cube.label_of(Rank{first}).value;
+          left = std::min(left, cube.column_of(rank));
+          right = std::max(right, cube.column_of(rank));
+          top = std::min(top, cube.row_of(rank));
+          bottom = std::max(bottom, cube.row_of(rank));
+        }
+        const std::uint32_t width = right - left + 1, height = bottom - top + 1;
+        REQUIRE(1u << std::popcount(bits) == size);
+        REQUIRE(width * height == size);
+        REQUIRE((width <= 2 * height && height <= 2 * width));
+      }
+    }
+  });
 }
 
 TEST_CASE("rank, label and place in the grid name the same node") {
@@ -83,7 +119,7 @@ TEST_CASE("links join nodes both ways, one for each bit") {
   });
   const auto cube = Hypercube::of_size(4);
   REQUIRE(cube);
-  CHECK_FALSE(cube->link_between(Rank{0}, Rank{3}));
+  CHECK_FALSE(cube->link_between(Rank{0}, Rank{2}));
 }
 
 TEST_CASE(
