@@ -42,6 +42,13 @@ void Jobs::count(control::FarmInfo& farm) const {
   farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
+void Jobs::count(control::FarmMetrics& farm) const {
+  farm.counts = log_.counts();
+  if (!running_) return;
+  farm.counts.tiles_whole += running_->tiles_made();
+  farm.fraction = running_->progress_at(now_.now_s).fraction;
+}
+
 void Jobs::check_time() {
   if (running_ && running_->is_overdue(now_.now_s)) {
     fail({JobState::kFailed,
@@ -212,11 +219,17 @@ void Jobs::end_when_over() {
   running_->deadlock() ? fail(*running_->deadlock()) : complete();
 }
 
+std::string Jobs::take_statistics(const std::string& failed) {
+  log_.nodes_reported(running_->node_stats(), running_->slice_bytes());
+  return running_->statistics(now_.now_s, cpu_, failed);
+}
+
 void Jobs::complete() {
-  keeping_ = EndedJob{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  keeping_ = EndedJob{running_->info(), take_statistics({}), false};
   keeping_->info.fraction = 1;
   keeping_->info.message = "waits for its picture to be written";
   film_ = std::make_shared<const Film>(running_->take_film());
+  log_.tiles_were_made(running_->tiles_made());
   running_.reset();
 }
 
@@ -229,9 +242,10 @@ void Jobs::fail(JobFailure failure) {
   job.info.eta_s.reset();
   if (running_->deadlock()) {
     failure = *running_->deadlock();
-    job.stats_json = running_->statistics(now_.now_s, cpu_, failure.errors.front().why);
+    job.stats_json = take_statistics(failure.errors.front().why);
     job.is_deadlocked = true;
   }
+  log_.tiles_were_made(running_->tiles_made());
   running_.reset();
   end(std::move(job), std::move(failure));
 }
