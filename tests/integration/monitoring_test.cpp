@@ -1,7 +1,10 @@
 // How those who run a farm see what it does: its metrics, the dashboard of them, and its log.
+#include <signal.h>
+
 #include <algorithm>
 #include <regex>
 #include <set>
+#include <thread>
 
 #include "catch.hpp"
 #include "frontal/telling/metrics_parser.hpp"
@@ -28,6 +31,14 @@ void check_none_went_back(const ParsedMetrics& before, const ParsedMetrics& afte
     INFO(name);
     REQUIRE(after.samples.contains(name));
     CHECK(after.samples.at(name) >= value);
+  }
+}
+
+void wait_for_loss(const Browser& browser) {
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  while (scrape(browser).samples.at("graycube_losses_total{kind=\"node\"}") == 0) {
+    REQUIRE(std::chrono::steady_clock::now() < until);
+    std::this_thread::sleep_for(20ms);
   }
 }
 
@@ -63,8 +74,7 @@ TEST_CASE("a farm's metrics tell what its jobs did, and no counter goes back") {
   CHECK(during.samples.at("graycube_nodes{state=\"busy\"}") == 4);
   const auto pid = nlohmann::json::parse(ok(sandbox, {"nodes", "--json"}))[1]["pid"];
   REQUIRE(::kill(pid.get<pid_t>(), SIGKILL) == 0);
-  while (scrape(browser).samples.at("graycube_losses_total{kind=\"node\"}") == 0) {
-  }
+  wait_for_loss(browser);
   ok(sandbox, {"cancel", endless});
   const ParsedMetrics after = scrape(browser);
   check_none_went_back(one, during);
