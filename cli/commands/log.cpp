@@ -22,19 +22,22 @@ void print(const control::LogLine& line, bool as_json) {
 ExitStatus run(const LogCommand& command) {
   catch_interrupts("log", 0);
   FarmClient farm(command.connect);
-  control::Log request{0, 0, command.lines, 0};
+  // Of none the number is wanted all the same, as all after it are new.
+  control::Log request{0, 0, std::max(command.lines, 1u), 0};
+  bool is_shown = command.lines > 0;
   for (;;) {
     const auto answer = farm.ask<control::LogLines>(request, "log").first;
     // Another frontal has lines of its own, all of which are new.
     if (answer.pid != request.pid) request.after = 0;
     request.pid = answer.pid;
     for (const control::LogLine& line : answer.lines) {
-      print(line, command.as_json);
+      if (is_shown) print(line, command.as_json);
       request.after = line.number;
     }
     std::fflush(stdout);
     const bool is_all = answer.lines.size() < kMaxLinesAnswered;
     if (answer.is_end || (is_all && !command.follows)) return ExitStatus::kDone;
+    is_shown = true;
     request.newest = kMaxLinesKept;
     request.wait_s = command.follows ? kLogWait_s : 0;
   }
