@@ -10,6 +10,7 @@
 #include "cli/failure.hpp"
 #include "cli/option_values.hpp"
 #include "cli/options/completion.hpp"
+#include "cli/options/listing.hpp"
 #include "cli/options/machine_options.hpp"
 #include "cli/options/man_page.hpp"
 #include "cli/options/shared_options.hpp"
@@ -21,7 +22,6 @@
 namespace graycube {
 namespace {
 
-constexpr std::uint32_t kMaxJobsShown = 1'000'000;
 
 /// All commands; after parsing, the chosen command's values are in its declaration.
 class Parser {
@@ -171,21 +171,7 @@ class Parser {
   }
 
   void declare_clients() {
-    declare_client<JobsCommand>(
-        "jobs", "List a farm's jobs", [](Declaring& options, JobsCommand& jobs) {
-          options.flag("--json", jobs.as_json, "As one line of JSON");
-          options.option({.names = "--limit",
-                          .value = "N",
-                          .help = "At most so many (default " + std::to_string(jobs.limit) + ")"},
-                         [&jobs](const std::string& text) {
-                           jobs.limit = parse_count("--limit", text, 1, kMaxJobsShown);
-                         });
-          options.option(
-              {.names = "--skip", .value = "N", .help = "Without the first so many (default 0)"},
-              [&jobs](const std::string& text) {
-                jobs.skip = parse_count("--skip", text, 0, kMaxJobsShown);
-              });
-        });
+    declare_client<JobsCommand>("jobs", "List a farm's jobs", add_job_listing);
     declare_client<StatusCommand>(
         "status", "How a job is getting on, or the farm",
         [](Declaring& options, StatusCommand& status) {
@@ -209,6 +195,7 @@ class Parser {
                                  [](Declaring& options, NodesCommand& nodes) {
                                    options.flag("--json", nodes.as_json, "As one line of JSON");
                                  });
+    declare_client<LogCommand>("log", "What a farm's log says", add_log_listing);
     declare_client<DownCommand>("down", "Stop a farm");
     auto key = declare<KeyCommand>("key", "Print a new key for a farm at a TCP port");
     add_farm_of_client(key.options, key.command.of_farm);

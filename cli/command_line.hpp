@@ -80,6 +80,12 @@ struct NodesCommand {
   FarmAddress connect;
   bool as_json = false;
 };
+struct LogCommand {
+  FarmAddress connect;
+  /// The newest so many are printed first.
+  std::uint32_t lines = 100;
+  bool follows = false, as_json = false;
+};
 struct DownCommand {
   FarmAddress connect;
 };
@@ -145,7 +151,8 @@ struct PrintCommand {
 
 using Command =
     std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
-                 CancelCommand, FetchCommand, NodesCommand, DownCommand, KeyCommand, CheckCommand,
+                 CancelCommand, FetchCommand, NodesCommand, LogCommand, DownCommand, KeyCommand,
+                 CheckCommand,
                  CompareCommand, SimulateCommand, DrawCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are main's, the command's own name first.

@@ -27,7 +27,7 @@ packages=(
   g++ cmake git ninja-build pkg-config
   libzmq3-dev cppzmq-dev nlohmann-json3-dev libsimdjson-dev libopenexr-dev libpng-dev zlib1g-dev
   libpolyclipping-dev libqhull-dev catch2 libcli11-dev libhwy-dev libboost-dev
-  libsqlite3-dev libsodium-dev
+  libsqlite3-dev libsodium-dev prometheus-cpp-dev
   libassimp-dev
 )
 case "${1-}" in

@@ -29,6 +29,7 @@ Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
       door_(options_.secret, options_.node_folder),
       log_(options_.started_s),
+      log_desk_(options_.pid),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
       nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
@@ -39,6 +40,7 @@ void Frontal::on_time(const Moment& now) {
   log_.set_time(now.unix_s);
   jobs_.set_time(now);
   nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
+  log_desk_.answer_waits(now_s_, post_);
   if (is_going_down_) return;
   if (const auto ping = heartbeat_.take_ping(now_s_)) {
     post_.to_nodes(*ping);
@@ -197,7 +199,12 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      },
                      [&](const control::Fetch& m) { return fetch(peer, m); },
                      [&](const control::Write& m) { return write(peer, m); },
+                     [&](const control::Log& m) -> Given {
+                       log_desk_.ask(peer, m, now_s_, post_);
+                       return std::nullopt;
+                     },
                      [&](const control::Farm&) -> Given { return Reply{info()}; },
+                     [&](const control::Metrics&) -> Given { return Reply{metrics()}; },
                      [](const control::Down&) -> Given { return Reply{control::Bye{}}; },
                      [&](const control::Hello&) { return refuse_type(); },
                      [&](const FromNode auto&) { return refuse_type(); },
@@ -276,6 +283,31 @@ control::FarmInfo Frontal::info() const {
   info.nodes_here = nodes_.count_here();
   jobs_.count(info);
   return info;
+}
+
+control::FarmMetrics Frontal::metrics() const {
+  control::FarmMetrics m;
+  m.farm = info();
+  jobs_.count(m);
+  for (const control::NodeInfo& node : nodes_.list(jobs_.keep_nodes_busy()).nodes) {
+    switch (node.state) {
+      case NodeState::kStarting: ++m.nodes_starting; break;
+      case NodeState::kIdle: ++m.nodes_idle; break;
+      case NodeState::kBusy: ++m.nodes_busy; break;
+      case NodeState::kLost: ++m.nodes_lost; break;
+    }
+  }
+  m.frontal_cpu_s = cpu_.used_s();
+  m.longest_turn_s = longest_turn_s_;
+  return m;
+}
+
+std::vector<FarmEvent> Frontal::take_events() {
+  std::vector<FarmEvent> events = log_.take();
+  for (const FarmEvent& event : events) log_desk_.add(event);
+  if (is_going_down_) log_desk_.end();
+  if (!events.empty()) log_desk_.answer_waits(now_s_, post_);
+  return events;
 }
 
 void Frontal::go_down() {

@@ -3,6 +3,7 @@
 // wires sockets, processes and clocks on; the simulation others.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "frontal/parts/node_door.hpp"
 #include "frontal/parts/node_registry.hpp"
 #include "frontal/parts/post.hpp"
+#include "frontal/telling/log_desk.hpp"
 #include "transport/message.hpp"
 
 namespace graycube {
@@ -35,7 +37,10 @@ class Frontal {
   Frontal(const Frontal&) = delete;
   Frontal& operator=(const Frontal&) = delete;
   /// Without a meter, the statistics tell of no CPU time.
-  void set_cpu_meter(CpuMeter meter) { jobs_.set_cpu_meter(std::move(meter)); }
+  void set_cpu_meter(CpuMeter meter) {
+    cpu_ = meter;
+    jobs_.set_cpu_meter(std::move(meter));
+  }
 
   /// Call before the events of that moment; also pings, notices silence and timeouts, and tells of
   /// progress.
@@ -81,7 +86,13 @@ class Frontal {
   /// Silent nodes, whose processes are to be ended.
   std::vector<Process> take_kills() { return nodes_.take_kills(); }
   /// What has happened since it was last asked.
-  std::vector<FarmEvent> take_events() { return log_.take(); }
+  std::vector<FarmEvent> take_events();
+  /// A line of the process's own for the log.
+  void process_tells(std::string text, bool is_trouble) {
+    log_.process_tells(std::move(text), is_trouble);
+  }
+  /// A turn of the process's loop has taken so long.
+  void had_a_turn(double seconds) { longest_turn_s_ = std::max(longest_turn_s_, seconds); }
   /// Somebody was hung up on, having shown no key of the farm.
   void turned_away(const TurnedAway& peer) { log_.stranger_is_refused(peer); }
   /// So many connections were closed at once, as clients had `most` already.
@@ -107,6 +118,7 @@ class Frontal {
   std::optional<Answer> write(const PeerId& peer, const control::Write& m);
   std::optional<Answer> fetch(const PeerId& peer, const control::Fetch& m);
   control::FarmInfo info() const;
+  control::FarmMetrics metrics() const;
   void lose(Rank rank, const std::string& how);
   bool finds_host(Rank rank, const std::string& why);
   void look_for_standstills();
@@ -116,6 +128,9 @@ class Frontal {
   double now_s_ = 0;
   NodeDoor door_;
   FarmLog log_;
+  LogDesk log_desk_;
+  CpuMeter cpu_;
+  double longest_turn_s_ = 0;
   Post post_;
   Heartbeat heartbeat_;
   NodeRegistry nodes_;

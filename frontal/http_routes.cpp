@@ -9,6 +9,7 @@
 
 #include "film/picture_files.hpp"
 #include "frontal/http_page.hpp"
+#include "frontal/telling/metrics_text.hpp"
 #include "proto/control.hpp"
 #include "proto/picture_rows.hpp"
 
@@ -35,6 +36,16 @@ HttpAnswer answer_of(const std::optional<Message>& message) {
     answer.status = status_of(*failed);
   answer.body = message->text();
   return answer;
+}
+
+/// The farm's figures as Prometheus reads them.
+HttpAnswer metrics_answer_of(const std::optional<Message>& message) {
+  if (!message) return silence();
+  const auto decoded = decode(message->text());
+  const auto* control = std::get_if<ControlMessage>(&decoded);
+  const auto* farm = control != nullptr ? std::get_if<control::FarmMetrics>(control) : nullptr;
+  if (farm == nullptr) return answer_of(message);
+  return {200, metrics_text(*farm), kMetricsType};
 }
 
 /// The number between what the path begins and ends with: nothing if these are other texts, or if
@@ -89,6 +100,11 @@ void HttpRoutes::answer(std::string_view method, std::string_view target, Then t
   if (method != "GET" && method != "HEAD")
     return then(failed_answer(405, "method", "expected GET"));
   if (path == "/") return then({200, kHttpPage, "text/html; charset=utf-8"});
+  if (path == "/metrics") {
+    return world_.ask(control::Metrics{}, [then = std::move(then)](const auto& message) {
+      then(metrics_answer_of(message));
+    });
+  }
   if (path == "/api/jobs") return forward(control::List{}, std::move(then));
   if (path == "/api/nodes") return forward(control::Nodes{}, std::move(then));
   if (const auto job = number_in(path, "/api/jobs/", ""))

@@ -28,6 +28,7 @@ inline constexpr std::size_t kMaxHttpPictures = 2;
 /// GET /api/jobs             a `jobs` message
 /// GET /api/jobs/N           a `job_info` message
 /// GET /api/nodes            a `node_list` message
+/// GET /metrics              the farm's figures, in Prometheus' text format
 /// GET /jobs/N.png           the picture of a job that is done, 8-bit sRGB
 /// POST /api/jobs/N/cancel   with the token: cancels the job; a `job_info` message
 /// Errors are a `failed` message with status 400, 401, 403, 404, 405, 409, 413 or 502.

@@ -30,6 +30,13 @@ void Jobs::count(control::FarmInfo& farm) const {
   farm.ended = static_cast<std::uint32_t>(ended_.all().size());
 }
 
+void Jobs::count(control::FarmMetrics& farm) const {
+  farm.counts = log_.counts();
+  if (!running_) return;
+  farm.counts.tiles_whole += running_->tiles_made();
+  farm.fraction = running_->progress_at(now_.now_s).fraction;
+}
+
 void Jobs::check_time() {
   if (running_ && running_->is_overdue(now_.now_s)) {
     fail({JobState::kFailed,
@@ -232,8 +239,14 @@ void Jobs::end_when_over() {
   running_->deadlock() ? fail(*running_->deadlock()) : complete();
 }
 
+std::string Jobs::take_statistics(const std::string& failed) {
+  log_.nodes_reported(running_->node_stats(), running_->slice_bytes());
+  return running_->statistics(now_.now_s, cpu_, failed);
+}
+
 void Jobs::complete() {
-  EndedJob job{running_->info(), running_->statistics(now_.now_s, cpu_, {}), false};
+  EndedJob job{running_->info(), take_statistics({}), false};
+  log_.tiles_were_made(running_->tiles_made());
   keeping_.begin(std::move(job), running_->take_film());
   running_.reset();
 }
@@ -262,9 +275,10 @@ void Jobs::fail(JobFailure failure) {
   job.info.eta_s.reset();
   if (running_->deadlock()) {
     failure = *running_->deadlock();
-    job.stats_json = running_->statistics(now_.now_s, cpu_, failure.errors.front().why);
+    job.stats_json = take_statistics(failure.errors.front().why);
     job.is_deadlocked = true;
   }
+  log_.tiles_were_made(running_->tiles_made());
   running_.reset();
   end(std::move(job), std::move(failure));
 }

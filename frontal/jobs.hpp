@@ -34,6 +34,8 @@ class Jobs {
   void check_time();
   /// Jobs that wait, and those that are on and have ended and are listed.
   void count(control::FarmInfo& farm) const;
+  /// What the farm has counted, what is on included, and how far that is.
+  void count(control::FarmMetrics& farm) const;
 
   // Asked by clients
   /// Nothing if the answer is posted later.
@@ -136,6 +138,8 @@ class Jobs {
   /// Keeps a job that has no picture, and tells those who watch it.
   void end(EndedJob job, JobFailure failure);
   void leave_to_next_frontal();
+  /// The statistics of the job that is on, whose figures the farm takes to its own.
+  std::string take_statistics(const std::string& failed);
 
   const FrontalOptions& farm_;
   JobStore& store_;

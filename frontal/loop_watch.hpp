@@ -22,6 +22,7 @@ class LoopWatch {
   }
   /// It ends: the loop waits for the next event. Returns what is to be told, or nothing.
   std::string end(double now_s) {
+    last_turn_s_ = now_s - began_s_;
     if (now_s - began_s_ < longest_s_) return {};
     const double cpu_s = seconds_of(CLOCK_THREAD_CPUTIME_ID) - cpu_began_s_;
     if (cpu_s < longest_s_) return {};
@@ -32,9 +33,11 @@ class LoopWatch {
                   cpu_s);
     return text.data();
   }
+  /// How long the turn took that has ended last.
+  double last_turn_s() const { return last_turn_s_; }
 
  private:
-  double began_s_ = 0, cpu_began_s_ = 0, longest_s_ = kLongTurn_s;
+  double last_turn_s_ = 0, began_s_ = 0, cpu_began_s_ = 0, longest_s_ = kLongTurn_s;
 };
 
 }  // namespace graycube

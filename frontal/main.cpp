@@ -152,7 +152,8 @@ class FrontalProcess {
       const auto sockets = doors_.sockets();
       const int descriptors[] = {wakeup_.descriptor(), signals_};
       const std::string held_up = loop_watch_.end(seconds_of(CLOCK_MONOTONIC));
-      if (!held_up.empty()) log_.write(seconds_of(CLOCK_REALTIME), held_up, shows_trouble_);
+      if (!held_up.empty()) frontal_.process_tells(held_up, true);
+      frontal_.had_a_turn(loop_watch_.last_turn_s());
       wait_readable(sockets, descriptors, kTick);
       wakeup_.clear();
     }

@@ -7,6 +7,7 @@
 
 #include "proto/messages.hpp"
 #include "proto/messages/farm_fields.hpp"
+#include "proto/messages/farm_figure_fields.hpp"
 #include "proto/messages/field_limits.hpp"
 #include "proto/messages/sliding_fields.hpp"
 #include "shading/settings.hpp"

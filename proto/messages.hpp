@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "proto/messages/clients.hpp"
+#include "proto/messages/farm_figures.hpp"
 #include "proto/messages/from_nodes.hpp"
 #include "proto/messages/sliding.hpp"
 #include "proto/messages/to_nodes.hpp"
@@ -24,6 +25,7 @@ using ControlMessage = std::variant<
     control::Down, control::Farm, control::Accepted, control::JobInfo, control::Jobs,
     control::Progress, control::NodeList, control::FarmInfo, control::Done, control::Picture,
     control::Written, control::Failed, control::Bye, control::Slide, control::Slid, control::Turn,
-    control::Dealt, control::Worked, control::Host>;
+    control::Dealt, control::Worked, control::Host, control::Metrics, control::FarmMetrics,
+    control::Log, control::LogLines>;
 
 }  // namespace graycube

@@ -15,6 +15,7 @@ ExitStatus run(const WatchCommand& command);
 ExitStatus run(const CancelCommand& command);
 ExitStatus run(const FetchCommand& command);
 ExitStatus run(const NodesCommand& command);
+ExitStatus run(const LogCommand& command);
 ExitStatus run(const DownCommand& command);
 ExitStatus run(const KeyCommand& command);
 ExitStatus run(const CheckCommand& command);

@@ -2,6 +2,7 @@
 
 #include "cli/display/json_text.hpp"
 #include "cli/display/local_time.hpp"
+#include "process/log_line.hpp"
 
 namespace graycube {
 
@@ -31,6 +32,15 @@ std::string farm_json(const control::FarmInfo& farm) {
          ",\"jobs\":" + std::to_string(jobs) + ",\"queued\":" + std::to_string(farm.queued) +
          ",\"running\":" + std::to_string(farm.running) +
          ",\"ended\":" + std::to_string(farm.ended) + "}\n";
+}
+
+std::string log_text(const control::LogLine& line) { return log_line(line.unix_s, line.text); }
+
+std::string log_json(const control::LogLine& line) {
+  const std::string job = line.job == 0 ? "" : ",\"job\":" + std::to_string(line.job);
+  return "{\"time\":" + json_seconds(line.unix_s) + job +
+         ",\"trouble\":" + (line.is_trouble ? "true" : "false") +
+         ",\"text\":" + json_string(line.text) + "}\n";
 }
 
 }  // namespace graycube

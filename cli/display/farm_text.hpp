@@ -14,4 +14,8 @@ std::string farm_text(const control::FarmInfo& farm);
 /// frontal as "frontal".
 std::string farm_json(const control::FarmInfo& farm);
 
+/// A line of the farm's log as `graycube up --log` writes it, and as a line of JSON.
+std::string log_text(const control::LogLine& line);
+std::string log_json(const control::LogLine& line);
+
 }  // namespace graycube

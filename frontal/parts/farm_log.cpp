@@ -89,6 +89,7 @@ void FarmLog::farm_goes_down(const std::string& why) {
 void FarmLog::node_is_lost(Rank rank, const std::string& name, const std::string& how,
                            double noticed_s) {
   lost_ranks_.insert(rank.value);
+  ++counts_.nodes_lost;
   note(Kind::kNodeIsLost, 0,
        "lost " + name + ": " + shortened(how) + ", noticed after " + seconds_text(noticed_s))
       .is_trouble = true;
@@ -97,6 +98,7 @@ void FarmLog::node_is_lost(Rank rank, const std::string& name, const std::string
 void FarmLog::job_loses(std::uint32_t job, const Loss& loss, const std::string& name, bool is_gone,
                         std::uint32_t epochs) {
   if (loss.rank && is_gone) lost_ranks_.insert(*loss.rank);
+  ++(is_gone ? counts_.nodes_lost : counts_.messages_lost);
   std::string text = job_text(job) + (is_gone ? "lost " : "") + name + ": " + shortened(loss.why);
   if (is_gone) text += ", noticed after " + seconds_text(loss.noticed_s);
   text += "; " + count_text(loss.tiles, "tile") + " again, epoch " + std::to_string(epochs);
@@ -119,6 +121,7 @@ void FarmLog::node_is_here(Rank rank, std::uint64_t pid) {
 // ---- jobs
 
 void FarmLog::job_is_accepted(const control::JobInfo& job, bool is_recovered) {
+  ++counts_.jobs_accepted;
   note(Kind::kJobAccepted, job.job,
        job_text(job.job) + (is_recovered ? "taken up again, " : "submitted, ") + named(job.scene));
 }
@@ -137,11 +140,20 @@ void FarmLog::job_stands(std::uint32_t job, const std::string& waits_for) {
 }
 
 void FarmLog::job_ends(const control::JobInfo& job) {
+  ++(job.state == JobState::kDone     ? counts_.jobs_done
+     : job.state == JobState::kFailed ? counts_.jobs_failed
+                                      : counts_.jobs_cancelled);
   std::string text = job_text(job.job) + std::string(to_string(job.state));
   if (job.started_s && job.finished_s)
     text += " after " + seconds_text(*job.finished_s - *job.started_s);
   if (job.state != JobState::kDone && !job.message.empty()) text += ": " + shortened(job.message);
   note(Kind::kJobEnds, job.job, std::move(text)).is_trouble = job.state == JobState::kFailed;
+}
+
+// ---- the frontal's process
+
+void FarmLog::process_tells(std::string text, bool is_trouble) {
+  note(Kind::kProcessTells, 0, std::move(text)).is_trouble = is_trouble;
 }
 
 // ---- refusals
@@ -155,21 +167,63 @@ void FarmLog::refuse(std::string text) {
 }
 
 void FarmLog::submission_is_refused(const std::string& scene, const std::string& why) {
+  ++counts_.refused_submissions;
   refuse("refused: a submission of " + named(scene) + ": " + shortened(why));
 }
 
 void FarmLog::hello_is_refused(std::uint32_t rank, const std::string& why) {
+  ++counts_.refused_nodes;
   refuse("refused: a hello for node " + std::to_string(rank) + ": " + why);
 }
 
 void FarmLog::stranger_is_refused(const TurnedAway& peer) {
+  ++counts_.refused_clients;
   refuse("refused: a connection" + (peer.address.empty() ? "" : " from " + peer.address) +
          " without the farm's key: " + sentence_of(peer.reason));
 }
 
 void FarmLog::crowd_is_refused(std::uint64_t connections, int most) {
+  counts_.refused_connections += connections;
   refuse("refused: " + count_text(connections, "connection") + " beyond the " +
          std::to_string(most) + " that clients may have");
+}
+
+// ---- figures
+
+void FarmLog::nodes_reported(std::span<const control::NodeStats> nodes, std::uint64_t slice_bytes) {
+  control::FarmCounts& c = counts_;
+  c.last_queue_peak = c.last_outbox_peak = c.last_memory_bytes = 0;
+  c.slice_batches += nodes.size();
+  c.slice_bytes += slice_bytes;
+  for (const control::NodeStats& n : nodes) {
+    c.primary += n.primary;
+    c.shadow += n.shadow;
+    c.reflection += n.reflection;
+    c.refraction += n.refraction;
+    c.forwarded_primary += n.forwarded_primary;
+    c.forwarded_shadow += n.forwarded_shadow;
+    c.forwarded_secondary += n.forwarded_secondary;
+    c.ray_batches += n.ray_batches;
+    c.ray_bytes += n.ray_bytes;
+    c.contribution_batches += n.contribution_batches;
+    c.contribution_bytes += n.contribution_bytes;
+    c.sum_batches += n.sum_batches;
+    c.sum_bytes += n.sum_bytes;
+    c.answer_batches += n.answer_batches;
+    c.answer_bytes += n.answer_bytes;
+    c.slice_batches += n.slice_batches;
+    c.slice_bytes += n.slice_bytes;
+    c.malformed_drops += n.malformed_drops;
+    c.busy_s += n.busy_s;
+    c.blocked_s += n.blocked_s;
+    c.window_s += n.window_s;
+    c.idle_s += n.idle_s;
+    c.fifo_wait_s += n.fifo_wait_s;
+    c.nodes_cpu_s += n.cpu_s;
+    c.last_queue_peak = std::max(c.last_queue_peak, n.queue_peak);
+    c.last_outbox_peak = std::max(c.last_outbox_peak, n.outbox_peak);
+    c.last_memory_bytes = std::max(c.last_memory_bytes, n.memory_bytes);
+  }
 }
 
 }  // namespace graycube

@@ -1,11 +1,12 @@
 // What happens on a farm, for those who run it: nodes, jobs, losses and refusals, each as an event
-// with a time and a text. The process writes them out; a brain has no file.
+// with a time and a text, and counted. The process writes events out; a brain has no file.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct FarmEvent {
     kJobBegins,
     kJobStands,  ///< a job hasn't got on for a while
     kJobEnds,
-    kRefusal,  ///< of a submission, or of somebody who doesn't belong here
+    kRefusal,       ///< of a submission, or of somebody who doesn't belong here
+    kProcessTells,  ///< what the frontal's process knows and its brain doesn't
   };
   Kind kind{};
   /// Something that went wrong.
@@ -83,7 +85,18 @@ class FarmLog {
   /// Connections that came when clients had as many as they may, or more.
   void crowd_is_refused(std::uint64_t connections, int most);
 
+  /// What the frontal's process has to tell of itself.
+  void process_tells(std::string text, bool is_trouble);
+
   std::vector<FarmEvent> take();
+
+  // What is counted without being told
+  void epoch_begins() { ++counts_.epochs; }
+  /// So many tiles of a job that has ended had become whole.
+  void tiles_were_made(std::uint64_t tiles) { counts_.tiles_whole += tiles; }
+  /// A job's nodes have told what they did, and the frontal has sent so many bytes of slices.
+  void nodes_reported(std::span<const control::NodeStats> nodes, std::uint64_t slice_bytes);
+  const control::FarmCounts& counts() const { return counts_; }
 
  private:
   FarmEvent& note(FarmEvent::Kind kind, std::uint32_t job, std::string text);
@@ -98,6 +111,7 @@ class FarmLog {
   double span_began_s_ = 0;
   unsigned refusals_ = 0;
   std::uint64_t untold_ = 0;
+  control::FarmCounts counts_;
 };
 
 }  // namespace graycube

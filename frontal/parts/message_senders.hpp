@@ -18,9 +18,9 @@ concept FromNode =
           control::Borrow, control::Share, control::Goodbye, control::Slid, control::Worked>;
 
 template <typename M>
-concept FromClient =
-    OneOf<M, control::Submit, control::Status, control::List, control::Watch, control::Cancel,
-          control::Nodes, control::Fetch, control::Write, control::Farm, control::Down>;
+concept FromClient = OneOf<M, control::Submit, control::Status, control::List, control::Watch,
+                           control::Cancel, control::Nodes, control::Fetch, control::Write,
+                           control::Farm, control::Metrics, control::Log, control::Down>;
 
 template <typename M>
 concept FromFrontal =
@@ -28,7 +28,7 @@ concept FromFrontal =
           control::Relieved, control::AllWhole, control::Slide, control::Turn, control::Dealt,
           control::Prepare, control::Start, control::Finish, control::Ping, control::Host,
           control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
-          control::NodeList, control::FarmInfo, control::Done, control::Picture, control::Written,
-          control::Failed, control::Bye>;
+          control::NodeList, control::FarmInfo, control::FarmMetrics, control::LogLines,
+          control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
 
 }  // namespace graycube

@@ -134,6 +134,12 @@ class RunningJob {
   control::JobInfo info() const;
   control::JobInfo info_at(double now_s) const;
   control::Progress progress_at(double now_s) const;
+  /// Tiles that have become whole under this frontal.
+  std::uint32_t tiles_made() const { return info_.tiles_whole - resumed_tiles_; }
+  /// What nodes have reported, and the bytes of the slices that the frontal sent. Once it is
+  /// prepared.
+  const std::vector<control::NodeStats>& node_stats() const { return render_->reports().stats(); }
+  std::uint64_t slice_bytes() const { return render_->slices().own_bytes(); }
   /// The film, when the job is over.
   Film take_film() { return render_->take_film(); }
   /// The statistics file; `failed`: why there is no picture, or empty.

@@ -60,7 +60,10 @@ std::optional<JobFailure> RunningJob::go_on_without(std::vector<NamedLoss> losse
   const RenderJob::Damage damage = render_->note_loss(nodes, are_gone);
   losses.front().loss.tiles = damage.tiles;
   const bool goes_on = !render_->film_is_complete() && damage.culprit.empty();
-  if (goes_on) render_->begin_next_epoch();
+  if (goes_on) {
+    render_->begin_next_epoch();
+    farm_log_.epoch_begins();
+  }
   for (const NamedLoss& of : losses) {
     losses_.push_back(of.loss);
     farm_log_.job_loses(id(), of.loss, of.name, are_gone, epochs());

@@ -259,5 +259,16 @@ TEST_CASE("help names every command, and a command's help its options") {
   CHECK(std::get<PrintCommand>(parsed({"--version"})).text.starts_with("graycube "));
 }
 
+TEST_CASE("every option of log arrives, and lines have a limit") {
+  const auto usual = std::get<LogCommand>(parsed({"log"}));
+  CHECK(usual.lines == 100);
+  CHECK_FALSE(usual.follows);
+  const auto c = std::get<LogCommand>(parsed({"log", "-f", "--lines", "1000", "--json"}));
+  CHECK(c.lines == kMaxLinesKept);
+  CHECK(c.follows);
+  CHECK(c.as_json);
+  CHECK_FALSE(refused({"log", "--lines", "1001"}).empty());
+}
+
 }  // namespace
 }  // namespace graycube

@@ -58,6 +58,61 @@ inline control::NodeStats example_stats() {
   return s;
 }
 
+/// Each number is another one, so that none can be taken for another.
+inline control::FarmMetrics example_metrics() {
+  control::FarmMetrics m;
+  m.farm = {4711, "ipc:///run/frontal", "0.4.0", 1700000000.5, 8, 7, 3, 1, 256};
+  control::FarmCounts& c = m.counts;
+  c.jobs_accepted = 1;
+  c.jobs_done = 2;
+  c.jobs_failed = 3;
+  c.jobs_cancelled = 4;
+  c.tiles_whole = 5;
+  c.nodes_lost = 6;
+  c.messages_lost = 7;
+  c.epochs = 8;
+  c.refused_submissions = 9;
+  c.refused_nodes = 10;
+  c.refused_clients = 11;
+  c.refused_connections = 12;
+  c.primary = 13;
+  c.shadow = 14;
+  c.reflection = 15;
+  c.refraction = 16;
+  c.forwarded_primary = 17;
+  c.forwarded_shadow = 18;
+  c.forwarded_secondary = 19;
+  c.ray_batches = 20;
+  c.ray_bytes = 21;
+  c.contribution_batches = 22;
+  c.contribution_bytes = 23;
+  c.sum_batches = 24;
+  c.sum_bytes = 25;
+  c.answer_batches = 26;
+  c.answer_bytes = 27;
+  c.slice_batches = 28;
+  c.slice_bytes = 29;
+  c.malformed_drops = 30;
+  c.busy_s = 31.25;
+  c.blocked_s = 32.25;
+  c.window_s = 33.25;
+  c.idle_s = 34.25;
+  c.fifo_wait_s = 35.25;
+  c.nodes_cpu_s = 36.25;
+  c.last_queue_peak = 37;
+  c.last_outbox_peak = 38;
+  c.last_memory_bytes = 39;
+  c.tiles_whole = 1ull << 40;
+  m.nodes_starting = 101;
+  m.nodes_idle = 102;
+  m.nodes_busy = 103;
+  m.nodes_lost = 104;
+  m.fraction = 0.5;
+  m.frontal_cpu_s = 105.5;
+  m.longest_turn_s = 0.0625;
+  return m;
+}
+
 inline control::JobOptions example_options() {
   control::JobOptions o;
   o.algorithm = Algorithm::kMacro;
@@ -184,6 +239,11 @@ inline std::vector<ControlMessage> example_messages() {
       Dealt{9, 1},
       Worked{9, 1, 1ull << 40, 77},
       Host{3, 4294967295u},
+      Metrics{},
+      example_metrics(),
+      Log{4711, 1ull << 40, 1000, 20},
+      LogLines{
+          4711, true, {{1ull << 40, 1700000000.5, 9, true, "job 9: failed"}, {7, 1, 0, false, ""}}},
   };
 }
 

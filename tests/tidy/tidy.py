@@ -40,6 +40,7 @@ VENDORS = {
              "common/visibility/"),
     "libqhull": ("formats/openscad/hulls/convex_hull.cpp",),
     "nlohmann/": ("formats/json/parser.cpp", "formats/json/cbor_parser.cpp", "proto/"),
+    "prometheus/": ("frontal/telling/metrics_text.cpp",),
     "png.h": ("common/film/png_file.cpp",),
     "polyclipping/": ("common/flat/polygon.cpp",),
     "sodium.h": ("common/transport/curve_keys.cpp",),

@@ -121,3 +121,43 @@ TEST_CASE("a job that doesn't get on is told of now and then, with what it waits
   }
   CHECK(told_at_s == std::vector<double>{30, 60, 120, 240});
 }
+
+TEST_CASE("what is told is counted: jobs by their ends, losses, epochs, refusals") {
+  Farm farm;
+  farm.jobs.set_time({10, 1000});
+  farm.submit();
+  farm.submit();
+  farm.submit("a scene", {.algorithm = Algorithm::kSerial});
+  farm.load_next();
+  farm.jobs.nodes_were_lost({{Rank{1}, "node 1", "killed by signal 9", 0.14}});
+  farm.jobs.cancel(1);
+  farm.jobs.cancel(2);
+  farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "ended with status 1", 0}});
+  for (unsigned i = 0; i < 2 * kMaxRefusalsTold; ++i) farm.log.hello_is_refused(i, "a stranger");
+  farm.log.strangers_are_refused(3);
+  const control::FarmCounts& c = farm.log.counts();
+  CHECK(c.jobs_accepted == 2);
+  CHECK(c.jobs_cancelled == 2);
+  CHECK(c.jobs_done + c.jobs_failed == 0);
+  CHECK(c.nodes_lost == 2);
+  CHECK(c.epochs == 1);
+  CHECK(c.refused_submissions == 1);
+  CHECK(c.refused_nodes == 2 * kMaxRefusalsTold);
+  CHECK(c.refused_clients == 3);
+}
+
+TEST_CASE("nodes' reports are added up, and peaks are those of the last job") {
+  FarmLog log;
+  const control::NodeStats a{.busy_s = 1.5, .queue_peak = 7, .primary = 3, .ray_bytes = 10};
+  const control::NodeStats b{.busy_s = 0.25, .queue_peak = 9, .primary = 4, .ray_bytes = 20};
+  const control::NodeStats both[] = {a, b};
+  log.nodes_reported(both, 100);
+  CHECK(log.counts().last_queue_peak == 9);
+  log.nodes_reported(std::span(&a, 1), 100);
+  CHECK(log.counts().primary == 10);
+  CHECK(log.counts().busy_s == 3.25);
+  CHECK(log.counts().ray_bytes == 40);
+  CHECK(log.counts().slice_bytes == 200);
+  CHECK(log.counts().slice_batches == 3);
+  CHECK(log.counts().last_queue_peak == 7);
+}
