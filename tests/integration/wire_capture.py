@@ -44,8 +44,11 @@ class Wire:
         threading.Thread(target=self.record, daemon=True).start()
 
     def record(self):
-        while True:
-            self.frames.append(self.socket.recv(1 << 17))
+        try:
+            while True:
+                self.frames.append(self.socket.recv(1 << 17))
+        except OSError:
+            pass  # the other end has gone, and the interface with it
 
     def take(self):
         time.sleep(0.5)
