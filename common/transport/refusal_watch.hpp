@@ -13,14 +13,14 @@ namespace graycube {
 
 class RefusalWatch {
  public:
-  /// `endpoint`: the TCP endpoint; connections of others don't matter.
-  explicit RefusalWatch(std::string endpoint) : endpoint_(std::move(endpoint)) {}
   /// What on_event() wants to hear of.
   static int events();
   /// `address_of(descriptor)` tells where an accepted connection comes from, and is asked at once.
   template <typename AddressOf>
   std::optional<TurnedAway> on_event(const SocketEvent& event, const AddressOf& address_of) {
-    if (event.endpoint != endpoint_) return std::nullopt;
+    // An inbox has one TCP endpoint at most. Where that is all addresses of the machine, the event
+    // names the one to which the peer has connected.
+    if (!event.endpoint.starts_with("tcp://")) return std::nullopt;
     if (event.event == ZMQ_EVENT_ACCEPTED) {
       const int descriptor = static_cast<int>(event.value);
       shaking_hands_[descriptor] = {address_of(descriptor), false};
@@ -39,7 +39,6 @@ class RefusalWatch {
   std::optional<TurnedAway> on_end(const SocketEvent& event);
   void let_one_in();
 
-  std::string endpoint_;
   /// Connections that aren't known to be let in, by their descriptors.
   std::map<int, Guest> shaking_hands_;
   /// Why the connection that libzmq will say next to have been closed was refused: both are said by

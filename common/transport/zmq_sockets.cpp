@@ -263,7 +263,7 @@ struct Inbox::Impl {
   std::string local, tcp;
   /// The frames of the message received last.
   std::vector<zmq::message_t> frames;
-  std::optional<RefusalWatch> refusals;
+  RefusalWatch refusals;
   std::optional<SocketMonitor> monitor;
 };
 
@@ -312,14 +312,13 @@ const std::string& Inbox::endpoint() const {
 const std::string& Inbox::tcp_endpoint() const { return impl_->tcp; }
 
 void Inbox::watch_refusals() {
-  impl_->refusals.emplace(impl_->tcp);
   impl_->monitor.emplace(impl_->context, impl_->socket, RefusalWatch::events());
 }
 
 std::vector<TurnedAway> Inbox::take_refusals() {
   std::vector<TurnedAway> taken;
   while (const auto event = impl_->monitor ? impl_->monitor->next() : std::nullopt) {
-    if (auto refusal = impl_->refusals->on_event(*event, address_of_peer))
+    if (auto refusal = impl_->refusals.on_event(*event, address_of_peer))
       taken.push_back(*std::move(refusal));
   }
   return taken;

@@ -22,7 +22,7 @@ SKIPPED = 77
 IS_INSIDE = "GRAYCUBE_TEST_NAMESPACE"
 FARM, CLIENT = "10.77.1.1", "10.77.1.2"
 # Nobody else is in the namespaces, so that any port is free.
-ENDPOINT = f"tcp://{FARM}:7411"
+ENDPOINT, EVERYWHERE = f"tcp://{FARM}:7411", "tcp://*:7411"
 CONTROL_PORT = 7412
 SIZE = "160x120"
 LIMIT_S = 120
@@ -44,8 +44,11 @@ class Wire:
         threading.Thread(target=self.record, daemon=True).start()
 
     def record(self):
-        while True:
-            self.frames.append(self.socket.recv(1 << 17))
+        try:
+            while True:
+                self.frames.append(self.socket.recv(1 << 17))
+        except OSError:
+            pass  # the other end has gone, and the interface with it
 
     def take(self):
         time.sleep(0.5)
@@ -118,7 +121,7 @@ def check(command, scene, folder, client):
     if not control(wire, client, scene):
         problems.append("the scene in clear isn't seen on the wire")
     log = os.path.join(folder, "log")
-    farm = subprocess.Popen([command, "up", "-n", "4", "--listen", ENDPOINT, "--key", key, "--log", log],
+    farm = subprocess.Popen([command, "up", "-n", "4", "--listen", EVERYWHERE, "--key", key, "--log", log],
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         address = ["--connect", ENDPOINT, "--key", own]
