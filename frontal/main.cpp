@@ -16,7 +16,7 @@
 #include "frontal/frontal.hpp"
 #include "frontal/http_server.hpp"
 #include "frontal/loop_watch.hpp"
-#include "frontal/node_processes.hpp"
+#include "host/node_processes.hpp"
 #include "frontal/parts/patience.hpp"
 #include "frontal/preparation_thread.hpp"
 #include "frontal/store/checkpoint_store.hpp"

@@ -1,4 +1,4 @@
-#include "frontal/node_processes.hpp"
+#include "host/node_processes.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
