@@ -33,13 +33,13 @@ def ticks_of(process, with_ended_children):
 
 
 class Farm:
-    def __init__(self, command, folder, nodes, *options, port=None):
-        """At a socket in the folder, or at a TCP port, with its key there."""
+    def __init__(self, command, folder, nodes, *options, port=None, address="127.0.0.1"):
+        """At a socket in the folder, or at a TCP port of an address, with its key there."""
         self.command = command
         self.endpoint = "ipc://" + os.path.join(folder, f"farm-{nodes}")
         self.address = ["--connect", self.endpoint]
         if port is not None:
-            self.endpoint = f"tcp://127.0.0.1:{port}"
+            self.endpoint = f"tcp://{address}:{port}"
             key = os.path.join(folder, "key")
             self.address = ["--connect", self.endpoint, "--key", key]
             options = (*options, "--key", key)

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -10,18 +9,17 @@
 #include "cli/failure.hpp"
 #include "cli/option_values.hpp"
 #include "cli/options/completion.hpp"
+#include "cli/options/join_options.hpp"
 #include "cli/options/listing.hpp"
 #include "cli/options/machine_options.hpp"
 #include "cli/options/man_page.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/options/usage.hpp"
 #include "keep_rule.hpp"
-#include "transport/endpoint.hpp"
 #include "version.hpp"
 
 namespace graycube {
 namespace {
-
 
 /// All commands; after parsing, the chosen command's values are in its declaration.
 class Parser {
@@ -32,6 +30,7 @@ class Parser {
     app_.require_subcommand(1);
     declare_rendering();
     declare_up();
+    declare_join();
     declare_submit();
     declare_clients();
     declare_check();
@@ -86,11 +85,11 @@ class Parser {
     auto declared = declare<RenderCommand>("render", "Render a scene on nodes of this machine");
     RenderCommand& render = declared.command;
     Declaring& options = declared.options;
-    render.nodes = default_nodes();
     add_scene(options, render.scene);
     add_model_choice(options, render.choice);
     add_outputs(options, render.outputs, "The picture (default: SCENE's name with .exr, here)");
     add_nodes(options, render.nodes);
+    add_farm(options, render.farm);
     add_threads(options, render.threads, "Evaluator threads per node (default 1)");
     add_job_options(options, render.options);
     add_losses(options, render.losses);
@@ -103,13 +102,18 @@ class Parser {
     options.flag("--quiet,-q", render.is_quiet, "Print nothing but errors");
   }
 
+  void declare_join() {
+    auto declared = declare<JoinCommand>("join", "Give this machine to a farm");
+    add_join_options(declared.options, declared.command);
+  }
+
   void declare_up() {
     auto declared = declare<UpCommand>("up", "Start a farm and keep it running");
     UpCommand& up = declared.command;
     Declaring& options = declared.options;
-    up.nodes = default_nodes();
     add_nodes(options, up.nodes);
     add_threads(options, up.threads, "Evaluator threads per node (default 1)");
+    add_farm(options, up.farm);
     options.option(
         {.names = "--listen", .value = "ENDPOINT", .help = "ipc:///PATH or tcp://HOST:PORT"},
         [&up](const std::string& text) { up.listen = text; });
@@ -309,25 +313,6 @@ class Parser {
   std::function<Command()> chosen_;
 };
 
-/// Finds out the endpoint at which client commands look for the farm.
-void resolve_endpoint(FarmAddress& farm) {
-  std::string& endpoint = farm.endpoint;
-  const char* origin = "--connect";
-  if (endpoint.empty()) {
-    const char* variable = std::getenv("GRAYCUBE_FRONTAL");
-    if (variable != nullptr && variable[0] != '\0') {
-      endpoint = variable;
-      origin = "GRAYCUBE_FRONTAL";
-    } else {
-      endpoint = default_endpoint();
-      origin = "XDG_RUNTIME_DIR";
-    }
-  }
-  if (const auto problem = endpoint_problem(endpoint, !farm.key_file.empty())) {
-    throw usage_failure(std::string(origin) + " " + endpoint, *problem);
-  }
-}
-
 template <typename C>
 concept IsQuietImport = requires(C command) {
   command.choice;
@@ -347,7 +332,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     Command command = parser.parse(words);
     std::visit(
         [](auto& c) {
-          if constexpr (requires { c.connect; }) resolve_endpoint(c.connect);
+          if constexpr (requires { c.connect; }) resolve(c.connect);
           if constexpr (IsQuietImport<decltype(c)>) c.choice.is_quiet = c.is_quiet;
         },
         command);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/farm/address.hpp"
+#include "cli/farm/farm_kind.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/outputs.hpp"
 #include "cli/scene_input.hpp"
@@ -25,7 +26,9 @@ struct RenderCommand {
   std::filesystem::path checkpoint;
   control::JobOptions options;
   LossOptions losses;
-  std::uint32_t nodes = 1, threads = 1;
+  FarmKind farm = FarmKind::kAuto;
+  /// 0 nodes for what is usual.
+  std::uint32_t nodes = 0, threads = 1;
   bool as_json = false, is_quiet = false;
 };
 
@@ -41,14 +44,25 @@ struct SubmitCommand {
 };
 
 struct UpCommand {
+  FarmKind farm = FarmKind::kAuto;
   std::string listen, state, http, key, log;
   bool is_quiet = false;
   /// A text of parse_keep_rule(); empty to keep everything.
   std::string keep;
-  std::uint32_t nodes = 1, threads = 1;
+  /// 0 nodes for what is usual.
+  std::uint32_t nodes = 0, threads = 1;
   LossOptions losses;
   /// 0 for the frontal's default.
   std::uint32_t outbox_rays = 0;
+};
+
+struct JoinCommand {
+  std::string endpoint;
+  /// The file of the farm's key, "-" for standard input; empty for the usual place.
+  std::string key;
+  std::string name, address;
+  /// 0 for as many as there are cores.
+  std::uint32_t slots = 0;
 };
 
 struct JobsCommand {
@@ -149,11 +163,10 @@ struct PrintCommand {
   std::string text;
 };
 
-using Command =
-    std::variant<RenderCommand, SubmitCommand, UpCommand, JobsCommand, StatusCommand, WatchCommand,
-                 CancelCommand, FetchCommand, NodesCommand, LogCommand, DownCommand, KeyCommand,
-                 CheckCommand,
-                 CompareCommand, SimulateCommand, DrawCommand, ConvertCommand, PrintCommand>;
+using Command = std::variant<RenderCommand, SubmitCommand, UpCommand, JoinCommand, JobsCommand,
+                             StatusCommand, WatchCommand, CancelCommand, FetchCommand, NodesCommand,
+                             LogCommand, DownCommand, KeyCommand, CheckCommand, CompareCommand,
+                             SimulateCommand, DrawCommand, ConvertCommand, PrintCommand>;
 
 /// Throws a usage failure. The arguments are main's, the command's own name first.
 Command parse_command_line(int argc, const char* const* argv);

@@ -4,10 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -17,6 +15,7 @@
 #include "cli/openscad/model_view.hpp"
 #include "cli/openscad/run.hpp"
 #include "cli/temporary_place.hpp"
+#include "process/program_path.hpp"
 #include "process/temporary_folder.hpp"
 
 namespace graycube {
@@ -134,16 +133,9 @@ std::string frame_name(std::size_t frame, OpenscadProgram::Format format) {
 }  // namespace
 
 std::unique_ptr<OpenscadProcess> OpenscadProcess::find(bool is_quiet) {
-  const char* path = std::getenv("PATH");
-  std::stringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::path(folder.empty() ? "." : folder) / "openscad";
-    std::error_code error;
-    if (fs::is_regular_file(program, error) && ::access(program.c_str(), X_OK) == 0) {
-      return std::make_unique<OpenscadProcess>(program, kMaxOpenscadSeconds, is_quiet);
-    }
-  }
-  return nullptr;
+  const auto program = program_path("openscad");
+  if (!program) return nullptr;
+  return std::make_unique<OpenscadProcess>(*program, kMaxOpenscadSeconds, is_quiet);
 }
 
 std::optional<int> OpenscadProcess::run(const fs::path& folder, std::vector<std::string> arguments,

@@ -172,6 +172,10 @@ figures::FigureName parse_figure(std::string_view option, std::string_view text)
   return parse_choice<figures::FigureName>(option, text, kFigureChoices);
 }
 
+FarmKind parse_farm(std::string_view option, std::string_view text) {
+  return parse_choice<FarmKind>(option, text, kFarmChoices);
+}
+
 Shell parse_shell(std::string_view option, std::string_view text) {
   return parse_choice<Shell>(option, text, kShellChoices);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/farm/farm_kind.hpp"
 #include "cli/options/completion.hpp"
 #include "figures/figure_name.hpp"
 #include "proto/messages.hpp"
@@ -59,6 +60,8 @@ inline constexpr std::array kFigureChoices{
     figures::FigureName::kBsp,       figures::FigureName::kPointers,
     figures::FigureName::kEntry,     figures::FigureName::kTraffic,
     figures::FigureName::kToken};
+inline constexpr std::array kFarmChoices{FarmKind::kAuto, FarmKind::kLocal, FarmKind::kJoined,
+                                         FarmKind::kSlurm};
 inline constexpr std::array kShellChoices{Shell::kBash, Shell::kZsh, Shell::kFish};
 
 /// The choices as they are spelled.
@@ -83,6 +86,7 @@ BoundariesMode parse_boundaries(std::string_view option, std::string_view text);
 Subdivision parse_subdivision(std::string_view option, std::string_view text);
 Entry parse_entry(std::string_view option, std::string_view text);
 figures::FigureName parse_figure(std::string_view option, std::string_view text);
+FarmKind parse_farm(std::string_view option, std::string_view text);
 Shell parse_shell(std::string_view option, std::string_view text);
 
 /// Reads a finite number.

@@ -34,7 +34,8 @@ case "${1-}" in
   '') ;;
   --user) packages+=(openscad) ;;
   --package) packages+=(dpkg-dev file) ;;
-  --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3 $(formatter)) ;; # spin's verifiers are C
+  --tests) packages+=(spin gcc openscad povray libbenchmark-dev curl python3 $(formatter)
+    iproute2 slurmctld slurmd slurm-client munge) ;; # spin's verifiers are C
   --fuzz) packages+=(clang "libclang-rt-$(clang_version)-dev") ;;
   *) fail "usage: install_packages.sh [--user | --package | --tests | --fuzz]" ;;
 esac

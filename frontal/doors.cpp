@@ -53,6 +53,8 @@ Doors::Doors(const DoorPlaces& places)
   }
 }
 
+std::uint16_t Doors::port_for_far_nodes() const { return port_of(for_far_nodes()); }
+
 Doors::~Doors() { remove_key(); }
 
 /// The key of a farm that can name its file lies there before anybody can connect.
@@ -99,8 +101,9 @@ std::vector<TurnedAway> Doors::take_refusals() {
 std::uint64_t Doors::take_crowded_out() { return take_refused_connections(); }
 
 std::optional<Doors::Received> Doors::receive() {
-  if (const auto m = nodes_->receive()) return Received{kNode + m->peer, m->message, m->key};
-  if (const auto m = clients_->receive()) return Received{kClient + m->peer, m->message, m->key};
+  if (const auto m = nodes_->receive()) return Received{kNode + m->peer, m->message};
+  if (const auto m = clients_->receive())
+    return Received{kClient + m->peer, m->message, m->key == PeerKey::kNode};
   return std::nullopt;
 }
 

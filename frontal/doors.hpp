@@ -55,6 +55,8 @@ class Doors {
   const std::string& for_nodes() const { return nodes_->endpoint(); }
   /// Where nodes of other machines connect, with the nodes' key; empty if they can't.
   const std::string& for_far_nodes() const { return nodes_->tcp_endpoint(); }
+  /// Its port; 0 if there is none.
+  std::uint16_t port_for_far_nodes() const;
   const std::string& for_clients() const { return clients_->endpoint(); }
   /// The file of the key that clients must show; empty if they need none.
   const std::string& key_file() const { return key_file_; }
@@ -65,8 +67,8 @@ class Doors {
     PeerId peer;
     /// Valid until the next call of receive().
     MessageView message;
-    /// With which key it came in, at a TCP port: hosts that join use the clients' door, too.
-    PeerKey key = PeerKey::kNone;
+    /// It came in at the clients' door, but with the nodes' key: a host that joins.
+    bool is_host = false;
   };
   std::optional<Received> receive();
   /// Sends to a peer that has sent something before; drops the message if it has gone, or if it is

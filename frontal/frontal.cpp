@@ -27,27 +27,37 @@ void in_job(Jobs& jobs, Work&& work) {
 
 Frontal::Frontal(FrontalOptions options, JobStore& store)
     : options_(std::move(options)),
-      door_(options_.secret, options_.node_folder),
+      door_(options_.secret),
       log_(options_.started_s),
       log_desk_(options_.pid),
       post_(options_.cube.nodes()),
       heartbeat_(options_.heartbeat_s),
       nodes_(options_.cube, {options_.silence_s, options_.start_patience_s}),
-      jobs_(options_, store, post_, log_) {}
+      jobs_(options_, store, post_, log_) {
+  if (options_.most_nodes_on_hosts) hosts_.emplace(options_.silence_s);
+}
+
+bool Frontal::is_only_slow(Rank rank, std::uint64_t pid) const {
+  return hosts_ ? hosts_->can_run(rank, now_s_) : options_.is_only_slow(pid);
+}
 
 void Frontal::on_time(const Moment& now) {
   now_s_ = now.now_s;
   log_.set_time(now.unix_s);
   jobs_.set_time(now);
-  nodes_.was_held_up(heartbeat_.held_up_s(now_s_));
+  const double held_up_s = heartbeat_.held_up_s(now_s_);
+  nodes_.was_held_up(held_up_s);
+  if (hosts_) hosts_->was_held_up(held_up_s);
   log_desk_.answer_waits(now_s_, post_);
   if (is_going_down_) return;
   if (const auto ping = heartbeat_.take_ping(now_s_)) {
     post_.to_nodes(*ping);
+    if (hosts_) post_.to_peers(hosts_->peers(), *ping);
     look_for_standstills();
   }
-  for (const Rank rank : nodes_.take_silent(now_s_, options_.is_only_slow))
-    lose(rank, "fell silent");
+  if (hosts_) look_after_hosts();
+  const auto is_slow = [this](Rank rank, std::uint64_t pid) { return is_only_slow(rank, pid); };
+  for (const Rank rank : nodes_.take_silent(now_s_, is_slow)) lose(rank, "fell silent");
   in_job(jobs_, [&] { jobs_.check_time(); });
   get_on();
 }
@@ -82,6 +92,7 @@ void Frontal::on_message(const PeerId& peer, const MessageView& message) {
 
 /// Loads and starts the job that waits for nodes, once it can be.
 void Frontal::get_on() {
+  if (hosts_) serve_hosts();
   in_job(jobs_, [&] {
     if (jobs_.waits_to_be_loaded() && nodes_.all_here()) jobs_.load();
     if (jobs_.can_start()) jobs_.start(nodes_.incarnations());
@@ -92,7 +103,7 @@ void Frontal::get_on() {
 
 void Frontal::on_hello(const PeerId& peer, const control::Hello& m,
                        std::span<const std::byte> shown) {
-  if (const char* problem = door_.problem_of(m, shown)) {
+  if (const char* problem = door_.problem_of(m, shown, node_folder_of(m))) {
     return log_.hello_is_refused(m.rank, problem);  // a stranger gets no answer
   }
   if (auto refusal = nodes_.hello(peer, m, now_s_)) return post_.answer(peer, *std::move(refusal));
@@ -100,9 +111,24 @@ void Frontal::on_hello(const PeerId& peer, const control::Hello& m,
   log_.node_is_here(Rank{m.rank}, m.pid);
   if (!nodes_.all_here()) return;
   log_.farm_is_up(options_.cube.nodes(), options_.endpoint);
-  post_.to_nodes(control::Welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
-                                  heartbeat_.interval_ms()});
+  welcome();
   get_on();
+}
+
+/// Tells each node where the others listen for nodes of its host.
+void Frontal::welcome() {
+  control::Welcome welcome{options_.cube.nodes(), options_.version, nodes_.endpoints(),
+                           heartbeat_.interval_ms()};
+  if (!hosts_) return post_.to_nodes(welcome);
+  const std::vector<std::string> local = nodes_.endpoints(), remote = nodes_.remote_endpoints();
+  for (const auto& [host, ranks] : hosts_->nodes_by_host()) {
+    for (std::uint32_t rank = 0; rank < local.size(); ++rank) {
+      const auto other = hosts_->host_of(Rank{rank});
+      welcome.endpoints[rank] =
+          other && hosts_->are_local(host, *other) ? local[rank] : remote[rank];
+    }
+    post_.to_these_nodes(ranks, welcome);
+  }
 }
 
 void Frontal::on_node(Rank rank, const ControlMessage& message) {
@@ -114,6 +140,7 @@ void Frontal::on_node(Rank rank, const ControlMessage& message) {
                  [](const control::Hello&) {},
                  [&](const FromNode auto& m) { jobs_.on_node(rank, m); },
                  [](const FromClient auto&) {},
+                 [](const FromHost auto&) {},
                  [](const FromFrontal auto&) {},
              },
              message);
@@ -128,22 +155,25 @@ void Frontal::on_node_exit(const Process& process, const std::string& how) {
 void Frontal::on_start_failure(const Process& process, const std::string& why) {
   if (!nodes_.is_current(process)) return;
   if (is_going_down_) return nodes_.has_left(process.rank);
-  if (!finds_host(process.rank, why)) lose(process.rank, "can't be started: " + why);
+  const bool has_other_host = hosts_ && hosts_->has_room(now_s_);
+  if (has_other_host || !finds_host(process.rank, why))
+    lose(process.rank, "can't be started: " + why);
 }
 
-/// New processes take the places of all nodes of a process that is lost, and the running job goes
-/// on in another epoch.
-void Frontal::lose(Rank rank, const std::string& how) {
+/// New processes take the places of all nodes of a process, or host, that is lost, and the running
+/// job goes on in another epoch.
+void Frontal::lose(const std::vector<Rank>& ranks, const std::string& how) {
   std::vector<NodeLoss> losses;
   bool is_hopeless = false;
-  for (const Rank r : nodes_.in_process_of(rank)) {
+  for (const Rank r : ranks) {
     const NodeRegistry::Lost lost = nodes_.lose(r, now_s_);
     losses.push_back({r, lost.name, how, lost.silent_s});
     post_.set_node(r, {});
-    is_hopeless = is_hopeless || lost.is_hopeless;
+    // Hosts on which nodes don't start get none for a while, and others may join.
+    is_hopeless = is_hopeless || (lost.is_hopeless && !hosts_);
   }
   // Such a node is alone: a guest's loss isn't hopeless.
-  if (is_hopeless && !finds_host(rank, how)) {
+  if (is_hopeless && !finds_host(ranks.front(), how)) {
     fatal_error_ = losses.front().name + ": " + how + "; its process couldn't be started " +
                    std::to_string(kMaxFailedStarts) + " times in a row";
     return go_down();
@@ -160,6 +190,7 @@ bool Frontal::finds_host(Rank rank, const std::string& why) {
   const auto hosting = nodes_.host(rank, now_s_);
   if (!hosting) return false;
   const auto& [guest, host] = *hosting;
+  if (hosts_) hosts_->has_host(guest.rank, host.rank);
   post_.to_node(host.rank, control::Host{rank.value, guest.incarnation});
   const std::string name = "node " + std::to_string(rank.value);
   const std::string what = "can't be started (" + why + "): it runs in node " +
@@ -194,9 +225,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      [&](const control::List&) -> Given { return jobs_.list(); },
                      [&](const control::Watch& m) -> Given { return jobs_.watch(peer, m.job); },
                      [&](const control::Cancel& m) -> Given { return jobs_.cancel(m.job); },
-                     [&](const control::Nodes&) -> Given {
-                       return Reply{nodes_.list(jobs_.keep_nodes_busy())};
-                     },
+                     [&](const control::Nodes&) -> Given { return Reply{node_list()}; },
                      [&](const control::Fetch& m) { return fetch(peer, m); },
                      [&](const control::Write& m) { return write(peer, m); },
                      [&](const control::Log& m) -> Given {
@@ -208,6 +237,7 @@ void Frontal::on_client(const PeerId& peer, const ControlMessage& message,
                      [](const control::Down&) -> Given { return Reply{control::Bye{}}; },
                      [&](const control::Hello&) { return refuse_type(); },
                      [&](const FromNode auto&) { return refuse_type(); },
+                     [&](const FromHost auto&) { return refuse_type(); },
                      [&](const FromFrontal auto&) { return refuse_type(); },
                  },
                  message);
@@ -273,6 +303,16 @@ void Frontal::give_result(const AdmissionResult& result) {
   if (is_going_down_) jobs_.stop();
 }
 
+control::NodeList Frontal::node_list() const {
+  control::NodeList list = nodes_.list(jobs_.keep_nodes_busy());
+  if (!hosts_) return list;
+  for (control::NodeInfo& node : list.nodes) {
+    if (const auto host = hosts_->host_of(Rank{node.rank})) node.host = hosts_->name_of(*host);
+  }
+  list.hosts = hosts_->list(now_s_);
+  return list;
+}
+
 control::FarmInfo Frontal::info() const {
   control::FarmInfo info;
   info.pid = options_.pid;
@@ -316,6 +356,9 @@ void Frontal::go_down() {
   jobs_.stop();
   is_going_down_ = true;
   post_.to_nodes(control::Shutdown{});
+  if (!hosts_) return;
+  for (const Process& process : hosts_->waiting()) nodes_.has_left(process.rank);
+  post_.to_peers(hosts_->peers(), control::Shutdown{});
 }
 
 }  // namespace graycube

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "frontal/parts/farm_log.hpp"
 #include "frontal/parts/frontal_options.hpp"
 #include "frontal/parts/heartbeat.hpp"
+#include "frontal/parts/hosts/hosts.hpp"
 #include "frontal/parts/node_door.hpp"
 #include "frontal/parts/node_registry.hpp"
 #include "frontal/parts/post.hpp"
@@ -46,6 +48,8 @@ class Frontal {
   /// progress.
   void on_time(const Moment& now);
   void on_message(const PeerId& peer, const MessageView& message);
+  /// The same for a peer that has shown that it may be a host of the farm, and is no client.
+  void on_host_message(const PeerId& peer, const MessageView& message);
   /// A node's process has ended; `how` for people ("killed by signal 9").
   void on_node_exit(const Process& process, const std::string& how);
   /// A process that was to be started can't be; `why` for people.
@@ -53,7 +57,7 @@ class Frontal {
 
   /// Preparing the next job, if there is one to prepare.
   std::optional<PreparationWork> take_work() {
-    return is_writing_ ? std::nullopt : jobs_.take_work();
+    return is_writing_ || waits_for_hosts() ? std::nullopt : jobs_.take_work();
   }
   void give_result(PreparationResult result);
   /// The same for what a slide of the boundaries needs.
@@ -82,9 +86,14 @@ class Frontal {
   std::optional<std::uint32_t> job_that_is_on() const { return jobs_.job_that_is_on(); }
 
   std::vector<Outgoing> take_outgoing() { return post_.take(); }
-  std::vector<Process> take_starts() { return nodes_.take_starts(); }
+  /// Processes for this machine; none where hosts run the nodes.
+  std::vector<Process> take_starts() {
+    return hosts_ ? std::vector<Process>() : nodes_.take_starts();
+  }
   /// Silent nodes, whose processes are to be ended.
-  std::vector<Process> take_kills() { return nodes_.take_kills(); }
+  std::vector<Process> take_kills() {
+    return hosts_ ? std::vector<Process>() : nodes_.take_kills();
+  }
   /// What has happened since it was last asked.
   std::vector<FarmEvent> take_events();
   /// A line of the process's own for the log.
@@ -98,6 +107,10 @@ class Frontal {
   /// So many connections were closed at once, as clients had `most` already.
   void crowded_out(std::uint64_t connections, int most) {
     log_.crowd_is_refused(connections, most);
+  }
+  /// Names of the hosts that have joined.
+  std::set<std::string> host_names() const {
+    return hosts_ ? hosts_->names() : std::set<std::string>();
   }
   /// Nodes that end when their hosts' processes do, which have been told of them.
   std::vector<Hosting> take_hostings() { return nodes_.take_hostings(); }
@@ -117,9 +130,23 @@ class Frontal {
   std::optional<Answer> submit(const PeerId& peer, const control::Submit& m, SharedBytes scene);
   std::optional<Answer> write(const PeerId& peer, const control::Write& m);
   std::optional<Answer> fetch(const PeerId& peer, const control::Fetch& m);
+  control::NodeList node_list() const;
   control::FarmInfo info() const;
   control::FarmMetrics metrics() const;
-  void lose(Rank rank, const std::string& how);
+  void lose(Rank rank, const std::string& how) { lose(nodes_.in_process_of(rank), how); }
+  void lose(const std::vector<Rank>& ranks, const std::string& how);
+  void welcome();
+  bool is_only_slow(Rank rank, std::uint64_t pid) const;
+  // With hosts
+  void on_host(const PeerId& peer, const ControlMessage& message);
+  void on_join(const PeerId& peer, const control::Join& m);
+  void on_node_ended(const PeerId& peer, const control::NodeEnded& m);
+  void lose_host(const Hosts::Lost& host, const std::string& how);
+  void look_after_hosts();
+  void serve_hosts();
+  void fit_to_hosts();
+  bool waits_for_hosts() const;
+  std::optional<std::string> node_folder_of(const control::Hello& m) const;
   bool finds_host(Rank rank, const std::string& why);
   void look_for_standstills();
   void get_on();
@@ -134,6 +161,8 @@ class Frontal {
   Post post_;
   Heartbeat heartbeat_;
   NodeRegistry nodes_;
+  /// Where the nodes run, unless this machine runs them all.
+  std::optional<Hosts> hosts_;
   Jobs jobs_;
   std::string fatal_error_;
   bool is_going_down_ = false;

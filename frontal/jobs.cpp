@@ -65,6 +65,10 @@ void Jobs::check_time() {
 std::optional<PreparationWork> Jobs::take_work() {
   if (running_ || keeping_.is_on() || queue_.is_empty()) return std::nullopt;
   QueuedJob next = queue_.take_first();
+  // The farm may have got another size since the job was accepted.
+  next.work.cube = farm_.cube;
+  next.info.nodes = farm_.cube.nodes();
+  next.work.hosts = farm_.hosts;
   // Its client has waited since it was submitted to an earlier frontal.
   if (next.is_recovered)
     next.submitted_at_s = now_.now_s - std::max(0.0, now_.unix_s - next.info.submitted_s);

@@ -16,12 +16,13 @@
 #include "frontal/frontal.hpp"
 #include "frontal/http_server.hpp"
 #include "frontal/loop_watch.hpp"
-#include "host/node_processes.hpp"
 #include "frontal/parts/patience.hpp"
 #include "frontal/preparation_thread.hpp"
+#include "frontal/slurm/engine.hpp"
 #include "frontal/store/checkpoint_store.hpp"
 #include "frontal/store/database_store.hpp"
 #include "frontal/writing_thread.hpp"
+#include "host/node_processes.hpp"
 #include "memory/kept_heap.hpp"
 #include "process/clocks.hpp"
 #include "process/descriptors.hpp"
@@ -29,6 +30,7 @@
 #include "process/process_state.hpp"
 #include "process/temporary_folder.hpp"
 #include "transport/endpoint.hpp"
+#include "transport/farm_key.hpp"
 #include "transport/secret.hpp"
 #include "transport/zmq_sockets.hpp"
 #include "version.hpp"
@@ -41,6 +43,13 @@ namespace fs = std::filesystem;
 struct FrontalArguments {
   std::uint32_t nodes = 1, threads = 1;
   std::string listen, state, http, key, log;
+  /// Hosts run the nodes: those that join, and those of an allocation of Slurm, which get so many
+  /// each.
+  bool is_joined = false;
+  std::string slurm;
+  std::uint32_t slots = 1;
+  /// An earlier frontal of this farm has died.
+  bool is_again = false;
   KeepRule keep;
   /// Of a private frontal: where tiles are recorded, and the digest of what decides the picture.
   std::string checkpoint;
@@ -65,14 +74,9 @@ constexpr std::uint32_t kOwnDescriptors = 64, kNodeDescriptors = 64;
 Moment this_moment() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_REALTIME)}; }
 
 double silence_of(const FrontalArguments& a) {
-  return a.silence_s > 0 ? a.silence_s
-                         : usual_silence_s(a.nodes, std::thread::hardware_concurrency());
-}
-
-/// Whether nothing keeps the process from running but others that run, or what it waits for.
-bool can_run(std::uint64_t pid) {
-  const char state = process_state(static_cast<long>(pid));
-  return state == 'R' || state == 'S' || state == 'D';
+  if (a.silence_s > 0) return a.silence_s;
+  // Hosts tell by themselves whether nodes only wait for a core.
+  return a.is_joined ? kSilence_s : usual_silence_s(a.nodes, std::thread::hardware_concurrency());
 }
 
 /// A descriptor of the signals that ask for the end, and of SIGCHLD, which wakes the loop.
@@ -92,20 +96,24 @@ class FrontalProcess {
              "frontal: process " + std::to_string(::getpid()) + " begins, Graycube " + kVersion),
         shows_all_(!a.is_private && !a.is_quiet),
         shows_trouble_(!a.is_private),
+        threads_(a.threads),
+        is_joined_(a.is_joined),
         doors_({.folder = folder_.path(),
-                .listen = a.is_private ? "" : a.listen,
+                .listen = a.is_private && !a.is_joined ? "" : a.listen,
                 .key_file = a.key,
                 .others = static_cast<int>(kOwnDescriptors + a.nodes + kMaxHttpConnections),
-                .address_for_nodes = ""}),
+                .address_for_nodes = a.is_joined ? tcp_host_of(a.listen) : ""}),
         secret_(doors_.keys() ? doors_.keys()->node_secret : make_secret()),
         store_(make_store(a)),
-        processes_(own_folder() / "graycube-node", folder_.path(), a.threads, secret_),
+        processes_(own_folder() / "graycube-node", folder_.path(), secret_),
         frontal_({.cube = *Hypercube::of_size(a.nodes),
+                  .most_nodes_on_hosts = a.is_joined ? std::optional(a.nodes) : std::nullopt,
+                  .nodes_port = doors_.port_for_far_nodes(),
                   .threads = a.threads,
                   .heartbeat_s = ping_interval_s(silence_of(a)),
                   .silence_s = silence_of(a),
                   .start_patience_s = start_patience_s(a.nodes),
-                  .is_only_slow = can_run,
+                  .is_only_slow = [](std::uint64_t pid) { return can_run(static_cast<long>(pid)); },
                   .standstill_s = standstill_s(silence_of(a)),
                   .retries = a.retries,
                   .version = kVersion,
@@ -124,6 +132,7 @@ class FrontalProcess {
         writing_thread_(wakeup_) {
     frontal_.set_cpu_meter({[this] { return process_cpu_seconds() + processes_.start_cpu_s(); },
                             [this] { return own_start_cpu_s_ + processes_.start_cpu_s(); }});
+    if (!a.slurm.empty()) begin_steps(a);
     if (!a.http.empty()) {
       const std::string token = hex_of(make_secret());
       http_.emplace(a.http, token, folder_.path(), desk_);
@@ -145,7 +154,8 @@ class FrontalProcess {
       take_events();
       if (frontal_.is_going_down()) {
         if (down_since_s == 0) down_since_s = now.now_s;
-        const bool is_over = processes_.empty() || now.now_s - down_since_s > kGrace_s;
+        const bool have_nodes_ended = is_joined_ ? frontal_.all_nodes_left() : processes_.empty();
+        const bool is_over = have_nodes_ended || now.now_s - down_since_s > kGrace_s;
         if (is_over && !frontal_.is_keeping() && !frontal_.is_admitting())
           return frontal_.fatal_error();
       }
@@ -162,6 +172,13 @@ class FrontalProcess {
  private:
   static fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
+  void begin_steps(const FrontalArguments& a) {
+    slurm_.emplace(*slurm::hosts_of(a.slurm),
+                   slurm::StepSetting{(own_folder() / "graycube").string(), doors_.for_clients(),
+                                      text_of_farm_key(read_farm_key(doors_.key_file())), a.slots},
+                   a.is_again, seconds_of(CLOCK_MONOTONIC));
+  }
+
   std::unique_ptr<JobStore> make_store(const FrontalArguments& a) {
     // A private farm's command has its own terminal: all that it should hear of there is this.
     const auto warn = [this](const std::string& sentence) {
@@ -175,7 +192,12 @@ class FrontalProcess {
 
   void take_events() {
     take_signals();
-    for (const NodeExit& e : processes_.reap()) {
+    if (slurm_) {
+      const double now_s = seconds_of(CLOCK_MONOTONIC);
+      for (const std::string& told : slurm_->work(frontal_.host_names(), now_s))
+        frontal_.process_tells(told, true);
+    }
+    for (const NodeExit& e : take_exits()) {
       const Frontal::Process process{e.node.rank, e.node.incarnation};
       e.was_started ? frontal_.on_node_exit(process, e.how)
                     : frontal_.on_start_failure(process, e.how);
@@ -187,7 +209,8 @@ class FrontalProcess {
       frontal_.crowded_out(refused, kMaxClientConnections);
     while (auto m = doors_.receive()) {
       frontal_.on_time(this_moment());
-      frontal_.on_message(m->peer, m->message);
+      m->is_host ? frontal_.on_host_message(m->peer, m->message)
+                 : frontal_.on_message(m->peer, m->message);
       flush();
     }
     for (const HttpDesk::Question& q : desk_.take()) {
@@ -204,6 +227,11 @@ class FrontalProcess {
       }
     }
     flush();
+  }
+
+  /// Where hosts run the nodes, this process's children are none.
+  std::vector<NodeExit> take_exits() {
+    return is_joined_ ? std::vector<NodeExit>() : processes_.reap();
   }
 
   /// Hands pictures, and scenes that are long, to the thread that writes and reads them.
@@ -246,7 +274,7 @@ class FrontalProcess {
     std::vector<NodeStart> starts;
     for (const Frontal::Process& s : frontal_.take_starts())
       starts.push_back({s.rank, s.incarnation});
-    processes_.start(starts, doors_.for_nodes(), this_moment().now_s);
+    processes_.start(starts, {doors_.for_nodes(), threads_}, this_moment().now_s);
     for (const auto& [guest, host] : frontal_.take_hostings())
       processes_.host({guest.rank, guest.incarnation}, {host.rank, host.incarnation});
   }
@@ -255,6 +283,8 @@ class FrontalProcess {
   LogThread log_;
   bool shows_all_, shows_trouble_;
   double own_start_cpu_s_ = 0;
+  std::uint32_t threads_;
+  bool is_joined_;
   TemporaryFolder folder_;
   Wakeup wakeup_;
   HttpDesk desk_{wakeup_};
@@ -265,6 +295,7 @@ class FrontalProcess {
   Frontal frontal_;
   PreparationThread preparation_;
   WritingThread writing_thread_;
+  std::optional<slurm::Engine> slurm_;
   std::optional<HttpServer> http_;
   LoopWatch loop_watch_;
 };
@@ -309,6 +340,11 @@ int run_main(int argc, char** argv) {
   app.add_option("--outbox-rays", a.limits.outbox_rays, "Rays to be sent that a node may hold")
       ->check(CLI::PositiveNumber);
   app.add_option("--http", a.http, "HOST:PORT for the farm's web page, HOST a loopback address");
+  app.add_flag("--joined", a.is_joined, "Hosts that join run the nodes");
+  app.add_option("--slurm", a.slurm, "With --joined: the hosts of an allocation, HOST:CPUS,...");
+  app.add_option("--slots", a.slots, "With --slurm: nodes of each host")
+      ->check(CLI::Range(1u, kMaxNodes));
+  app.add_flag("--again", a.is_again, "An earlier frontal of this farm has died");
   app.add_flag("--private", a.is_private,
                "Serve the process that started this one, and end with it");
   try {
@@ -327,8 +363,12 @@ int run_main(int argc, char** argv) {
     a.keep = *rule;
   }
   if (a.listen.empty()) a.listen = default_endpoint();
-  if (const auto problem = endpoint_problem(a.listen, !a.key.empty()))
+  if (const auto problem = endpoint_problem(a.listen, !a.key.empty() || a.is_joined))
     return fail("usage: --listen", *problem, 2);
+  if (a.is_joined && !a.listen.starts_with("tcp://"))
+    return fail("usage: --joined", "hosts join at a TCP port: --listen tcp://ADDRESS:PORT", 2);
+  if (!a.slurm.empty() && (!a.is_joined || !slurm::hosts_of(a.slurm)))
+    return fail("usage: --slurm " + a.slurm, "expected HOST:CPUS,..., with --joined", 2);
   if (!a.http.empty()) {
     if (const auto problem = endpoint_problem("tcp://" + a.http)) {
       return fail("usage: --http", *problem, 2);

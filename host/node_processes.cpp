@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "process/clocks.hpp"
+#include "process/process_state.hpp"
 #include "process/spawn_plan.hpp"
 
 namespace graycube {
@@ -109,8 +110,8 @@ std::string output_of(const std::vector<std::string>& command, const Secret& sec
 }  // namespace
 
 NodeProcesses::NodeProcesses(std::filesystem::path program, std::filesystem::path folder,
-                             std::uint32_t threads, const Secret& secret)
-    : program_(std::move(program)), folder_(std::move(folder)), secret_(secret), threads_(threads) {
+                             const Secret& secret)
+    : program_(std::move(program)), folder_(std::move(folder)), secret_(secret) {
   // The nodes' own parent ends at once: they become children of this process.
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
@@ -120,7 +121,7 @@ NodeProcesses::~NodeProcesses() {
   for (const auto& [pid, child] : running_) ::waitpid(pid, nullptr, 0);
 }
 
-void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& frontal,
+void NodeProcesses::start(std::span<const NodeStart> nodes, const NodeSetting& setting,
                           double now_s) {
   for (const NodeStart& node : nodes) {
     std::erase_if(waiting_, [&](const Waiting& w) { return w.node.rank == node.rank; });
@@ -130,7 +131,7 @@ void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& f
   next_try_s_ = now_s + kStartPause_s;
   std::string why;
   try {
-    start_waiting(frontal, why);
+    start_waiting(setting, why);
   } catch (const std::system_error& e) {
     why = e.what();
   }
@@ -143,10 +144,12 @@ void NodeProcesses::start(std::span<const NodeStart> nodes, const std::string& f
 
 /// Those that start wait no longer; `why` tells why others didn't. Throws std::system_error when
 /// none can be.
-void NodeProcesses::start_waiting(const std::string& frontal, std::string& why) {
-  std::vector<std::string> command{program_.string(), "--threads", std::to_string(threads_),
-                                   "--frontal",       frontal,     "--folder",
-                                   folder_.string()};
+void NodeProcesses::start_waiting(const NodeSetting& setting, std::string& why) {
+  std::vector<std::string> command{
+      program_.string(), "--threads",     std::to_string(setting.threads),
+      "--frontal",       setting.frontal, "--folder",
+      folder_.string()};
+  if (!setting.address.empty()) command.insert(command.end(), {"--address", setting.address});
   for (const Waiting& w : waiting_) {
     command.insert(command.end(), {"--rank", std::to_string(w.node.rank.value), "--incarnation",
                                    std::to_string(w.node.incarnation)});
@@ -175,6 +178,20 @@ void NodeProcesses::host(const NodeStart& guest, const NodeStart& host) {
 void NodeProcesses::end(const NodeStart& node) {
   const auto process = process_of(node);
   if (process != running_.end()) ::kill(process->first, SIGKILL);
+}
+
+void NodeProcesses::end_all() {
+  waiting_.clear();
+  for (const auto& [pid, nodes] : running_) ::kill(pid, SIGKILL);
+}
+
+std::vector<std::uint32_t> NodeProcesses::stopped() const {
+  std::vector<std::uint32_t> ranks;
+  for (const auto& [pid, nodes] : running_) {
+    if (can_run(pid)) continue;
+    for (const NodeStart& node : nodes) ranks.push_back(node.rank.value);
+  }
+  return ranks;
 }
 
 std::vector<NodeExit> NodeProcesses::reap() {

@@ -22,6 +22,15 @@ struct NodeStart {
   friend bool operator==(const NodeStart&, const NodeStart&) = default;
 };
 
+/// What all nodes of a farm are told when they are started.
+struct NodeSetting {
+  /// The frontal's endpoint, and evaluators of a node.
+  std::string frontal;
+  std::uint32_t threads = 1;
+  /// The address at which nodes listen for those of other hosts; empty if there are none.
+  std::string address{};
+};
+
 struct NodeExit {
   NodeStart node;
   /// For people: "killed by signal 9", "exited with status 1"; or why it can't be started.
@@ -32,8 +41,7 @@ struct NodeExit {
 class NodeProcesses {
  public:
   /// `program` is graycube-node; inboxes are made in `folder`. Nodes inherit the secret.
-  NodeProcesses(std::filesystem::path program, std::filesystem::path folder, std::uint32_t threads,
-                const Secret& secret);
+  NodeProcesses(std::filesystem::path program, std::filesystem::path folder, const Secret& secret);
   /// Kills the processes that are left, and waits for them.
   ~NodeProcesses();
   NodeProcesses(const NodeProcesses&) = delete;
@@ -42,11 +50,14 @@ class NodeProcesses {
   /// All of them are forked from one process, which has been loaded and linked once and then ends.
   /// Those that the system has no descriptors, processes or memory for are tried again by later
   /// calls, which may have no new nodes; reap() tells of those that it never has any for.
-  void start(std::span<const NodeStart> nodes, const std::string& frontal, double now_s);
+  void start(std::span<const NodeStart> nodes, const NodeSetting& setting, double now_s);
   /// The process of `host` is `guest`, too, from now on.
   void host(const NodeStart& guest, const NodeStart& host);
   /// Kills the node's process.
   void end(const NodeStart& node);
+  void end_all();
+  /// Ranks of nodes whose processes something keeps from running, such as a signal.
+  std::vector<std::uint32_t> stopped() const;
   /// The nodes whose processes have ended, or couldn't be started, since the last call.
   std::vector<NodeExit> reap();
   bool empty() const { return running_.empty(); }
@@ -56,11 +67,10 @@ class NodeProcesses {
  private:
   using Nodes = std::vector<NodeStart>;
   std::map<pid_t, Nodes>::iterator process_of(const NodeStart& node);
-  void start_waiting(const std::string& frontal, std::string& why);
+  void start_waiting(const NodeSetting& setting, std::string& why);
 
   std::filesystem::path program_, folder_;
   Secret secret_;
-  std::uint32_t threads_;
   double start_cpu_s_ = 0;
   /// The nodes of each process: one, and those that it hosts.
   std::map<pid_t, Nodes> running_;

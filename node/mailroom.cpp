@@ -24,11 +24,12 @@ std::string inbox_of(const FarmAccess& farm, Rank rank) {
 
 Mailroom::Mailroom(const FarmAccess& farm, Rank rank, std::uint32_t incarnation, bool is_guest,
                    TakeIn take_in)
-    : inbox_(context_, inbox_of(farm, rank)),
-      frontal_(context_, farm.frontal),
+    : keys_(node_pair_of(farm.secret)),
+      inbox_(make_inbox(farm, rank)),
+      frontal_(connect(farm.frontal)),
       rank_(rank),
-      node_({rank_, incarnation, static_cast<std::uint64_t>(::getpid()), inbox_.endpoint(),
-             farm.threads, kVersion}),
+      node_({rank_, incarnation, static_cast<std::uint64_t>(::getpid()), inbox_->endpoint(),
+             farm.threads, kVersion, inbox_->tcp_endpoint()}),
       pool_(node_, wakeup_, is_guest),
       door_(rank_, farm.secret),
       fifo_(program_beside("graycube-fifo")),
@@ -41,6 +42,20 @@ Mailroom::Mailroom(const FarmAccess& farm, Rank rank, std::uint32_t incarnation,
   Message hello = node_.hello();
   hello.payload = Bytes(farm.secret.begin(), farm.secret.end());
   frontal_.send(std::move(hello));
+}
+
+std::unique_ptr<Inbox> Mailroom::make_inbox(const FarmAccess& farm, Rank rank) {
+  const std::string local = inbox_of(farm, rank);
+  if (farm.address.empty()) return std::make_unique<Inbox>(context_, local);
+  doorkeeper_.emplace(context_, admitted_to_nodes(keys_));
+  return std::make_unique<Inbox>(context_, local,
+                                 KeyedDoor{"tcp://" + farm.address + ":*", keys_, kNodesDomain});
+}
+
+/// What stays on this host is plain; what leaves it is encrypted.
+Connection Mailroom::connect(const std::string& endpoint) {
+  if (!endpoint.starts_with("tcp://")) return {context_, endpoint};
+  return {context_, endpoint, access_between_nodes(keys_)};
 }
 
 void Mailroom::run() {
@@ -65,11 +80,11 @@ void Mailroom::run() {
 }
 
 void Mailroom::take_mail() {
-  while (auto m = inbox_.receive()) {
+  while (auto m = inbox_->receive()) {
     if (door_.lets_in(m->peer, m->message)) node_.on_neighbour(m->message.frame);
   }
   for (auto& [to, link] : links_) {
-    while (const auto m = link.receive_view()) node_.on_neighbour(m->frame);
+    while (const auto m = link.connection.receive_view()) node_.on_neighbour(m->frame);
   }
   fifo_.receive([this](std::span<const std::byte> ray) { node_.on_fifo(ray); });
   if (auto why = fifo_.take_failure()) node_.on_fifo_end(*std::move(why));
@@ -86,16 +101,24 @@ void Mailroom::send(Node::Outgoing& o) {
   if (!connects_to(rank_, *o.to)) {
     // Whoever has not greeted yet has not begun any job either.
     const std::string* const peer = door_.connection_to(*o.to);
-    if (peer != nullptr) inbox_.send(*peer, std::move(o.message));
+    if (peer != nullptr) inbox_->send(*peer, std::move(o.message));
     return;
   }
-  auto link = links_.find(*o.to);
-  if (link == links_.end()) {
-    link = links_.emplace(*o.to, Connection(context_, node_.endpoints()[o.to->value])).first;
-    sockets_.push_back(&link->second);
-  }
   door_.sign(o.message);
-  link->second.send(std::move(o.message));
+  link_to(*o.to).send(std::move(o.message));
+}
+
+/// A neighbour that was started again listens at another TCP port, while a local socket keeps its
+/// path: a connection to the old place would wait for ever.
+Connection& Mailroom::link_to(Rank neighbour) {
+  const std::string& endpoint = node_.endpoints()[neighbour.value];
+  const auto known = links_.find(neighbour);
+  if (known != links_.end() && known->second.endpoint == endpoint) return known->second.connection;
+  links_.erase(neighbour);
+  Link& link = links_.emplace(neighbour, Link{endpoint, connect(endpoint)}).first->second;
+  sockets_ = {inbox_.get(), &frontal_};
+  for (auto& [rank, other] : links_) sockets_.push_back(&other.connection);
+  return link.connection;
 }
 
 }  // namespace graycube

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "node/fifo_process.hpp"
 #include "node/node.hpp"
 #include "node/parts/neighbour_door.hpp"
+#include "transport/curve_keys.hpp"
+#include "transport/doorkeeper.hpp"
 #include "transport/secret.hpp"
 #include "transport/zmq_sockets.hpp"
 
@@ -24,6 +27,8 @@ struct FarmAccess {
   std::uint32_t threads = 1;
   /// The frontal's endpoint, and the folder of the nodes' inboxes.
   std::string frontal, folder;
+  /// The address at which nodes listen for those of other hosts; empty if there are none.
+  std::string address;
   /// What the farm's own processes know.
   Secret secret{};
 };
@@ -47,14 +52,25 @@ class Mailroom {
   void take_mail();
   void serve_fifo();
   void send(Node::Outgoing& o);
+  Connection& link_to(Rank neighbour);
+  Connection connect(const std::string& endpoint);
+  std::unique_ptr<Inbox> make_inbox(const FarmAccess& farm, Rank rank);
+
+  struct Link {
+    std::string endpoint;
+    Connection connection;
+  };
 
   ZmqContext context_;
   Wakeup wakeup_;
-  Inbox inbox_;
+  CurvePair keys_;
+  std::optional<Doorkeeper> doorkeeper_;
+  std::unique_ptr<Inbox> inbox_;
   Connection frontal_;
   /// Connections to the neighbours that this node connects to.
-  std::map<Rank, Connection> links_;
-  std::vector<Readable*> sockets_{&inbox_, &frontal_};
+  std::map<Rank, Link> links_;
+  /// All that can bring messages.
+  std::vector<Readable*> sockets_{inbox_.get(), &frontal_};
   Rank rank_;
   Node node_;
   EvaluatorPool pool_;

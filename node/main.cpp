@@ -116,6 +116,7 @@ int run_main(int argc, char** argv) {
   app.add_option("--incarnation", a.incarnations, "Of each node")->required();
   app.add_option("--threads", a.farm.threads)->check(CLI::Range(1u, kMaxThreads));
   app.add_option("--frontal", a.farm.frontal, "The frontal's endpoint")->required();
+  app.add_option("--address", a.farm.address, "Where nodes listen for those of other hosts");
   app.add_option("--folder", a.farm.folder, "Where nodes listen for their neighbours")->required();
   try {
     app.parse(argc, argv);
@@ -127,7 +128,7 @@ int run_main(int argc, char** argv) {
   if (a.ranks.size() != a.incarnations.size()) {
     return fail("usage", "--incarnation", "expected one for each --rank", 2);
   }
-  if (const auto problem = endpoint_problem(a.farm.frontal))
+  if (const auto problem = endpoint_problem(a.farm.frontal, !a.farm.address.empty()))
     return fail("usage", a.farm.frontal, *problem, 2);
   for (const std::uint32_t rank : a.ranks) {
     const std::string inbox = inbox_of(a.farm, Rank{rank});

@@ -9,6 +9,7 @@
 #include "proto/messages/farm_fields.hpp"
 #include "proto/messages/farm_figure_fields.hpp"
 #include "proto/messages/field_limits.hpp"
+#include "proto/messages/host_fields.hpp"
 #include "proto/messages/sliding_fields.hpp"
 #include "shading/settings.hpp"
 
@@ -142,6 +143,7 @@ void each_field(auto& visit, Is<NodeInfo> auto& m) {
   visit("state", m.state);
   visit("endpoint", m.endpoint);
   visit("threads", m.threads, kThreadRange);
+  visit("host", m.host, kRare);
 }
 
 // ---- node → frontal
@@ -153,6 +155,7 @@ void each_field(auto& visit, Is<Hello> auto& m) {
   visit("endpoint", m.endpoint);
   visit("threads", m.threads, kThreadRange);
   visit("version", m.version);
+  visit("remote_endpoint", m.remote_endpoint, kRare);
 }
 
 void each_field(auto& visit, Is<Ready> auto& m) {
@@ -359,6 +362,7 @@ void each_field(auto& visit, Is<Progress> auto& m) {
 
 void each_field(auto& visit, Is<NodeList> auto& m) {
   visit("nodes", m.nodes, {.length = kMaxNodes});
+  visit("hosts", m.hosts, {.length = kMaxNodes, .has_default = true, .is_rare = true});
 }
 
 void each_field(auto& visit, Is<Done> auto& m) {

@@ -9,6 +9,7 @@
 #include "proto/messages/clients.hpp"
 #include "proto/messages/farm_figures.hpp"
 #include "proto/messages/from_nodes.hpp"
+#include "proto/messages/hosts.hpp"
 #include "proto/messages/sliding.hpp"
 #include "proto/messages/to_nodes.hpp"
 #include "proto/messages/values.hpp"
@@ -26,6 +27,7 @@ using ControlMessage = std::variant<
     control::Progress, control::NodeList, control::FarmInfo, control::Done, control::Picture,
     control::Written, control::Failed, control::Bye, control::Slide, control::Slid, control::Turn,
     control::Dealt, control::Worked, control::Host, control::Metrics, control::FarmMetrics,
-    control::Log, control::LogLines>;
+    control::Log, control::LogLines, control::Join, control::Joined, control::RunNodes,
+    control::EndNode, control::NodeEnded, control::Alive, control::Leave>;
 
 }  // namespace graycube

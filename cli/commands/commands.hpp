@@ -9,6 +9,7 @@ namespace graycube {
 ExitStatus run(const RenderCommand& command);
 ExitStatus run(const SubmitCommand& command);
 ExitStatus run(const UpCommand& command);
+ExitStatus run(const JoinCommand& command);
 ExitStatus run(const JobsCommand& command);
 ExitStatus run(const StatusCommand& command);
 ExitStatus run(const WatchCommand& command);

@@ -12,7 +12,10 @@ namespace graycube {
 ExitStatus run(const NodesCommand& command) {
   FarmClient farm(command.connect);
   const auto [list, payload] = farm.ask<control::NodeList>(control::Nodes{}, "nodes");
-  const std::string text = command.as_json ? list_in(encode(list)) + "\n" : nodes_text(list.nodes);
+  // The list has one kind of element: what hosts have is in the table alone.
+  const std::string text = command.as_json
+                               ? list_in(encode(control::NodeList{list.nodes, {}})) + "\n"
+                               : nodes_text(list);
   std::fputs(text.c_str(), stdout);
   return ExitStatus::kDone;
 }

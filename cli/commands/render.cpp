@@ -9,6 +9,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/display/json_text.hpp"
 #include "cli/farm/frontal_process.hpp"
+#include "cli/farm/host_plan.hpp"
 #include "cli/farm/job_client.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/interrupts.hpp"
@@ -23,16 +24,27 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<std::string> frontal_arguments(const RenderCommand& command,
+std::vector<std::string> frontal_arguments(const RenderCommand& command, const HostPlan& plan,
                                            const std::unique_ptr<Checkpoint>& checkpoint) {
-  std::vector<std::string> arguments{"--private", "--nodes", std::to_string(command.nodes),
+  std::vector<std::string> arguments{"--private", "--nodes", std::to_string(plan.nodes),
                                      "--threads", std::to_string(command.threads)};
+  arguments.insert(arguments.end(), plan.arguments.begin(), plan.arguments.end());
+  if (!plan.listen.empty()) arguments.insert(arguments.end(), {"--listen", plan.listen});
   for (const std::string& word : loss_arguments(command.losses)) arguments.push_back(word);
   if (checkpoint != nullptr) {
     arguments.insert(arguments.end(), {"--checkpoint", checkpoint->file().string(), "--picture",
                                        std::to_string(checkpoint->picture().content)});
   }
   return arguments;
+}
+
+/// Of the checkpoint that a job of Slurm gets by itself, beside its picture.
+constexpr const char* kCheckpointEnding = ".checkpoint";
+
+/// Where the nodes run; serial has none.
+HostPlan plan_for(const RenderCommand& command) {
+  const bool is_serial = command.options.algorithm == Algorithm::kSerial;
+  return plan_hosts(is_serial ? FarmKind::kLocal : command.farm, command.nodes, "");
 }
 
 /// Refuses a file that can't be a checkpoint, before anything is rendered.
@@ -78,7 +90,7 @@ Rendered render_on_farm(const RenderCommand& command, const Outputs& outputs,
   ProgressDisplay display(stdout, command.is_quiet, command.as_json);
   const std::string& endpoint = frontal.wait_until_listening();
   bool ends_on_interrupt = true;
-  FarmClient farm(endpoint, [&] {
+  FarmClient farm({endpoint, frontal.key_file()}, [&] {
     if (ends_on_interrupt) throw_if_interrupted();
     frontal.check_running();
   });
@@ -152,12 +164,17 @@ void render_serially(const RenderCommand& command, const Outputs& outputs, Scene
 
 }  // namespace
 
-ExitStatus run(const RenderCommand& command) {
+ExitStatus run(const RenderCommand& asked) {
   const auto started = Clock::now();
+  RenderCommand command = asked;
   catch_interrupts("render", command.options.timeout_s);
   check_sense(command.options);
   Outputs outputs = command.outputs;
   if (outputs.exr.empty()) outputs.exr = default_exr(command.scene);
+  const HostPlan plan = plan_for(command);
+  // A job that is ended before its time may be queued again, and then goes on where it was.
+  if (plan.kind == FarmKind::kSlurm && command.checkpoint.empty())
+    command.checkpoint = outputs.exr.string() + kCheckpointEnding;
   check_outputs(outputs, command.scene);
   const auto reading = Clock::now();
   SceneInput scene = read_scene_input(command.scene, command.options, command.choice);
@@ -175,7 +192,7 @@ ExitStatus run(const RenderCommand& command) {
   prepare_for_farm(scene, command.options);
   load_s += seconds_since(preparing);
   const InterruptsHeld held;
-  FrontalProcess frontal(frontal_arguments(command, checkpoint));
+  FrontalProcess frontal(frontal_arguments(command, plan, checkpoint));
   Rendered rendered;
   try {
     const auto compiling = Clock::now();

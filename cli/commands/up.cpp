@@ -13,6 +13,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/farm/client.hpp"
+#include "cli/farm/host_plan.hpp"
 #include "cli/farm/listener.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/farm/passing_folder.hpp"
@@ -92,9 +93,11 @@ void refuse_second_farm(const std::string& endpoint, const std::string& key, boo
 
 /// All arguments but those that SupervisedFrontal adds. Jobs that lie in `passing` rather than
 /// where the user wants them end with the farm.
-std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::path& passing) {
-  std::vector<std::string> arguments{"--nodes", std::to_string(command.nodes), "--threads",
+std::vector<std::string> frontal_arguments(const UpCommand& command, const HostPlan& plan,
+                                           const fs::path& passing) {
+  std::vector<std::string> arguments{"--nodes", std::to_string(plan.nodes), "--threads",
                                      std::to_string(command.threads)};
+  arguments.insert(arguments.end(), plan.arguments.begin(), plan.arguments.end());
   if (command.state.empty()) {
     arguments.insert(arguments.end(), {"--state", passing.string(), "--ends-jobs"});
   } else {
@@ -111,13 +114,16 @@ std::vector<std::string> frontal_arguments(const UpCommand& command, const fs::p
   return arguments;
 }
 
-void print_usage_hint(const UpCommand& command, const std::string& endpoint, bool is_default) {
-  const std::string option = connect_option(endpoint, is_default);
+void print_usage_hint(const HostPlan& plan, const std::string& endpoint, bool is_default) {
+  std::string option = connect_option(endpoint, is_default);
+  if (plan.allocation) option = " --connect slurm:" + plan.allocation->job;
   std::printf(
       "farm of %u %s at %s; elsewhere: graycube submit SCENE%s; Ctrl-C or 'graycube down%s' "
       "stops it\n",
-      command.nodes, command.nodes == 1 ? "node" : "nodes", endpoint.c_str(), option.c_str(),
+      plan.nodes, plan.nodes == 1 ? "node" : "nodes", endpoint.c_str(), option.c_str(),
       option.c_str());
+  if (plan.kind == FarmKind::kJoined)
+    std::printf("hosts join it by: graycube join %s --key FILE\n", endpoint.c_str());
   std::fflush(stdout);
 }
 
@@ -149,9 +155,38 @@ std::unique_ptr<LogFile> open_log(const std::string& file) {
   }
 }
 
+/// What a farm in a job of Slurm leaves for commands elsewhere.
+class FarmFilesLeft {
+ public:
+  explicit FarmFilesLeft(const std::optional<Allocation>& allocation) {
+    if (allocation) files_ = farm_files(allocation->job);
+  }
+  ~FarmFilesLeft() {
+    if (files_) remove_farm_files(*files_);
+  }
+  FarmFilesLeft(const FarmFilesLeft&) = delete;
+  FarmFilesLeft& operator=(const FarmFilesLeft&) = delete;
+  /// Where the farm's key is to be kept, if the user doesn't say.
+  std::string key_file() const { return files_ ? files_->key : ""; }
+  void make_folder() const {
+    if (files_) make_farm_folder(*files_);
+  }
+  void leave(const std::string& endpoint) const {
+    if (files_) write_farm_endpoint(*files_, endpoint);
+  }
+
+ private:
+  std::optional<FarmFiles> files_;
+};
+
 }  // namespace
 
-ExitStatus run(const UpCommand& command) {
+ExitStatus run(const UpCommand& asked) {
+  const HostPlan plan = plan_hosts(asked.farm, asked.nodes, asked.listen);
+  const FarmFilesLeft left(plan.allocation);
+  UpCommand command = asked;
+  command.listen = plan.listen;
+  if (command.key.empty()) command.key = left.key_file();
   const bool is_default = command.listen.empty();
   const std::string endpoint = is_default ? default_endpoint() : command.listen;
   if (const auto problem = endpoint_problem(endpoint, !command.key.empty())) {
@@ -175,14 +210,17 @@ ExitStatus run(const UpCommand& command) {
     check_temporary_place();
     passing.emplace();
   }
-  SupervisedFrontal frontal(frontal_arguments(command, passing ? passing->path() : fs::path()),
-                            endpoint, command.http, log.get());
+  left.make_folder();
+  SupervisedFrontal frontal(
+      frontal_arguments(command, plan, passing ? passing->path() : fs::path()), endpoint,
+      command.http, log.get());
+  left.leave(frontal.endpoint());
   if (!frontal.page().empty()) {
     std::printf("web page at %s\nthe same with leave to cancel jobs: %s/#token=%s\n",
                 frontal.page().c_str(), frontal.page().c_str(), frontal.token().c_str());
   }
   if (!frontal.key_file().empty()) std::printf("key in %s\n", frontal.key_file().c_str());
-  print_usage_hint(command, frontal.endpoint(), is_default);
+  print_usage_hint(plan, frontal.endpoint(), is_default);
   frontal.run();
   frontal.stop();
   return ExitStatus::kDone;

@@ -31,17 +31,33 @@ std::string names_of(const std::vector<std::uint32_t>& ranks) {
 
 /// A line for each process that is several nodes.
 std::string shared_processes_text(const std::vector<control::NodeInfo>& nodes) {
-  std::map<std::uint64_t, std::vector<std::uint32_t>> ranks;  // by process
+  using Process = std::pair<std::string, std::uint64_t>;  // two hosts may have the same ids
+  std::map<Process, std::vector<std::uint32_t>> ranks;
   for (const control::NodeInfo& node : nodes) {
-    if (node.pid != 0) ranks[node.pid].push_back(node.rank);
+    if (node.pid != 0) ranks[{node.host, node.pid}].push_back(node.rank);
   }
   std::string text;
-  for (const auto& [pid, of_process] : ranks) {
+  for (const auto& [process, of_process] : ranks) {
     if (of_process.size() < 2) continue;
-    text += "Process " + std::to_string(pid) + " is " + names_of(of_process) +
+    text += "Process " + std::to_string(process.second) + " is " + names_of(of_process) +
             ", as none could be started for a node that was lost.\n";
   }
   return text;
+}
+
+/// Behind an empty line a table with a line for each host; nothing if there is none.
+std::string hosts_text(const std::vector<control::HostInfo>& hosts) {
+  if (hosts.empty()) return "";
+  constexpr double kGibibyte = 1u << 30;
+  std::vector<std::vector<std::string>> rows{
+      {"HOST", "CORES", "MEMORY", "SLOTS", "NODES", "PID", "STATE"}};
+  for (const control::HostInfo& host : hosts) {
+    rows.push_back({host.host, std::to_string(host.cores),
+                    number_text("%.1f GiB", static_cast<double>(host.memory_bytes) / kGibibyte),
+                    std::to_string(host.slots), std::to_string(host.nodes),
+                    std::to_string(host.pid), host.state});
+  }
+  return "\n" + table_text(rows);
 }
 
 }  // namespace
@@ -81,16 +97,21 @@ std::string job_text(const control::JobInfo& job) {
   return text;
 }
 
-std::string nodes_text(const std::vector<control::NodeInfo>& nodes) {
-  std::vector<std::vector<std::string>> rows{
-      {"NODE", "GRAY", "PID", "STATE", "THREADS", "ENDPOINT"}};
-  for (const control::NodeInfo& node : nodes) {
-    rows.push_back({std::to_string(node.rank), std::to_string(node.gray),
-                    node.pid == 0 ? "-" : std::to_string(node.pid),
-                    std::string(to_string(node.state)), std::to_string(node.threads),
-                    node.endpoint.empty() ? "-" : node.endpoint});
+std::string nodes_text(const control::NodeList& list) {
+  const bool has_hosts = !list.hosts.empty();
+  std::vector<std::vector<std::string>> rows{{"NODE", "GRAY"}};
+  if (has_hosts) rows.front().push_back("HOST");
+  for (const char* name : {"PID", "STATE", "THREADS", "ENDPOINT"}) rows.front().push_back(name);
+  for (const control::NodeInfo& node : list.nodes) {
+    std::vector<std::string> row{std::to_string(node.rank), std::to_string(node.gray)};
+    if (has_hosts) row.push_back(node.host.empty() ? "-" : node.host);
+    row.push_back(node.pid == 0 ? "-" : std::to_string(node.pid));
+    row.emplace_back(to_string(node.state));
+    row.push_back(std::to_string(node.threads));
+    row.push_back(node.endpoint.empty() ? "-" : node.endpoint);
+    rows.push_back(std::move(row));
   }
-  return table_text(rows) + shared_processes_text(nodes);
+  return table_text(rows) + shared_processes_text(list.nodes) + hosts_text(list.hosts);
 }
 
 }  // namespace graycube

@@ -14,7 +14,8 @@ std::string jobs_text(const std::vector<control::JobInfo>& jobs);
 /// A few lines of the form "name: value".
 std::string job_text(const control::JobInfo& job);
 
-/// A table with a line for each node; behind it a sentence about each process that is several.
-std::string nodes_text(const std::vector<control::NodeInfo>& nodes);
+/// A table with a line for each node; behind it a sentence about each process that is several, and
+/// a table of the hosts if the nodes have some.
+std::string nodes_text(const control::NodeList& list);
 
 }  // namespace graycube

@@ -16,4 +16,9 @@ struct FarmAddress {
       : endpoint(std::move(at)), key_file(std::move(key)) {}
 };
 
+/// Fills in what the user didn't say: where the environment, or else habit, has the farm; and where
+/// the farm of a job of Slurm is ("slurm:25"). Throws a usage failure, or that of a farm that isn't
+/// there.
+void resolve(FarmAddress& farm);
+
 }  // namespace graycube

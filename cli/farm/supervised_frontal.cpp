@@ -32,13 +32,14 @@ SupervisedFrontal::SupervisedFrontal(std::vector<std::string> arguments, std::st
       endpoint_(std::move(endpoint)),
       http_(std::move(http)),
       log_(log) {
-  start();
+  start(false);
 }
 
-void SupervisedFrontal::start() {
+void SupervisedFrontal::start(bool is_again) {
   std::vector<std::string> arguments = arguments_;
   arguments.insert(arguments.end(), {"--listen", endpoint_});
   if (!http_.empty()) arguments.insert(arguments.end(), {"--http", http_});
+  if (is_again) arguments.push_back("--again");
   frontal_ = std::make_unique<FrontalProcess>(arguments);
   endpoint_ = frontal_->wait_until_listening();
   if (!http_.empty()) http_ = address_of(frontal_->page());
@@ -67,7 +68,7 @@ void SupervisedFrontal::start_again() {
   tell(how + "; it is started again");
   frontal_.reset();  // clears away what it has left: its nodes, its sockets
   remove_stale_socket(endpoint_);
-  start();
+  start(true);
 }
 
 /// Whoever stops a frontal stops its farm. Left alone it might never be let go on.

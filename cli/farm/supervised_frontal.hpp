@@ -37,7 +37,7 @@ class SupervisedFrontal {
   void stop() noexcept { frontal_->stop(); }
 
  private:
-  void start();
+  void start(bool is_again);
   /// On standard error and in the log; or in the log alone.
   void tell(const std::string& what);
   void note(const std::string& what);

@@ -90,6 +90,16 @@ void add_farm_of_client(Declaring& options, std::filesystem::path& farm_key) {
                  [&farm_key](const std::string& text) { farm_key = text; });
 }
 
+void add_farm(Declaring& options, FarmKind& farm) {
+  options.option({.names = "--farm",
+                  .value = "KIND",
+                  .help = "Who runs the nodes: local (this machine), joined (hosts that 'graycube "
+                          "join' adds), slurm (those of its job), auto (default)",
+                  .kind = ValueKind::kChoice,
+                  .choices = names_of(kFarmChoices)},
+                 [&farm](const std::string& text) { farm = parse_farm("--farm", text); });
+}
+
 void add_outputs(Declaring& options, Outputs& outputs, const char* exr_help, bool is_exr_required) {
   options.option({.names = "-o,--output",
                   .value = "OUT.exr",

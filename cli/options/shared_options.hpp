@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/farm/address.hpp"
+#include "cli/farm/farm_kind.hpp"
 #include "cli/farm/loss_options.hpp"
 #include "cli/options/declaring.hpp"
 #include "cli/outputs.hpp"
@@ -39,6 +40,9 @@ void add_nodes(Declaring& options, std::uint32_t& nodes, const std::string& help
 
 /// The same with the help for commands that start nodes.
 void add_nodes(Declaring& options, std::uint32_t& nodes);
+
+/// Who runs the nodes of the farm that the command starts.
+void add_farm(Declaring& options, FarmKind& farm);
 
 /// Options that all ways to compute the picture have.
 void add_common_options(Declaring& options, control::JobOptions& o);

@@ -14,4 +14,9 @@ char process_state(long pid) {
   return end_of_name + 2 < text.size() && end_of_name != text.npos ? text[end_of_name + 2] : '\0';
 }
 
+bool can_run(long pid) {
+  const char state = process_state(pid);
+  return state == 'R' || state == 'S' || state == 'D';
+}
+
 }  // namespace graycube

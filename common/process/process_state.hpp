@@ -7,4 +7,7 @@ namespace graycube {
 /// by a signal, 'Z' has ended. 0 if there is no such process.
 char process_state(long pid);
 
+/// Whether nothing keeps the process from running but others that run, or what it waits for.
+bool can_run(long pid);
+
 }  // namespace graycube

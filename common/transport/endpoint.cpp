@@ -83,6 +83,11 @@ std::optional<std::string> endpoint_problem(std::string_view endpoint, bool has_
   return std::nullopt;
 }
 
+std::string tcp_host_of(std::string_view endpoint) {
+  constexpr std::string_view tcp = "tcp://";
+  return std::string(endpoint.substr(tcp.size(), endpoint.rfind(':') - tcp.size()));
+}
+
 bool is_on_loopback(std::string_view endpoint) {
   return endpoint.starts_with(kTcp) && is_loopback(host_of(endpoint));
 }

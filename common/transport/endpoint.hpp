@@ -16,6 +16,9 @@ inline constexpr std::size_t kMaxSocketPath = 107;
 /// have named a key. Host "*" is all of this machine's addresses, to listen at.
 std::optional<std::string> endpoint_problem(std::string_view endpoint, bool has_key = false);
 
+/// HOST of "tcp://HOST:PORT".
+std::string tcp_host_of(std::string_view endpoint);
+
 /// Whether only processes of this machine can reach the TCP endpoint: its host is in 127.0.0.0/8,
 /// or is ::1 or localhost. False for what has an endpoint_problem(), and for local sockets.
 bool is_on_loopback(std::string_view endpoint);

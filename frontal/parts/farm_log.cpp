@@ -107,6 +107,24 @@ void FarmLog::job_loses(std::uint32_t job, const Loss& loss, const std::string& 
   event.loss = loss;
 }
 
+void FarmLog::host_joins(const control::Join& host) {
+  note(Kind::kHostJoins, 0,
+       "host " + cut(host.host, kMaxNameLogged) + " (process " + std::to_string(host.pid) +
+           ") joins: " + count_text(host.cores, "core") + ", room for " +
+           count_text(host.slots, "node"));
+}
+
+void FarmLog::host_is_lost(const std::string& name, const std::string& how, std::size_t nodes) {
+  note(Kind::kHostIsLost, 0,
+       "host " + cut(name, kMaxNameLogged) + " " + how + "; it had " + count_text(nodes, "node"))
+      .is_trouble = true;
+}
+
+void FarmLog::farm_is_fitted(std::uint32_t nodes, std::size_t hosts) {
+  note(Kind::kHostJoins, 0,
+       "farm: of " + count_text(nodes, "node") + " on " + count_text(hosts, "host") + " now");
+}
+
 void FarmLog::node_has_host(const std::string& name, const std::string& what) {
   note(Kind::kNodeHasHost, 0, name + " " + shortened(what)).is_trouble = true;
 }

@@ -24,6 +24,8 @@ struct FarmEvent {
     kNodeIsLost,
     kNodeHasHost,  ///< another node's process is to be a lost node, too
     kNodeIsBack,   ///< a process has taken a lost node's place
+    kHostJoins,
+    kHostIsLost,
     kJobAccepted,
     kJobBegins,
     kJobStands,  ///< a job hasn't got on for a while
@@ -67,6 +69,10 @@ class FarmLog {
                  std::uint32_t epochs);
   /// No process can be started for the node; `what` tells why, and whose is to be it, too.
   void node_has_host(const std::string& name, const std::string& what);
+  void host_joins(const control::Join& host);
+  void host_is_lost(const std::string& name, const std::string& how, std::size_t nodes);
+  /// Hosts have come or gone: the farm has so many nodes from now on.
+  void farm_is_fitted(std::uint32_t nodes, std::size_t hosts);
   /// A node's process has said hello. It is told if it takes the place of a lost one.
   void node_is_here(Rank rank, std::uint64_t pid);
 

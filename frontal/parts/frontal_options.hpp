@@ -15,7 +15,13 @@
 namespace graycube {
 
 struct FrontalOptions {
+  /// The farm's nodes. Where hosts run them it changes between jobs.
   Hypercube cube;
+  /// Where hosts run the nodes: the most that the farm may have, a power of two. Otherwise the
+  /// frontal's own machine runs them.
+  std::optional<std::uint32_t> most_nodes_on_hosts{};
+  /// The port at which nodes of hosts find the frontal.
+  std::uint32_t nodes_port = 0;
   /// Evaluator threads per node.
   std::uint32_t threads = 1;
   double heartbeat_s = 1;

@@ -22,6 +22,10 @@ concept FromClient = OneOf<M, control::Submit, control::Status, control::List, c
                            control::Cancel, control::Nodes, control::Fetch, control::Write,
                            control::Farm, control::Metrics, control::Log, control::Down>;
 
+/// From a host that runs nodes.
+template <typename M>
+concept FromHost = OneOf<M, control::Join, control::NodeEnded, control::Alive, control::Leave>;
+
 template <typename M>
 concept FromFrontal =
     OneOf<M, control::Welcome, control::Load, control::Lend, control::Copy, control::HandOn,
@@ -29,6 +33,7 @@ concept FromFrontal =
           control::Prepare, control::Start, control::Finish, control::Ping, control::Host,
           control::Shutdown, control::Accepted, control::JobInfo, control::Jobs, control::Progress,
           control::NodeList, control::FarmInfo, control::FarmMetrics, control::LogLines,
-          control::Done, control::Picture, control::Written, control::Failed, control::Bye>;
+          control::Done, control::Picture, control::Written, control::Failed, control::Bye,
+          control::Joined, control::RunNodes, control::EndNode>;
 
 }  // namespace graycube

@@ -10,6 +10,16 @@ NodeRegistry::NodeRegistry(const Hypercube& cube, const Patience& patience)
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) start(Rank{rank}, 0);
 }
 
+void NodeRegistry::begin_anew(const Hypercube& cube, double now_s) {
+  cube_ = cube;
+  nodes_.assign(cube.nodes(), {});
+  peers_.clear();
+  starts_.clear();
+  kills_.clear();
+  was_whole_ = false;
+  for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) start(Rank{rank}, now_s);
+}
+
 void NodeRegistry::start(Rank rank, double now_s) {
   Record& node = nodes_[rank.value];
   node = {};
@@ -25,6 +35,7 @@ std::optional<NodeRegistry::Hosting> NodeRegistry::host(Rank rank, double now_s)
   node = {};
   node.incarnation = next_incarnation_++;
   node.pid = nodes_[host->value].pid;
+  node.host = nodes_[host->value].host;
   node.is_guest = true;
   node.last_heard_s = now_s;
   hostings_.push_back({{rank, node.incarnation}, {*host, nodes_[host->value].incarnation}});
@@ -48,9 +59,8 @@ std::optional<Rank> NodeRegistry::host_for(Rank rank) const {
 
 std::vector<Rank> NodeRegistry::in_process_of(Rank rank) const {
   std::vector<Rank> ranks{rank};
-  const std::uint64_t pid = nodes_[rank.value].pid;
-  for (std::uint32_t r = 0; pid != 0 && r < nodes_.size(); ++r) {
-    if (nodes_[r].pid == pid && Rank{r} != rank) ranks.push_back(Rank{r});
+  for (std::uint32_t r = 0; r < nodes_.size(); ++r) {
+    if (Rank{r} != rank && share_process(nodes_[r], nodes_[rank.value])) ranks.push_back(Rank{r});
   }
   return ranks;
 }
@@ -67,6 +77,7 @@ std::optional<Refusal> NodeRegistry::hello(const PeerId& peer, const control::He
   node.is_here = true;
   node.pid = hello.pid;
   node.endpoint = hello.endpoint;
+  node.remote_endpoint = hello.remote_endpoint;
   node.threads = hello.threads;
   node.last_heard_s = now_s;
   peers_[peer] = Rank{hello.rank};
@@ -87,7 +98,7 @@ void NodeRegistry::was_held_up(double seconds) {
 }
 
 std::vector<Rank> NodeRegistry::take_silent(
-    double now_s, const std::function<bool(std::uint64_t)>& is_only_slow) {
+    double now_s, const std::function<bool(Rank, std::uint64_t)>& is_only_slow) {
   std::vector<Rank> silent;
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
     Record& node = nodes_[rank];
@@ -96,11 +107,10 @@ std::vector<Rank> NodeRegistry::take_silent(
     const double silent_s = now_s - node.last_heard_s;
     const double patience_s = node.is_here ? patience_.silence_s : patience_.start_s;
     if (silent_s < patience_s) continue;
-    if (node.is_here && silent_s < kPatienceWithSlow * patience_s && is_only_slow(node.pid))
+    if (node.is_here && silent_s < kPatienceWithSlow * patience_s &&
+        is_only_slow(Rank{rank}, node.pid))
       continue;
-    const auto ends_already = [&](Rank r) {
-      return node.pid != 0 && nodes_[r.value].pid == node.pid;
-    };
+    const auto ends_already = [&](Rank r) { return share_process(nodes_[r.value], node); };
     if (std::ranges::any_of(silent, ends_already)) continue;
     silent.push_back(Rank{rank});
     kill(Rank{rank});
@@ -132,6 +142,12 @@ std::vector<std::string> NodeRegistry::endpoints() const {
   return endpoints;
 }
 
+std::vector<std::string> NodeRegistry::remote_endpoints() const {
+  std::vector<std::string> endpoints;
+  for (const Record& node : nodes_) endpoints.push_back(node.remote_endpoint);
+  return endpoints;
+}
+
 std::vector<std::uint32_t> NodeRegistry::incarnations() const {
   std::vector<std::uint32_t> incarnations;
   for (const Record& node : nodes_) incarnations.push_back(node.incarnation);
@@ -143,8 +159,13 @@ control::NodeList NodeRegistry::list(bool are_busy) const {
   for (std::uint32_t rank = 0; rank < nodes_.size(); ++rank) {
     const Record& node = nodes_[rank];
     const NodeState here = are_busy ? NodeState::kBusy : NodeState::kIdle;
-    list.nodes.push_back({rank, cube_.label_of(Rank{rank}).value, node.pid,
-                          node.is_here ? here : NodeState::kStarting, node.endpoint, node.threads});
+    list.nodes.push_back({rank,
+                          cube_.label_of(Rank{rank}).value,
+                          node.pid,
+                          node.is_here ? here : NodeState::kStarting,
+                          node.endpoint,
+                          node.threads,
+                          {}});
   }
   return list;
 }

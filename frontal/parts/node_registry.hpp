@@ -55,6 +55,11 @@ class NodeRegistry {
 
   /// A new process is to be started for the rank, which must have none.
   void start(Rank rank, double now_s);
+  /// Forgets all nodes, and starts those of another hypercube.
+  void begin_anew(const Hypercube& cube, double now_s);
+  /// The node's process is, or is going to be, on that host: two hosts' processes may have the same
+  /// id.
+  void set_host(Rank rank, std::uint32_t host) { nodes_[rank.value].host = host; }
   /// No process can be started for the rank: chooses a node that is here, whose process is to be
   /// that node, too. There may be none; and while the farm has never been whole nobody gets a host,
   /// since then the farm itself is at fault.
@@ -67,9 +72,9 @@ class NodeRegistry {
   /// Tells that the frontal heard nobody for so long, so that it doesn't count as silence.
   void was_held_up(double seconds);
   /// Takes the nodes that were silent for too long, one of each process; these are to be ended.
-  /// `is_only_slow(pid)`: the process is given more time.
+  /// `is_only_slow(rank, pid)`: the process is given more time.
   std::vector<Rank> take_silent(double now_s,
-                                const std::function<bool(std::uint64_t)>& is_only_slow);
+                                const std::function<bool(Rank, std::uint64_t)>& is_only_slow);
   /// The node's process is to be ended.
   void kill(Rank rank) { kills_.push_back({rank, nodes_[rank.value].incarnation}); }
   /// Forgets a node's process: its messages no longer count, and the rank must be started again.
@@ -83,10 +88,13 @@ class NodeRegistry {
   void has_left(Rank rank) { nodes_[rank.value].has_left = true; }
 
   bool all_here() const;
+  bool is_here(Rank rank) const { return nodes_[rank.value].is_here; }
   std::uint32_t count_here() const;
   bool all_left() const;
   /// Endpoints of the nodes' inboxes, and the nodes' start numbers; indexed by rank.
   std::vector<std::string> endpoints() const;
+  /// The same for nodes of other hosts; empty where there is none.
+  std::vector<std::string> remote_endpoints() const;
   std::vector<std::uint32_t> incarnations() const;
   /// The nodes as shown to people; `are_busy`: the nodes that are here work on a job.
   control::NodeList list(bool are_busy) const;
@@ -103,13 +111,17 @@ class NodeRegistry {
     /// That of its host's process, if it is a guest, also before it has said hello.
     std::uint64_t pid = 0;
     bool is_guest = false;
-    std::string endpoint;
+    std::uint32_t host = 0;
+    std::string endpoint, remote_endpoint;
     std::uint32_t threads = 1;
     double last_heard_s = 0;
     bool has_left = false;
   };
 
   std::optional<Rank> host_for(Rank rank) const;
+  bool share_process(const Record& a, const Record& b) const {
+    return a.pid != 0 && a.pid == b.pid && a.host == b.host;
+  }
 
   Hypercube cube_;
   Patience patience_;

@@ -35,6 +35,19 @@ void Post::to_nodes(const ControlMessage& message) {
   }
 }
 
+void Post::to_these_nodes(const std::vector<Rank>& ranks, const ControlMessage& message) {
+  const Message encoded = Message::of_text(encode(message));
+  for (const Rank rank : ranks) {
+    if (const PeerId& peer = nodes_[rank.value]; !peer.empty())
+      outgoing_.push_back({peer, encoded});
+  }
+}
+
+void Post::to_peers(const std::vector<PeerId>& peers, const ControlMessage& message) {
+  const Message encoded = Message::of_text(encode(message));
+  for (const PeerId& peer : peers) outgoing_.push_back({peer, encoded});
+}
+
 void Post::to_each_node(const ControlMessage& message,
                         const std::function<std::optional<SharedBytes>(Rank)>& payload_of) {
   const std::string text = encode(message);

@@ -44,6 +44,8 @@ class Post {
   };
 
   explicit Post(std::uint32_t nodes) : nodes_(nodes) {}
+  /// Forgets all connections to nodes; from here on there are so many nodes.
+  void begin_anew(std::uint32_t nodes) { nodes_.assign(nodes, {}); }
   /// Sets the connection to the node of that rank; an empty `peer` means that there is none.
   void set_node(Rank rank, PeerId peer) { nodes_[rank.value] = std::move(peer); }
 
@@ -53,6 +55,8 @@ class Post {
   void to_node(Rank rank, Bytes batch);
   /// Sends a message to all nodes that have a connection.
   void to_nodes(const ControlMessage& message);
+  void to_these_nodes(const std::vector<Rank>& ranks, const ControlMessage& message);
+  void to_peers(const std::vector<PeerId>& peers, const ControlMessage& message);
   /// The same with a payload for each node; nothing is sent to a node that has none.
   void to_each_node(const ControlMessage& message,
                     const std::function<std::optional<SharedBytes>(Rank)>& payload_of);

@@ -13,6 +13,7 @@ control::Hello Membership::hello() const {
   m.endpoint = id_.endpoint;
   m.threads = id_.threads;
   m.version = id_.version;
+  m.remote_endpoint = id_.remote_endpoint;
   return m;
 }
 

@@ -24,6 +24,8 @@ struct NodeIdentity {
   std::string endpoint;
   std::uint32_t threads = 1;
   std::string version;
+  /// For nodes of other hosts; empty where there are none.
+  std::string remote_endpoint{};
 };
 
 /// Which of two neighbours connects to the other; it greets the other each time that the frontal

@@ -132,6 +132,7 @@ struct Progress {
 struct NodeList {
   static constexpr std::string_view kType = "node_list";
   std::vector<NodeInfo> nodes{};
+  std::vector<HostInfo> hosts{};
   friend bool operator==(const NodeList&, const NodeList&) = default;
 };
 

@@ -19,6 +19,8 @@ struct Hello {
   std::string endpoint{};
   std::uint32_t threads = 1;
   std::string version{};
+  /// Where the inbox listens for nodes of other hosts; empty if it doesn't.
+  std::string remote_endpoint{};
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 

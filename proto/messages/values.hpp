@@ -223,7 +223,23 @@ struct NodeInfo {
   NodeState state = NodeState::kStarting;
   std::string endpoint{};
   std::uint32_t threads = 1;
+  /// The name of its host; empty where there is none yet.
+  std::string host{};
   friend bool operator==(const NodeInfo&, const NodeInfo&) = default;
+};
+
+/// A machine that runs nodes.
+struct HostInfo {
+  std::string host{};
+  std::uint32_t cores = 1;
+  std::uint64_t memory_bytes = 0;
+  /// Nodes that it is meant for, and those that it has.
+  std::uint32_t slots = 1, nodes = 0;
+  /// The process that starts its nodes.
+  std::uint64_t pid = 0;
+  /// For people: what it does, or why it gets no nodes.
+  std::string state{};
+  friend bool operator==(const HostInfo&, const HostInfo&) = default;
 };
 
 }  // namespace control

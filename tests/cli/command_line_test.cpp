@@ -128,7 +128,7 @@ TEST_CASE("clients look for the farm where they are told, then in the environmen
   CHECK(std::get<NodesCommand>(parsed({"nodes"})).connect.endpoint ==
         "ipc:///run/user/7/graycube/frontal");
   CHECK(refused({"down", "--connect", "tcp://192.0.2.1:7000"})
-            .starts_with("graycube: usage: --connect tcp://192.0.2.1:7000: only loopback"));
+            .starts_with("graycube: usage: --connect tcp://192.0.2.1:7000: other than loopback"));
 }
 
 TEST_CASE("jobs are named by their numbers") {

@@ -94,7 +94,7 @@ TEST_CASE("jobs and nodes are tables with a header") {
   control::NodeInfo node;
   node.rank = 1;
   node.gray = 1;
-  CHECK(nodes_text({node}) ==
+  CHECK(nodes_text({{node}, {}}) ==
         "NODE  GRAY  PID  STATE     THREADS  ENDPOINT\n1     1     -    starting  1        -\n");
 }
 
@@ -103,10 +103,26 @@ TEST_CASE("a process that is several nodes is told of below the table, others ar
   for (std::uint32_t rank = 0; rank < 5; ++rank) nodes[rank].rank = rank;
   nodes[1].pid = 71;
   nodes[0].pid = nodes[2].pid = nodes[3].pid = 40;
-  const std::string text = nodes_text(nodes);
+  const std::string text = nodes_text({nodes, {}});
   const std::string below = text.substr(text.find("Process"));
   CHECK(below ==
         "Process 40 is nodes 0, 2 and 3, as none could be started for a node that was lost.\n");
+}
+
+TEST_CASE("where nodes run on hosts, the hosts are told, and what they have") {
+  control::NodeList list{std::vector<control::NodeInfo>(3), {}};
+  list.nodes[0].host = "n1";
+  list.nodes[1].host = "n2";
+  list.nodes[0].pid = list.nodes[1].pid = 71;  // of two machines
+  list.hosts = {{"n1", 16, 3ull << 29, 8, 1, 70, "runs nodes"}};
+  CHECK(nodes_text(list) ==
+        "NODE  GRAY  HOST  PID  STATE     THREADS  ENDPOINT\n"
+        "0     0     n1    71   starting  1        -\n"
+        "0     0     n2    71   starting  1        -\n"
+        "0     0     -     -    starting  1        -\n"
+        "\n"
+        "HOST  CORES  MEMORY   SLOTS  NODES  PID  STATE\n"
+        "n1    16     1.5 GiB  8      1      70   runs nodes\n");
 }
 
 }  // namespace

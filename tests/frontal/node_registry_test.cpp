@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSilence_s = 10, kStart_s = 40;
 
-bool is_not_slow(std::uint64_t) { return false; }
+bool is_not_slow(Rank, std::uint64_t) { return false; }
 
 control::Hello hello(const NodeRegistry::Process& process) {
   return {process.rank.value,
@@ -151,7 +151,7 @@ TEST_CASE("a silent node whose process could run is given more time, but not for
   Four four;
   four.all_say_hello(100);
   // The processes of all but node 2 are stopped.
-  const auto is_slow = [](std::uint64_t pid) { return pid == 4003; };
+  const auto is_slow = [](Rank, std::uint64_t pid) { return pid == 4003; };
   CHECK(four.nodes.take_silent(100 + kSilence_s, is_slow) ==
         std::vector{Rank{0}, Rank{1}, Rank{3}});
   const double end_s = 100 + kPatienceWithSlow * kSilence_s;
@@ -163,24 +163,24 @@ TEST_CASE("a silent node whose process could run is given more time, but not for
 TEST_CASE("a node that can't be started gets a place in a process that has few, a neighbour's") {
   Four four;
   four.all_say_hello(1);
-  // On this cube's grid of two columns nodes 1 and 2 are the neighbours of node 3.
+  // Of this cube's nodes 1 and 3 are the neighbours of node 2.
   const Hypercube cube = *Hypercube::of_size(4);
-  REQUIRE_FALSE(cube.link_between(Rank{3}, Rank{0}));
-  four.nodes.lose(Rank{3}, 2);
-  const auto first = four.nodes.host(Rank{3}, 2);
+  REQUIRE_FALSE(cube.link_between(Rank{2}, Rank{0}));
+  four.nodes.lose(Rank{2}, 2);
+  const auto first = four.nodes.host(Rank{2}, 2);
   REQUIRE(first);
   CHECK(first->host.rank == Rank{1});
   CHECK(first->host.incarnation == 2);
   CHECK(first->guest.incarnation == 5);
-  CHECK(four.nodes.list(false).nodes[3].pid == 4002);
-  CHECK(four.nodes.in_process_of(Rank{1}) == std::vector{Rank{1}, Rank{3}});
-  CHECK(four.nodes.in_process_of(Rank{3}) == std::vector{Rank{3}, Rank{1}});
+  CHECK(four.nodes.list(false).nodes[2].pid == 4002);
+  CHECK(four.nodes.in_process_of(Rank{1}) == std::vector{Rank{1}, Rank{2}});
+  CHECK(four.nodes.in_process_of(Rank{2}) == std::vector{Rank{2}, Rank{1}});
   CHECK(four.nodes.in_process_of(Rank{0}) == std::vector{Rank{0}});
-  // Node 2 is no neighbour of node 1, but node 1's process has two nodes already.
+  // Node 1 is a neighbour of node 0, too, but its process has two nodes already.
   four.nodes.lose(Rank{0}, 3);
   const auto second = four.nodes.host(Rank{0}, 3);
   REQUIRE(second);
-  CHECK(second->host.rank == Rank{2});
+  CHECK(second->host.rank == Rank{3});
   CHECK(four.nodes.take_hostings().size() == 2);
 }
 
@@ -217,7 +217,22 @@ TEST_CASE("a silent process that is several nodes is ended once") {
   control::Hello as_guest = hello(hosting->guest);
   as_guest.pid = 4000 + hosting->host.incarnation;
   REQUIRE_FALSE(four.nodes.hello("guest", as_guest, 100));
-  for (const std::uint32_t rank : {0u, 2u}) four.nodes.heard(Rank{rank}, 100 + kSilence_s);
-  CHECK(four.nodes.take_silent(100 + kSilence_s, is_not_slow) == std::vector{Rank{1}});
+  for (std::uint32_t rank = 0; rank < 3; ++rank) {
+    if (Rank{rank} != hosting->host.rank) four.nodes.heard(Rank{rank}, 100 + kSilence_s);
+  }
+  CHECK(four.nodes.take_silent(100 + kSilence_s, is_not_slow) == std::vector{hosting->host.rank});
   CHECK(four.nodes.take_kills().size() == 1);
+}
+
+TEST_CASE("processes of two hosts that have the same id are two") {
+  Four four;
+  four.nodes.set_host(Rank{1}, 1);
+  four.nodes.set_host(Rank{2}, 2);
+  control::Hello one = hello(four.processes[1]), other = hello(four.processes[2]);
+  one.pid = other.pid = 77;
+  REQUIRE_FALSE(four.nodes.hello(peer_of(1), one, 1));
+  REQUIRE_FALSE(four.nodes.hello(peer_of(2), other, 1));
+  CHECK(four.nodes.in_process_of(Rank{1}) == std::vector{Rank{1}});
+  four.nodes.set_host(Rank{2}, 1);
+  CHECK(four.nodes.in_process_of(Rank{1}) == std::vector{Rank{1}, Rank{2}});
 }

@@ -164,7 +164,7 @@ inline std::vector<ControlMessage> example_messages() {
   const RawObject stats{
       R"({"graycube":"0.1.0","nodes":8,"rays":{"primary":65536},"per_node":[{"rank":0}]})"};
   return {
-      Hello{3, 4711, 77, "ipc:///run/graycube/3", 2, "0.1.0"},
+      Hello{3, 4711, 77, "ipc:///run/graycube/3", 2, "0.1.0", "tcp://10.0.0.3:41577"},
       Ready{9, 1, 103, 40, 812, 0.02},
       EpochAck{9, 2},
       TokenRound{9, 1, 3, 24, true, -5},
@@ -226,7 +226,8 @@ inline std::vector<ControlMessage> example_messages() {
       example_job(),
       Jobs{{example_job(), JobInfo{.job = 10, .scene = "b"}}},
       Progress{9, JobState::kDone, 1, 0.0, 64, 64, 4, TokenProgress{4, 32}},
-      NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2}}},
+      NodeList{{NodeInfo{3, 2, 4711, NodeState::kBusy, "ipc://a", 2, "n3"}},
+               {HostInfo{"n3", 16, 1ull << 36, 8, 4, 4700, "busy"}}},
       FarmInfo{4711, "ipc:///run/frontal", "0.4.0", 1700000000.5, 8, 7, 3, 1, 256},
       Done{9, stats},
       Picture{9, 640, 480, 100, 20, 2, "depth,normal"},
@@ -244,6 +245,13 @@ inline std::vector<ControlMessage> example_messages() {
       Log{4711, 1ull << 40, 1000, 20},
       LogLines{
           4711, true, {{1ull << 40, 1700000000.5, 9, true, "job 9: failed"}, {7, 1, 0, false, ""}}},
+      Join{"n3", "5f0c:4026531840", "/tmp/graycube-x", 16, 1ull << 36, 8, 4700, "0.4.0"},
+      Joined{41577, 2, 500, 2000},
+      RunNodes{{{2, 7}, {3, 4294967295u}}},
+      EndNode{3, 8},
+      NodeEnded{3, 8, "killed by signal 9", false},
+      Alive{77, {2, 3}},
+      Leave{},
   };
 }
 

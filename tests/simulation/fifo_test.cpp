@@ -96,7 +96,7 @@ TEST_CASE("with FIFOs apart every way of working gives the serial picture, or a 
 }
 
 TEST_CASE("queues that fill up deadlock with FIFOs apart as they do without") {
-  constexpr std::uint32_t kQueue = 24;
+  constexpr std::uint32_t kQueue = 16;
   const std::string text = scene_text(36, 24);
   for (const FifoMode fifo : {FifoMode::kThread, FifoMode::kProcess}) {
     ModelledMachine machine(costly_messages());

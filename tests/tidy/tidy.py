@@ -70,6 +70,8 @@ WORLDLY_FILES = {
     "common/process/log_line.cpp": "knows the clock on the wall",
     "common/process/log_thread.cpp": "is a thread",
     "common/process/log_thread.hpp": "is a thread",
+    "common/process/command_output.cpp": "starts processes",
+    "common/process/program_path.cpp": "looks for programs",
     "common/process/spawn_plan.cpp": "starts processes",
     "common/process/spawn_plan.hpp": "starts processes",
     "common/trace/render_serial.cpp": "is a program's whole render, with threads and their clock",

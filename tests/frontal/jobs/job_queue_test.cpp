@@ -51,7 +51,7 @@ TEST_CASE("the queue is full at its limit") {
   JobQueue queue;
   for (std::size_t i = 0; i < kMaxQueuedJobs; ++i) {
     CHECK_FALSE(queue.is_full());
-    queue.add({});
+    queue.add(job_of("a"));
   }
   CHECK(queue.is_full());
   queue.take_first();

@@ -127,14 +127,14 @@ TEST_CASE("what is told is counted: jobs by their ends, losses, epochs, refusals
   farm.jobs.set_time({10, 1000});
   farm.submit();
   farm.submit();
-  farm.submit("a scene", {.algorithm = Algorithm::kSerial});
+  farm.try_submit({"a scene", {.algorithm = Algorithm::kSerial}, {}});
   farm.load_next();
   farm.jobs.nodes_were_lost({{Rank{1}, "node 1", "killed by signal 9", 0.14}});
   farm.jobs.cancel(1);
   farm.jobs.cancel(2);
   farm.jobs.nodes_were_lost({{Rank{0}, "node 0", "ended with status 1", 0}});
   for (unsigned i = 0; i < 2 * kMaxRefusalsTold; ++i) farm.log.hello_is_refused(i, "a stranger");
-  farm.log.strangers_are_refused(3);
+  for (int i = 0; i < 3; ++i) farm.log.stranger_is_refused({"192.0.2.1", RefusalReason::kNoKey});
   const control::FarmCounts& c = farm.log.counts();
   CHECK(c.jobs_accepted == 2);
   CHECK(c.jobs_cancelled == 2);
