@@ -39,6 +39,8 @@ class Joined:
 class Test:
     def __init__(self, command, scene, folder):
         self.command, self.scene, self.folder = command, scene, folder
+        # What is killed leaves its folders there.
+        os.environ["TMPDIR"] = folder
         self.key = os.path.join(folder, "key")
         # As a shell does it: others may read the file, were it not for the command.
         os.umask(0o022)
