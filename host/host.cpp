@@ -52,7 +52,6 @@ void Host::on_message(const ControlMessage& message, double now_s) {
                    if (state_ != State::kJoining) return;
                    farm_ = m;
                    state_ = State::kJoined;
-                   has_joined_ = true;
                  },
                  [&](const control::RunNodes& m) {
                    if (state_ != State::kJoined) return;
@@ -94,8 +93,8 @@ void Host::on_time(double now_s, bool has_nodes) {
     return drop_farm(now_s);
   }
   if (state_ == State::kJoining) {
-    if (now_s - looks_since_s_ > (has_joined_ ? kRejoin_s : kFirstJoin_s)) {
-      return give_up(has_joined_ ? "the frontal fell silent, and isn't back" : "nobody answers");
+    if (now_s - looks_since_s_ > (farm_ ? kRejoin_s : kFirstJoin_s)) {
+      return give_up(farm_ ? "the frontal fell silent, and isn't back" : "nobody answers");
     }
     if (now_s - asked_s_ > kAskAgain_s) {
       reconnects_ = true;

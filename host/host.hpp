@@ -68,7 +68,6 @@ class Host {
 
   control::Join about_;
   State state_ = State::kJoining;
-  bool has_joined_ = false;
   double asked_s_ = 0, looks_since_s_ = 0, last_heard_s_ = 0, last_time_s_ = 0, ends_since_s_ = 0;
   std::string failure_;
   std::optional<control::Joined> farm_;

@@ -39,7 +39,6 @@ class StepProcesses {
   void start(const std::string& host, std::uint32_t cpus);
   void end(const std::string& host);
   std::vector<StepEnd> reap();
-  bool empty() const { return running_.empty(); }
 
  private:
   StepSetting setting_;

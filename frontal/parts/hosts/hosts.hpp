@@ -82,7 +82,6 @@ class Hosts {
   std::uint32_t slots(double now_s) const;
   /// Since when the hosts, and whether they may get nodes, are as they are now.
   double changed_s() const { return changed_s_; }
-  bool empty() const { return hosts_.empty(); }
   std::size_t size() const { return hosts_.size(); }
   /// Whether a node that waits would find a place in need.
   bool has_room(double now_s) const;
